@@ -1,14 +1,14 @@
 //! PNG, JPEG, TGA, WebP and BMP, by the `image` crate.
 //!
 //! The size in the header is checked, and the memory of the whole decoder is reserved, before any pixel is decoded.
-use std::io::{BufRead, Seek, SeekFrom};
+use std::io::{BufRead, Seek};
 
 use ::image::{
     ImageDecoder, Limits,
     codecs::{bmp::BmpDecoder, jpeg::JpegDecoder, png::PngDecoder, tga::TgaDecoder, webp::WebPDecoder},
 };
 
-use super::{Encoding, ImageFormatError, LONGEST_SIDE, Picture, Pixel, check_size, pixels, room};
+use super::{Encoding, ImageFormatError, LONGEST_SIDE, Picture, Pixel, check_length, check_size, length, pixels, room};
 use crate::{
     math::colour::linear_from_srgb,
     memory::{Reservation, reserve},
@@ -23,36 +23,46 @@ const CHUNKS: u64 = 64 << 20;
 const JPEG: u64 = 8;
 const WEBP: u64 = 8;
 const TGA: u64 = 2;
+/// Stands for the length of files that can hold any number of pixels. Its product with the densest pixels does not overflow.
+const ANY_LENGTH: u64 = u32::MAX as u64;
 
 pub(super) fn png<P: Pixel>(mut file: impl BufRead + Seek, encoding: Encoding) -> Result<Picture<P>, ImageFormatError> {
     let (width, height) = size_of_png(&mut file)?;
     check_size(width.into(), height.into())?;
-    file.rewind()?;
-    decode(PngDecoder::with_limits(file, limits(CHUNKS)).map_err(ImageFormatError::broken)?, 0, encoding)
+    let length = length(&mut file)?;
+    decode(PngDecoder::with_limits(file, limits(CHUNKS)).map_err(ImageFormatError::broken)?, [0, length], encoding)
 }
 
 pub(super) fn jpeg<P: Pixel>(mut file: impl BufRead + Seek, encoding: Encoding) -> Result<Picture<P>, ImageFormatError> {
-    let _file = whole(&mut file)?;
-    decode(JpegDecoder::new(file).map_err(ImageFormatError::broken)?, JPEG, encoding)
+    let (_file, length) = whole(&mut file)?;
+    decode(JpegDecoder::new(file).map_err(ImageFormatError::broken)?, [JPEG, length], encoding)
 }
 
-pub(super) fn tga<P: Pixel>(file: impl BufRead + Seek, encoding: Encoding) -> Result<Picture<P>, ImageFormatError> {
-    decode(TgaDecoder::new(file).map_err(ImageFormatError::broken)?, TGA, encoding)
+pub(super) fn tga<P: Pixel>(mut file: impl BufRead + Seek, encoding: Encoding) -> Result<Picture<P>, ImageFormatError> {
+    let length = length(&mut file)?;
+    decode(TgaDecoder::new(file).map_err(ImageFormatError::broken)?, [TGA, length], encoding)
 }
 
 pub(super) fn webp<P: Pixel>(mut file: impl BufRead + Seek, encoding: Encoding) -> Result<Picture<P>, ImageFormatError> {
     let _file = whole(&mut file)?;
-    decode(WebPDecoder::new(file).map_err(ImageFormatError::broken)?, WEBP, encoding)
+    decode(WebPDecoder::new(file).map_err(ImageFormatError::broken)?, [WEBP, ANY_LENGTH], encoding)
 }
 
-pub(super) fn bmp<P: Pixel>(file: impl BufRead + Seek, encoding: Encoding) -> Result<Picture<P>, ImageFormatError> {
-    decode(BmpDecoder::new(file).map_err(ImageFormatError::broken)?, 0, encoding)
+pub(super) fn bmp<P: Pixel>(mut file: impl BufRead + Seek, encoding: Encoding) -> Result<Picture<P>, ImageFormatError> {
+    let length = length(&mut file)?;
+    decode(BmpDecoder::new(file).map_err(ImageFormatError::broken)?, [0, length], encoding)
 }
 
-/// Decodes the pixels of a file whose header has been read. `besides`: bytes per pixel that the decoder takes for itself.
-fn decode<P: Pixel>(mut decoder: impl ImageDecoder, besides: u64, encoding: Encoding) -> Result<Picture<P>, ImageFormatError> {
+/// Decodes the pixels of a file whose header has been read. `besides`: bytes per pixel that the decoder takes for itself. `length`: that
+/// of the file, bytes.
+fn decode<P: Pixel>(
+    mut decoder: impl ImageDecoder,
+    [besides, length]: [u64; 2],
+    encoding: Encoding,
+) -> Result<Picture<P>, ImageFormatError> {
     let (width, height) = decoder.dimensions();
     check_size(width.into(), height.into())?;
+    check_length(width.into(), height.into(), length)?;
     let size = decoder.total_bytes() + besides * u64::from(width) * u64::from(height);
     let _room = room::<P>(width, height, 0)?;
     let _bytes = reserve(BYTES, size)?;
@@ -99,11 +109,10 @@ fn linear<P: Pixel>(
     Ok(radiance)
 }
 
-/// Reserves memory for a file that its decoder reads as a whole, into a buffer that grows by doubling.
-fn whole(file: &mut impl Seek) -> Result<Reservation, ImageFormatError> {
-    let length = file.seek(SeekFrom::End(0))?;
-    file.rewind()?;
-    Ok(reserve(BYTES, 2 * length)?)
+/// Reserves memory for a file that its decoder reads as a whole, into a buffer that grows by doubling; and the length of the file.
+fn whole(file: &mut impl Seek) -> Result<(Reservation, u64), ImageFormatError> {
+    let length = length(file)?;
+    Ok((reserve(BYTES, 2 * length)?, length))
 }
 
 fn limits(bytes: u64) -> Limits {

@@ -6,12 +6,13 @@ use ::exr::{
     prelude::{ReadChannels, ReadLayers, read},
 };
 
-use super::{ImageFormatError, Picture, Pixel, check_size, room};
+use super::{ImageFormatError, Picture, Pixel, check_length, check_size, length, room};
 
 /// Blocks are decompressed in parallel, each in its own memory.
 const UNPACKING: u64 = 32 << 20;
 
 pub(super) fn decode<P: Pixel>(mut file: impl BufRead + Seek) -> Result<Picture<P>, ImageFormatError> {
+    let length = length(&mut file)?;
     let headers = MetaData::read_from_buffered(&mut file, false).map_err(ImageFormatError::broken)?.headers;
     for header in &headers {
         check_size(header.layer_size.width() as u64, header.layer_size.height() as u64)?;
@@ -20,6 +21,7 @@ pub(super) fn decode<P: Pixel>(mut file: impl BufRead + Seek) -> Result<Picture<
     let Some(largest) = sizes.max_by_key(|size| size.area()) else {
         return Err(ImageFormatError::broken("the file has no layers"));
     };
+    check_length(largest.width() as u64, largest.height() as u64, length)?;
     let _room = room::<P>(largest.width() as u32, largest.height() as u32, UNPACKING)?;
     file.rewind()?;
     let image = read()

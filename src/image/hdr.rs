@@ -4,9 +4,9 @@
 //! without the half step that Radiance itself adds: black is then 0, and other readers agree.
 //!
 //! The `image` crate reads this format too, but it does not apply the exposure and has no limit for the length of a header line.
-use std::io::{BufRead, Read};
+use std::io::{BufRead, Read, Seek};
 
-use super::{ImageFormatError, Picture, Pixel, check_size, pixels, room};
+use super::{ImageFormatError, Picture, Pixel, check_size, length, pixels, room};
 
 /// Maximum length of a header line.
 const LONGEST_LINE: u64 = 4096;
@@ -15,10 +15,15 @@ const PACKED_WIDTHS: std::ops::RangeInclusive<usize> = 8..=0x7fff;
 
 type Rgbe = [u8; 4];
 
-pub(super) fn decode<P: Pixel>(mut file: impl BufRead) -> Result<Picture<P>, ImageFormatError> {
+pub(super) fn decode<P: Pixel>(mut file: impl BufRead + Seek) -> Result<Picture<P>, ImageFormatError> {
+    let length = length(&mut file)?;
     let exposure = exposure(&mut file)?;
     let (width, height) = size(&text_line(&mut file)?)?;
     check_size(width.into(), height.into())?;
+    // A row has a pixel or more, and old runs are of any length.
+    if 4 * u64::from(height) > length {
+        return Err(ImageFormatError::broken("the file ends within its pixels"));
+    }
     let _room = room::<P>(width, height, 0)?;
     let mut radiance = pixels(width as usize * height as usize)?;
     let mut row = vec![[0; 4]; width as usize];

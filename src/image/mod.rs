@@ -17,7 +17,7 @@ mod tests;
 
 use std::{
     fmt,
-    io::{BufRead, BufReader, Cursor, ErrorKind, Read, Seek},
+    io::{BufRead, BufReader, Cursor, ErrorKind, Read, Seek, SeekFrom},
     path::{Path, PathBuf},
 };
 
@@ -33,6 +33,9 @@ use crate::{
 pub const LONGEST_SIDE: u64 = 16_384;
 /// Maximum number of pixels.
 pub const MOST_PIXELS: u64 = 1 << 27;
+/// Maximum number of pixels per byte of a file: those of a PNG with one bit per pixel, whose data unpack to at most 1032 times their
+/// size. WebP has no such limit.
+const DENSEST: u64 = 8 * 1032;
 /// Maximum radiance.
 const BRIGHTEST: f32 = 1e15;
 
@@ -254,6 +257,22 @@ fn check_size(width: u64, height: u64) -> Result<(), ImageFormatError> {
         return Err(ImageFormatError::TooLarge(width, height));
     }
     Ok(())
+}
+
+/// Checks that a file has the bytes for the pixels that its header claims.
+fn check_length(width: u64, height: u64, length: u64) -> Result<(), ImageFormatError> {
+    if width * height > DENSEST * length {
+        let reason = format!("its header claims {width} × {height} pixels, which {length} bytes cannot hold");
+        return Err(ImageFormatError::broken(reason));
+    }
+    Ok(())
+}
+
+/// The length of a file, bytes. It is at its beginning afterwards.
+fn length(file: &mut impl Seek) -> Result<u64, ImageFormatError> {
+    let length = file.seek(SeekFrom::End(0))?;
+    file.rewind()?;
+    Ok(length)
 }
 
 /// Reserves memory for the pixels of an image whose size has been checked, and for `besides` bytes to decode it.

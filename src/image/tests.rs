@@ -1,7 +1,7 @@
 //! Hand-made image files, byte by byte.
 use std::io::Cursor;
 
-use super::{Encoding, ImageFormatError, Opacity, Picture, Texels, decode, read_opacity_of};
+use super::{Encoding, ImageFormatError, Opacity, Picture, Texels, check_length, decode, read_opacity_of};
 use crate::declare::Resources;
 
 fn read(bytes: &[u8]) -> Result<Picture, ImageFormatError> {
@@ -238,4 +238,15 @@ fn a_bmp_has_its_rows_from_the_bottom() {
     let bytes = [header(62), shape, rest, rows.to_vec()].concat();
     assert_eq!(read(&bytes).expect("it is a picture").radiance, [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0]]);
     assert!((0..bytes.len() - 1).all(|end| read(&bytes[..end]).is_err()));
+}
+
+#[test]
+fn headers_that_claim_more_pixels_than_the_file_can_hold_are_refused() {
+    let mut file = png(1, 1, png::ColorType::Grayscale, png::BitDepth::One, &[0]);
+    // The checksum of the chunk is wrong too, but the decoder would allocate first.
+    file[16..24].copy_from_slice(&[0, 0, 0x20, 0, 0, 0, 0x20, 0]);
+    assert!(read(&file).is_err());
+    let tall = read(&hdr(&format!("{HEADER}\n-Y 16384 +X 8\n"), &[])).expect_err("it has no pixels");
+    assert!(tall.to_string().contains("ends within its pixels"), "{tall}");
+    assert!(check_length(8256, 1, 1).is_ok() && check_length(8257, 1, 1).is_err());
 }

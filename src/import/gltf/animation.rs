@@ -10,6 +10,9 @@ use super::{
     refusal::Found,
 };
 
+/// Bytes of a weight while it is interpolated.
+const WEIGHT: u64 = 64;
+
 /// What animations set at a node.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Pose {
@@ -100,6 +103,8 @@ fn evaluated(document: &Document, buffers: &Buffers, animation: &Animation, chan
         "rotation" => Pose { rotation: Some(keys.rotation(&span)?), ..Pose::default() },
         "weights" => {
             let rows = keys.values.count / keys.times.count / keys.rows_of_key();
+            // Channels of many nodes can share their values.
+            buffers.spend(WEIGHT * rows as u64, "weights of an animation")?;
             Pose { weights: Some(keys.at::<1>(&span, rows)?.into_flattened()), ..Pose::default() }
         }
         _ => return Ok(None),

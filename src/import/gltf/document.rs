@@ -2,7 +2,7 @@
 //!
 //! Structures are small, and rare parts are boxed: a file of many empty elements must not need much more memory than its text.
 //! Extensions are in `extensions.rs`.
-use serde::Deserialize;
+use serde::{Deserialize, Deserializer};
 
 use super::extensions::{
     DocumentExtensions, MaterialExtensions, NodeExtensions, PrimitiveExtensions, TextureExtensions, ViewExtensions,
@@ -11,6 +11,9 @@ pub use super::{
     attributes::{Attributes, Index, element},
     extensions::TextureInfo,
 };
+
+/// Longer names are cut: messages and objects repeat them for every node.
+const LONGEST_NAME: usize = 200;
 
 /// A glTF document.
 #[derive(Debug, Default, Deserialize)]
@@ -47,6 +50,7 @@ pub struct Asset {
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
 pub struct Scene {
+    #[serde(deserialize_with = "name")]
     pub name: String,
     pub nodes: Vec<Index>,
 }
@@ -54,6 +58,7 @@ pub struct Scene {
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
 pub struct Node {
+    #[serde(deserialize_with = "name")]
     pub name: String,
     pub children: Vec<Index>,
     pub matrix: Option<Box<[f64; 16]>>,
@@ -70,6 +75,7 @@ pub struct Node {
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
 pub struct Mesh {
+    #[serde(deserialize_with = "name")]
     pub name: String,
     pub primitives: Vec<Primitive>,
     pub weights: Vec<f64>,
@@ -143,6 +149,7 @@ pub struct Buffer {
 #[derive(Debug, Deserialize)]
 #[serde(default, rename_all = "camelCase")]
 pub struct Material {
+    #[serde(deserialize_with = "name")]
     pub name: String,
     pub pbr_metallic_roughness: Option<Box<MetallicRoughness>>,
     pub normal_texture: Option<Box<TextureInfo>>,
@@ -197,6 +204,7 @@ impl Default for MetallicRoughness {
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
 pub struct Texture {
+    #[serde(deserialize_with = "name")]
     pub name: String,
     pub sampler: Option<Index>,
     pub source: Option<Index>,
@@ -206,6 +214,7 @@ pub struct Texture {
 #[derive(Debug, Default, Deserialize)]
 #[serde(default, rename_all = "camelCase")]
 pub struct Image {
+    #[serde(deserialize_with = "name")]
     pub name: String,
     pub uri: Option<String>,
     pub buffer_view: Option<Index>,
@@ -222,6 +231,7 @@ pub struct Sampler {
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
 pub struct Camera {
+    #[serde(deserialize_with = "name")]
     pub name: String,
     pub perspective: Option<Perspective>,
     pub orthographic: Option<Orthographic>,
@@ -250,6 +260,7 @@ pub struct Skin {
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
 pub struct Animation {
+    #[serde(deserialize_with = "name")]
     pub name: String,
     pub channels: Vec<Channel>,
     pub samplers: Vec<AnimationSampler>,
@@ -273,4 +284,9 @@ pub struct AnimationSampler {
     pub output: Index,
     #[serde(default)]
     pub interpolation: Option<String>,
+}
+
+fn name<'de, D: Deserializer<'de>>(deserializer: D) -> Result<String, D::Error> {
+    let name = String::deserialize(deserializer)?;
+    Ok(name.char_indices().nth(LONGEST_NAME).map(|(end, _)| name[..end].to_owned()).unwrap_or(name))
 }

@@ -47,7 +47,9 @@ pub struct Instances<'a> {
     files: Names,
     names: Names,
     /// By skin.
-    joints: HashMap<Index, Vec<DAffine3>>,
+    joints: HashMap<Index, Rc<[DAffine3]>>,
+    /// Primitives at nodes so far, also those that show nothing.
+    visited: u64,
 }
 
 /// What determines the triangles of a primitive.
@@ -100,6 +102,7 @@ impl<'a> Instances<'a> {
             files: Names::default(),
             names: Names::default(),
             joints: HashMap::new(),
+            visited: 0,
         }
     }
 
@@ -112,23 +115,31 @@ impl<'a> Instances<'a> {
             let primitives = element(&document.meshes, mesh, "mesh")?;
             let weights = self.poses.by_node.get(node).and_then(|pose| pose.weights.clone());
             let weights = weights.or_else(|| (!described.weights.is_empty()).then(|| described.weights.clone()));
+            let is_posed = weights.is_some() || described.skin.is_some();
+            let weights = weights.map_or_else(|| self.weights(primitives), Ok)?;
             let joints = described.skin.map(|skin| self.joints(skin)).transpose()?.unwrap_or_default();
             let shown = Shown {
                 node: *node,
                 name: if described.name.is_empty() { &primitives.name } else { &described.name },
                 mesh,
-                is_posed: weights.is_some() || !joints.is_empty(),
-                deformation: Deformation { weights: weights.unwrap_or_else(|| primitives.weights.clone()), joints },
+                is_posed,
+                deformation: Deformation { weights, joints },
             };
             self.add_mesh(to, &shown, primitives)?;
         }
         Ok(())
     }
 
-    fn joints(&mut self, skin: Index) -> Found<Vec<DAffine3>> {
+    /// The weights of a mesh, for a node without its own.
+    fn weights(&self, mesh: &Mesh) -> Found<Vec<f64>> {
+        self.vertices.buffers.spend(8 * mesh.weights.len() as u64, "weights of morph targets")?;
+        Ok(mesh.weights.clone())
+    }
+
+    fn joints(&mut self, skin: Index) -> Found<Rc<[DAffine3]>> {
         if !self.joints.contains_key(&skin) {
             let joints = self.hierarchy.joints(self.document, self.vertices.buffers, skin)?;
-            self.joints.insert(skin, joints);
+            self.joints.insert(skin, joints.into());
         }
         Ok(self.joints[&skin].clone())
     }
@@ -161,6 +172,7 @@ impl<'a> Instances<'a> {
         (at, primitive): (usize, &Primitive),
         world: &DAffine3,
     ) -> Found<()> {
+        self.visit(primitive)?;
         let place = format!("{}: mesh \"{}\"", self.file, self.document.meshes[shown.mesh as usize].name);
         if let Mode::None(what) = Mode::of(primitive.mode)? {
             to.remarks.add(place, format!("a primitive of {what}"), "nothing", "they have no surface and are missing");
@@ -193,6 +205,16 @@ impl<'a> Instances<'a> {
             ..ObjectDescription::default()
         });
         Ok(())
+    }
+
+    /// Counts a primitive at a node: nodes and primitives multiply, and those that show nothing take time too.
+    fn visit(&mut self, primitive: &Primitive) -> Found<()> {
+        const VISITS: u64 = 2;
+        self.visited += 1;
+        if self.visited > VISITS * self.most {
+            return Err(Refusal::new("its nodes repeat too many primitives", "join primitives, or split the file"));
+        }
+        self.vertices.buffers.spend(16 * primitive.targets.len() as u64, "morph targets")
     }
 
     /// Remarks on parts of a primitive that are not read.

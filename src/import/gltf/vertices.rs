@@ -1,5 +1,5 @@
 //! Vertices of a primitive, at rest or deformed.
-use std::collections::HashMap;
+use std::{collections::HashMap, rc::Rc};
 
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 
@@ -19,7 +19,7 @@ pub struct Deformation {
     /// Weights of the morph targets.
     pub weights: Vec<f64>,
     /// Of each joint of the skin: from the mesh at its bind pose to the world. Empty without a skin.
-    pub joints: Vec<DAffine3>,
+    pub joints: Rc<[DAffine3]>,
 }
 
 /// Reads primitives.
@@ -150,6 +150,8 @@ impl<'a> Vertices<'a> {
     }
 
     fn displacement(&self, index: Index, picks: &Picks) -> Found<Vec<[f32; 3]>> {
+        // Many targets can name the same accessor.
+        self.buffers.spend(12 * picks.len() as u64, "morph targets")?;
         self.attribute(index, picks.needed(), "a morph target")?.reals(picks)
     }
 

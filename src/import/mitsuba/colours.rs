@@ -72,10 +72,16 @@ impl Import {
         const HELP: &str = "a spectrum file has a wavelength in nm and a value per line";
         let named = element.attribute("filename").unwrap_or_default();
         let path = self.files.resolve(named).map_err(|message| element.error(message, HELP))?;
+        let key = format!("{role:?} {}", path.display());
+        if let Some(known) = self.known_spectra.get(&key) {
+            return Ok(*known);
+        }
         let mut bytes = Vec::new();
         let read = open_regular(&path).and_then(|file| file.take(LARGEST_SPECTRUM).read_to_end(&mut bytes));
         read.map_err(|error| element.error(format!("`{named}` cannot be read: {error}"), HELP))?;
-        Ok(role.of(&checked(element, Spectrum::parse(&String::from_utf8_lossy(&bytes)))?))
+        let colour = role.of(&checked(element, Spectrum::parse(&String::from_utf8_lossy(&bytes)))?);
+        self.known_spectra.insert(key, colour);
+        Ok(colour)
     }
 
     fn spectrum_plugin(&mut self, element: Element, kind: &str, role: Role) -> Result<Option<[f64; 3]>, SceneError> {
@@ -93,7 +99,9 @@ impl Import {
                 role.of(&Spectrum::black_body(kelvin)).map(|x| x * scale)
             }
             "uniform" | "rawconstant" => match nested("value")? {
-                Some(value) if value.tag() != "float" && value.tag() != "integer" => return self.constant(value, role),
+                Some(value) if value.tag() != "float" && value.tag() != "integer" => {
+                    return self.nested(element, |import| import.constant(value, role));
+                }
                 _ => [scale("value")?; 3],
             },
             "d65" | "srgb_d65" | "srgb" | "rgb" => {

@@ -4,7 +4,7 @@ use std::{
     path::PathBuf,
 };
 
-use super::{load::Files, tree::Element};
+use super::{load::Files, packed::Packed, tree::Element};
 use crate::{
     import::{Names, NewFiles, Remarks},
     scene::{SceneError, description::SceneDescription},
@@ -32,6 +32,14 @@ pub struct Import {
     pub images: HashMap<String, PathBuf>,
     /// Models in memory by file and variant.
     pub known_models: HashMap<String, String>,
+    /// Colours of spectrum files by what they stand for and by path.
+    pub known_spectra: HashMap<String, [f64; 3]>,
+    /// Whether mesh files have normals.
+    pub known_normals: HashMap<PathBuf, bool>,
+    /// Files of serialized meshes.
+    pub packed: HashMap<PathBuf, Packed>,
+    /// Shapes that were followed, those of groups once for each instance.
+    pub shapes: usize,
     /// The objects that are being translated, the innermost last.
     within: Vec<usize>,
 }
@@ -76,6 +84,10 @@ impl Import {
             known_surfaces: HashMap::new(),
             images: HashMap::new(),
             known_models: HashMap::new(),
+            known_spectra: HashMap::new(),
+            known_normals: HashMap::new(),
+            packed: HashMap::new(),
+            shapes: 0,
             within: Vec::new(),
         }
     }

@@ -1,7 +1,7 @@
 //! Loads the tree of a scene: parameters, defaults, includes, aliases and search folders.
 use std::{
     cell::Cell,
-    path::{Path, PathBuf},
+    path::{Component, Path, PathBuf},
 };
 
 use super::{
@@ -23,6 +23,11 @@ const DEEPEST_INCLUDE: usize = 15;
 const MOST_INCLUDES: usize = 1000;
 /// Elements in all: files can be included more than once.
 const MOST_ELEMENTS: usize = 4_000_000;
+/// Parameters, and folders of `<path>`: each use of either searches all of them.
+const MOST_PARAMETERS: usize = 1000;
+const MOST_FOLDERS: usize = 64;
+/// Steps upwards that a `<path>` may take, as many as Mitsuba's own scenes do.
+const HIGHEST: usize = 3;
 
 /// Where the files of a scene are looked for.
 pub struct Files {
@@ -121,6 +126,10 @@ impl Loader<'_> {
         }
         match element.tag.as_str() {
             "default" => {
+                if self.parameters.len() >= MOST_PARAMETERS {
+                    let message = format!("the scene has more than {MOST_PARAMETERS} parameters");
+                    return Err(self.tree.error(&element.place, message, "write their values where they are used"));
+                }
                 self.parameters.add(attribute(&element, "name"), attribute(&element, "value"));
                 Ok(())
             }
@@ -167,8 +176,19 @@ impl Loader<'_> {
         if !named.is_relative() && !self.allow_outside {
             return Err(error("the search folder is an absolute path; --allow-outside permits it".to_owned()));
         }
+        if self.files.search.len() >= MOST_FOLDERS {
+            return Err(error(format!("there are more than {MOST_FOLDERS} search folders")));
+        }
+        let steps = named.components().filter(|part| *part == Component::ParentDir).count();
+        if steps > HIGHEST && !self.allow_outside {
+            return Err(error(format!("the search folder is more than {HIGHEST} folders above; --allow-outside permits it")));
+        }
         let beside = self.main.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let folder = beside.join(named).canonicalize().map_err(|_| error("the search folder does not exist".to_owned()))?;
+        let own = beside.canonicalize().unwrap_or_else(|_| beside.to_owned());
+        if own != folder && own.starts_with(&folder) && !self.allow_outside {
+            return Err(error("the search folder holds the folder of the scene; --allow-outside permits it".to_owned()));
+        }
         self.files.search.insert(0, folder);
         Ok(())
     }

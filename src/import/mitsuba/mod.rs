@@ -13,6 +13,7 @@ mod fov;
 mod integrator;
 mod load;
 mod markup;
+mod packed;
 mod parameters;
 mod pictures;
 mod sensor;

@@ -24,6 +24,11 @@ impl Substitutions {
         all
     }
 
+    /// Number of names.
+    pub fn len(&self) -> usize {
+        self.0.len()
+    }
+
     /// Adds a value unless the name has one.
     pub fn add(&mut self, name: &str, value: &str) {
         if name.is_empty() || self.0.iter().any(|(known, _)| known == name) {

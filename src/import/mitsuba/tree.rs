@@ -42,6 +42,8 @@ pub struct Element<'t> {
     pub index: usize,
 }
 
+/// Columns that are counted in a line.
+const MOST_COLUMNS: usize = 4096;
 /// Longer chains of aliases are circles.
 const MOST_ALIASES: usize = 64;
 
@@ -169,8 +171,8 @@ impl<'t> Element<'t> {
         let (source, ends) = (&self.tree.files[*file], &self.tree.lines[*file]);
         let line = ends.partition_point(|end| *end < span.start);
         let start = line.checked_sub(1).map_or(0, |before| ends[before] + 1);
-        // Enough of a long line to tell where in it.
-        let column = source.text[start..span.start].chars().take(100_000).count() + 1;
+        // A file of one line with many remarks must not be counted through for each.
+        let column = source.text[start..span.start].chars().take(MOST_COLUMNS).count() + 1;
         format!("{}:{}:{column}", source.name, line + 1)
     }
 

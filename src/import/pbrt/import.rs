@@ -41,6 +41,12 @@ pub struct Import {
     pub media: HashMap<String, Rc<Entity>>,
     /// Paths and whether there are normals, of meshes that were packed.
     pub packed_meshes: HashMap<String, (String, bool)>,
+    /// Colours of spectrum files by what they stand for and by path.
+    pub known_spectra: HashMap<String, [f64; 3]>,
+    /// Meshes of parts of quadrics.
+    pub patches: usize,
+    /// Surfaces of instances, whether they become objects or not.
+    pub instances: u64,
     /// The shapes of each definition of an object.
     pub definitions: HashMap<String, Rc<Vec<Surface>>>,
     /// Material and opacity of each object of the description.
@@ -73,6 +79,9 @@ impl Import {
             known_materials: HashMap::new(),
             media: HashMap::new(),
             packed_meshes: HashMap::new(),
+            known_spectra: HashMap::new(),
+            patches: 0,
+            instances: 0,
             definitions: HashMap::new(),
             coverings: Vec::new(),
             mirror: DAffine3::IDENTITY,

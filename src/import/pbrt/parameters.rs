@@ -31,6 +31,17 @@ pub enum Values {
     Flags(Vec<bool>),
 }
 
+impl Values {
+    /// Number of values.
+    pub fn len(&self) -> usize {
+        match self {
+            Values::Numbers(numbers) => numbers.len(),
+            Values::Texts(texts) => texts.len(),
+            Values::Flags(flags) => flags.len(),
+        }
+    }
+}
+
 /// A parameter of a file.
 #[derive(Clone, Debug)]
 pub struct Parameter {

@@ -102,12 +102,19 @@ impl Import {
                 Role::Unbounded => colour,
             });
         }
-        let read = self.files.folder.resolve(name).and_then(|path| unpacked(&path));
-        let (bytes, _room) = read.map_err(|message| {
+        let wrong = |message: String| {
             parameter.place.error(message, "expected the name of a spectrum of pbrt, or a file in the folder of the scene")
-        })?;
+        };
+        let path = self.files.folder.resolve(name).map_err(wrong)?;
+        let key = format!("{role:?} {}", path.display());
+        if let Some(known) = self.known_spectra.get(&key) {
+            return Ok(*known);
+        }
+        let (bytes, _room) = unpacked(&path).map_err(wrong)?;
         let text = String::from_utf8_lossy(&bytes);
-        spectrum(parameter, Spectrum::parse(&text)).map(|spectrum| role.of_spectrum(&spectrum))
+        let colour = role.of_spectrum(&spectrum(parameter, Spectrum::parse(&text))?);
+        self.known_spectra.insert(key, colour);
+        Ok(colour)
     }
 }
 

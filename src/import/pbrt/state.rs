@@ -41,6 +41,8 @@ pub enum Target {
 const DEEPEST: usize = 1 << 14;
 /// Parameters that `Attribute` may give to one kind of directives.
 const MOST_DEFAULTS: usize = 256;
+/// Their values: each further `Attribute` copies them.
+const MOST_VALUES: usize = 4096;
 
 /// An entry of the stack of attributes.
 enum Saved {
@@ -88,7 +90,8 @@ impl State {
     /// Adds parameters of `Attribute`.
     pub fn add_defaults(&mut self, target: Target, parameters: Vec<Parameter>, place: &Place) -> Result<(), SceneError> {
         let known = &mut self.defaults[target as usize];
-        if known.len() + parameters.len() > MOST_DEFAULTS {
+        let values: usize = known.iter().chain(&parameters).map(|parameter| parameter.values.len()).sum();
+        if known.len() + parameters.len() > MOST_DEFAULTS || values > MOST_VALUES {
             return Err(
                 place.error(format!("more than {MOST_DEFAULTS} attributes are set"), "give them to the shapes themselves")
             );

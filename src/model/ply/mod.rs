@@ -52,6 +52,8 @@ fn read(header: &Header, mut values: impl Values) -> Result<Model, ModelFormatEr
     for element in &header.elements {
         check_count(element, &values)?;
         match element.name.as_str() {
+            // Else any count of elements that are nothing would be counted through.
+            _ if element.properties.is_empty() => {}
             "vertex" => read_vertices(element, &mut values, &mut model, &mut room)?,
             "face" => read_faces(element, vertices, &mut values, (&mut model.triangles, &mut polygons), &mut room)?,
             "tristrips" => strips::read(element, vertices, &mut values, &mut model.triangles, &mut room)?,
@@ -228,10 +230,6 @@ fn read_polygon(
 }
 
 fn skip(element: &Element, values: &mut impl Values) -> Result<(), ModelFormatError> {
-    // Else any count of elements that are nothing would be counted through.
-    if element.properties.is_empty() {
-        return Ok(());
-    }
     for index in 0..element.count {
         for property in &element.properties {
             skip_property(property.layout, values).map_err(|problem| in_element(problem, &element.name, index))?;

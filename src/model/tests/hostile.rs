@@ -140,3 +140,14 @@ fn the_parts_of_mutated_files_have_the_triangles_of_the_whole() {
     }
     assert!((400..3600).contains(&read), "{read} could be read");
 }
+
+#[test]
+fn elements_without_properties_are_not_counted_through() {
+    for name in ["tristrips", "face_tags"] {
+        let text = format!(
+            "ply\nformat ascii 1.0\nelement {name} 18446744073709551615\nelement vertex 3\nproperty float x\nproperty float y\n\
+             property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0 1 0 0 0 1 0 3 0 1 2\n"
+        );
+        assert_eq!(decode(text.as_bytes(), None).expect("it is a mesh").triangles, [[0, 1, 2]], "{name}");
+    }
+}

@@ -71,6 +71,30 @@ fn nodes_in_a_circle_or_with_two_parents_are_refused() {
 }
 
 #[test]
+fn nodes_that_repeat_primitives_without_an_end_are_refused() {
+    let primitives = json!([{ "primitives": vec![json!({ "mode": 0 }); 5_000] }]);
+    let nodes = vec![json!({ "mesh": 0 }); 5_000];
+    let scenes = json!([{ "nodes": (0..5_000).collect::<Vec<u32>>() }]);
+    let found = refusal(&triangle(json!({ "meshes": primitives, "nodes": nodes, "scenes": scenes })));
+    assert!(found.contains("repeat"), "{found}");
+}
+
+#[test]
+fn nodes_that_share_long_lists_of_weights_are_refused() {
+    let weights = vec![0; 50_000];
+    let mesh = json!([{ "weights": weights, "primitives": [{ "attributes": { "POSITION": 0 } }] }]);
+    let nodes = vec![json!({ "mesh": 0 }); 2_000];
+    let scenes = json!([{ "nodes": (0..2_000).collect::<Vec<u32>>() }]);
+    assert!(refusal(&triangle(json!({ "meshes": mesh, "nodes": nodes, "scenes": scenes }))).contains("memory"));
+}
+
+#[test]
+fn long_names_are_cut() {
+    let found = imported(&triangle(json!({ "nodes": [{ "mesh": 0, "name": "é".repeat(1 << 20) }] })));
+    assert!(found.description.objects[0].name.chars().count() <= 200);
+}
+
+#[test]
 fn hierarchies_may_be_deep() {
     const DEPTH: usize = 20_000;
     let node = |place: usize| json!({ "translation": [0, 0, 1], "children": [place + 1] });

@@ -1,4 +1,6 @@
 //! Textures with other colours.
+use std::collections::HashMap;
+
 use super::super::{context::Import, pictures};
 use crate::{
     image::{Encoding, read_light},
@@ -12,23 +14,38 @@ const MOST_PIXELS: u64 = 1 << 24;
 impl Import {
     /// A color or texture after a function of each channel; `None` if the texture cannot be changed.
     pub fn recoloured(&mut self, colour: &Textured, f: &dyn Fn(f64) -> f64) -> Option<Textured> {
+        self.recoloured_once(colour, f, &mut HashMap::new())
+    }
+
+    /// The same. `known` has the textures that were changed before by their names: textures can hold each other twice again and again.
+    fn recoloured_once(
+        &mut self,
+        colour: &Textured,
+        f: &dyn Fn(f64) -> f64,
+        known: &mut HashMap<String, Textured>,
+    ) -> Option<Textured> {
         let name = match colour {
             Textured::Constant(colour) => return Some(Textured::Constant(colour.map(f))),
             Textured::Texture(name) => name,
         };
+        if let Some(known) = known.get(name) {
+            return Some(known.clone());
+        }
         let kind: TextureKind = match self.description.textures.get(name)?.clone() {
             TextureKind::Checker(checker) => {
-                let (even, odd) = (self.recoloured(&checker.even, f)?, self.recoloured(&checker.odd, f)?);
+                let (even, odd) = (self.recoloured_once(&checker.even, f, known)?, self.recoloured_once(&checker.odd, f, known)?);
                 Checker { even, odd, ..checker }.into()
             }
             TextureKind::Mix(mix) => {
-                let (a, b) = (self.recoloured(&mix.a, f)?, self.recoloured(&mix.b, f)?);
+                let (a, b) = (self.recoloured_once(&mix.a, f, known)?, self.recoloured_once(&mix.b, f, known)?);
                 Mix { a, b, ..mix }.into()
             }
             TextureKind::Image(image) => self.recoloured_image(&image, f)?.into(),
             _ => return None,
         };
-        Some(Textured::Texture(self.add_texture(&format!("{name} recoloured"), kind)))
+        let recoloured = Textured::Texture(self.add_texture(&format!("{name} recoloured"), kind));
+        known.insert(name.clone(), recoloured.clone());
+        Some(recoloured)
     }
 
     fn recoloured_image(&mut self, image: &Image, f: &dyn Fn(f64) -> f64) -> Option<Image> {

@@ -35,7 +35,7 @@ fn file(import: &mut Import, element: Element, placed: Placed, flips_by_default:
     // Mitsuba's v runs downwards, and that of a model upwards.
     let flip_v = !element.flag("flip_tex_coords", flips_by_default)? && placed.uses.coordinates;
     let mirrors = placed.map.matrix3.determinant() < 0.0;
-    let flip = placed.flip ^ (mirrors && (face_normals || !has_normals(element, &path)?));
+    let flip = placed.flip ^ (mirrors && (face_normals || !has_normals(import, element, &path)?));
     let shape = if flip_v || !placed.uses.attributes.is_empty() {
         let wanted: Vec<&String> = placed.uses.attributes.iter().collect();
         let key = format!("{} {flip_v} {face_normals} {wanted:?}", path.display());
@@ -80,8 +80,13 @@ pub fn in_memory(path: String, smooth: bool) -> ShapeKind {
 }
 
 /// Whether a file has normals of its own. A mirror turns those of triangles round, and not those of the file.
-fn has_normals(element: Element, path: &Path) -> Result<bool, SceneError> {
-    read(element, path).map(|model| model.normals.is_some())
+fn has_normals(import: &mut Import, element: Element, path: &Path) -> Result<bool, SceneError> {
+    if let Some(known) = import.known_normals.get(path) {
+        return Ok(*known);
+    }
+    let has_normals = read(element, path)?.normals.is_some();
+    import.known_normals.insert(path.to_owned(), has_normals);
+    Ok(has_normals)
 }
 
 impl Import {

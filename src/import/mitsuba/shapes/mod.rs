@@ -21,6 +21,8 @@ use crate::{
 
 /// Objects in all. Instances of groups multiply.
 const MOST_OBJECTS: usize = 1 << 18;
+/// Shapes that are followed in all, empty groups included: groups that hold each other twice double without an object.
+const MOST_SHAPES: usize = 1 << 20;
 
 /// What a family needs of a shape besides its own values.
 #[derive(Clone, Copy)]
@@ -59,6 +61,11 @@ fn family(kind: &str) -> Option<Translate> {
 impl Import {
     /// Adds the objects of a shape that stands in the scene, or in an instance with a map of its own.
     pub fn shape(&mut self, element: Element, around: &DAffine3) -> Result<(), SceneError> {
+        self.shapes += 1;
+        if self.shapes > MOST_SHAPES {
+            let message = format!("groups and instances repeat more than {MOST_SHAPES} shapes");
+            return Err(element.error(message, "use fewer instances"));
+        }
         self.nested(element, |import| match element.kind() {
             "shapegroup" => Ok(()),
             "instance" => import.instance(element, around),

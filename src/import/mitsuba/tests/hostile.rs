@@ -50,6 +50,11 @@ fn circles_of_includes_references_and_aliases_are_refused() {
         <shape type=\"instance\"><ref id=\"g\"/></shape>"
     );
     assert!(refused(&groups).contains("contains itself"));
+    let spectra = format!(
+        "{SENSOR}<texture type=\"uniform\" id=\"u\"><ref name=\"value\" id=\"u\"/></texture><shape type=\"sphere\"><bsdf type=\"diffuse\">\
+        <ref name=\"reflectance\" id=\"u\"/></bsdf></shape>"
+    );
+    assert!(refused(&spectra).contains("itself"));
     let aliases =
         format!("{SENSOR}<alias id=\"a\" as=\"b\"/><alias id=\"b\" as=\"a\"/><shape type=\"sphere\"><ref id=\"a\"/></shape>");
     assert!(refused(&aliases).contains("nothing has the id"));
@@ -70,6 +75,44 @@ fn instances_that_multiply_are_refused() {
     let shapes = "<shape type=\"sphere\"/>".repeat(1000);
     let instances = "<shape type=\"instance\"><ref id=\"g\"/></shape>".repeat(1000);
     assert!(refused(&format!("{SENSOR}<shape type=\"shapegroup\" id=\"g\">{shapes}</shape>{instances}")).contains("objects"));
+}
+
+#[test]
+fn groups_without_shapes_that_double_are_refused() {
+    let merge = |i: usize| format!("<shape type=\"merge\" id=\"m{i}\"><ref id=\"m{0}\"/><ref id=\"m{0}\"/></shape>", i + 1);
+    let merges: String = (0..50).map(merge).collect();
+    let last = "<shape type=\"merge\" id=\"m50\"/>";
+    assert!(refused(&format!("{SENSOR}{merges}{last}")).contains("repeat"));
+}
+
+#[test]
+fn parameters_and_search_folders_that_each_use_looks_through_are_few() {
+    let defaults: String = (0..2000).map(|i| format!("<default name=\"a{i}\" value=\"\"/>")).collect();
+    assert!(refused(&defaults).contains("parameters"));
+    assert!(refused(&"<path value=\".\"/>".repeat(100)).contains("folders"));
+}
+
+#[test]
+fn textures_that_hold_each_other_twice_do_not_multiply() {
+    let texture = |i: usize| {
+        let next = i + 1;
+        format!(
+            "<texture type=\"checkerboard\" id=\"t{i}\"><ref name=\"color0\" id=\"t{next}\"/><ref name=\"color1\" id=\"t{next}\"/></texture>"
+        )
+    };
+    let textures: String = (0..40).map(texture).collect();
+    let text = format!(
+        "<scene version=\"3.0.0\">{SENSOR}{textures}<texture type=\"checkerboard\" id=\"t40\"/><shape type=\"sphere\"><bsdf \
+         type=\"plastic\"><boolean name=\"nonlinear\" value=\"true\"/><ref name=\"diffuse_reflectance\" id=\"t0\"/></bsdf></shape></scene>"
+    );
+    let read = read_with(&[], &text, &ImportOptions::default());
+    assert!(read.is_ok_and(|read| read.description.textures.len() < 200));
+}
+
+#[test]
+fn search_folders_do_not_open_the_whole_disk() {
+    assert!(refused("<path value=\"../../../../../etc\"/>").contains("above"));
+    assert!(refused("<path value=\"..\"/>").contains("holds"));
 }
 
 #[test]

@@ -18,7 +18,7 @@ use crate::{
 };
 
 /// Most triangles of the result, besides those of the file.
-const MOST_TRIANGLES: usize = 1 << 20;
+const MOST_TRIANGLES: usize = 1 << 19;
 /// Bytes per triangle while it is subdivided.
 const BYTES: u64 = 256;
 

@@ -1,4 +1,5 @@
 use super::{Files, error, imported};
+use crate::model::Model;
 
 #[test]
 fn unbalanced_ends_are_refused() {
@@ -46,6 +47,36 @@ fn objects_that_multiply_are_refused() {
     let shapes = "Shape \"sphere\"\n".repeat(1000);
     let uses = "ObjectInstance \"a\"\n".repeat(2000);
     assert!(error(&format!("WorldBegin\nObjectBegin \"a\"\n{shapes}ObjectEnd\n{uses}")).contains("more than"));
+}
+
+#[test]
+fn flat_objects_that_multiply_are_refused() {
+    let shapes = "Shape \"sphere\"\n".repeat(1000);
+    let uses = "ObjectInstance \"a\"\n".repeat(2000);
+    let flat = format!("WorldBegin\nObjectBegin \"a\"\n{shapes}ObjectEnd\nScale 1 1 0\n{uses}");
+    assert!(error(&flat).contains("more than"));
+}
+
+#[test]
+fn parts_of_quadrics_take_little_memory_each() {
+    let found = imported(&format!("WorldBegin\n{}", "Shape \"sphere\" \"float phimax\" 90\n".repeat(1000)));
+    let meshes = found.assets.paths().filter_map(|path| found.assets.get::<Model>(path));
+    assert!(meshes.map(|mesh| mesh.bytes()).sum::<u64>() < 160 << 20);
+}
+
+#[test]
+fn attributes_have_few_values() {
+    let numbers = "1 ".repeat(5000);
+    assert!(error(&format!("Attribute \"shape\" \"float a\" [{numbers}]\nWorldBegin")).contains("attributes"));
+}
+
+#[test]
+fn a_spectrum_file_is_read_once() {
+    let spectrum: String = (0..60_000).map(|i| format!("{} 1\n", 300.0 + f64::from(i) / 100.0)).collect();
+    let lights = "LightSource \"point\" \"spectrum I\" \"a.spd\"\n".repeat(2000);
+    let scene = format!("WorldBegin\n{lights}");
+    let found = Files::new(&[("a.pbrt", &scene), ("a.spd", &spectrum)]).read().expect("it is read");
+    assert_eq!(found.description.lamps.len(), 2000);
 }
 
 #[test]

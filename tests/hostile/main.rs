@@ -1,0 +1,223 @@
+//! Damaged files of all formats: reading ends without a panic, soon, in little memory, and without a look at files outside of the
+//! folder. This is a separate test program, so nothing else allocates in its process.
+//!
+//! The number of inputs and the seed are in the environment:
+//!
+//!     NOISEFALL_HOSTILE_INPUTS=1000000 NOISEFALL_HOSTILE_SEED=1 cargo test --release --test hostile -- --nocapture
+//!
+//! `NOISEFALL_HOSTILE_FIRST` is the number of the first input, to repeat one. The files of an input that fails stay where the message
+//! says; those of an input that ends the process are the last ones in that folder.
+mod bases;
+mod mutation;
+
+use std::{
+    fs,
+    io::Write,
+    panic::{AssertUnwindSafe, catch_unwind},
+    path::{Path, PathBuf},
+    sync::{
+        Arc,
+        atomic::{AtomicU64, Ordering},
+    },
+    thread,
+    time::{Duration, Instant},
+};
+
+use noisefall::{
+    image::{Encoding, read as read_picture},
+    import::{self, ImportOptions},
+    model::Model,
+    scene::{describe, load},
+};
+use rand::{Rng, SeedableRng, rngs::SmallRng};
+
+use self::bases::{Base, File, Reader};
+
+/// Counts allocated bytes.
+#[global_allocator]
+static MEMORY: cap::Cap<std::alloc::System> = cap::Cap::new(std::alloc::System, usize::MAX);
+
+/// Inputs of a short run.
+const INPUTS: u64 = 1500;
+/// One input in this many is compiled too, which takes longer than reading.
+const COMPILED: u64 = 32;
+/// Most memory: per byte of the files, and besides.
+const FACTOR: usize = 4;
+const ROOM: usize = 256 << 20;
+/// Longest time of an input.
+const LONGEST: Duration = Duration::from_secs(10);
+/// Endings of the files outside of the folders.
+const ENDINGS: [&str; 12] = ["xml", "pbrt", "gltf", "bin", "ply", "obj", "mtl", "png", "spd", "stl", "hdr", "toml"];
+
+/// An input: files in the order of their base.
+struct Input {
+    base: usize,
+    files: Vec<File>,
+    /// Whether it names a file outside of its folder.
+    leaves: bool,
+}
+
+impl Input {
+    fn new(bases: &[Base], seed: u64, number: u64) -> Input {
+        let mut random = SmallRng::seed_from_u64(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ number);
+        let base = random.random_range(0..bases.len());
+        let mut files = bases[base].files.clone();
+        let mut leaves = false;
+        for _ in 0..random.random_range(1..5) {
+            // The scene file more often than those beside it.
+            let at = if random.random_bool(0.6) { 0 } else { random.random_range(0..files.len()) };
+            leaves |= mutation::mutate(&mut files[at], &mut random);
+        }
+        Input { base, files, leaves }
+    }
+
+    fn length(&self) -> usize {
+        self.files.iter().map(|(_, _, bytes)| bytes.len()).sum()
+    }
+}
+
+/// A folder with the scenes, under one with files that they must not read.
+struct World(PathBuf);
+
+impl World {
+    /// Its secrets are whole files, or nothing that can be read.
+    fn new(root: PathBuf, bases: &[Base], are_whole: bool) -> World {
+        for base in 0..bases.len() {
+            let folder = root.join(format!("scenes/{base}"));
+            fs::create_dir_all(&folder).expect("a folder");
+            for ending in ENDINGS {
+                #[cfg(unix)]
+                std::os::unix::fs::symlink(root.join(format!("secret.{ending}")), folder.join(format!("link.{ending}")))
+                    .expect("a link");
+            }
+        }
+        let whole = |ending: &str| {
+            let mut all = bases.iter().flat_map(|base| &base.files);
+            all.find(|(name, ..)| name.ends_with(ending)).map(|(.., bytes)| bytes.clone())
+        };
+        for ending in ENDINGS {
+            let secret = if are_whole { whole(ending) } else { None };
+            fs::write(root.join(format!("secret.{ending}")), secret.unwrap_or_else(|| b"nothing".to_vec()))
+                .expect("it is written");
+        }
+        World(root)
+    }
+
+    /// A text without the place of this world, and without white space, because long lines are broken.
+    fn plain(&self, text: &str) -> String {
+        let words: String = text.chars().filter(|c| !c.is_whitespace() && *c != '│').collect();
+        words.replace(&self.0.display().to_string(), mutation::ROOT)
+    }
+
+    /// Writes the files of an input, and returns the first one.
+    fn write(&self, input: &Input) -> PathBuf {
+        let folder = self.0.join(format!("scenes/{}", input.base));
+        let root = self.0.display().to_string();
+        for (name, _, bytes) in &input.files {
+            let names_root = bytes.windows(mutation::ROOT.len()).any(|window| window == mutation::ROOT.as_bytes());
+            let text = names_root.then(|| String::from_utf8_lossy(bytes).replace(mutation::ROOT, &root).into_bytes());
+            fs::write(folder.join(name), text.as_ref().unwrap_or(bytes)).expect("it is written");
+        }
+        folder.join(input.files[0].0)
+    }
+}
+
+/// Reads a file, and says what came of it.
+fn outcome(path: &Path, reader: Reader, number: u64) -> String {
+    let is_compiled = number.is_multiple_of(COMPILED);
+    let options = ImportOptions { time: number.is_multiple_of(2).then_some(0.5), ..ImportOptions::default() };
+    match reader {
+        Reader::Picture => format!("{:?}", read_picture(path, Encoding::Srgb).map(|picture| (picture.width, picture.height))),
+        Reader::Own if is_compiled => format!("{:?}", load(path).map(drop).map_err(|error| error.report())),
+        Reader::Own => {
+            let text = String::from_utf8_lossy(&fs::read(path).expect("it was written")).into_owned();
+            format!("{:?}", describe("a", text).map(drop).map_err(|error| error.report()))
+        }
+        Reader::Foreign if is_compiled => {
+            let opened = import::open(path, &options);
+            format!("{:?}", opened.map(|opened| opened.scene.warnings().to_vec()).map_err(|error| error.report()))
+        }
+        Reader::Foreign => match import::read(path, &options) {
+            Err(error) => error.report(),
+            Ok(read) => {
+                let mesh = |path| read.assets.get::<Model>(path).map(|mesh| (mesh.bytes(), mesh.vertices.first().copied()));
+                let meshes: Vec<_> = read.assets.paths().map(|path| (path, mesh(path))).collect();
+                format!("{:?}\n{meshes:?}\n{:?}", read.description, read.remarks.lines(usize::MAX))
+            }
+        },
+    }
+}
+
+fn from_environment(name: &str, default: u64) -> u64 {
+    std::env::var(name).map_or(default, |text| text.parse().expect("a number"))
+}
+
+#[test]
+fn every_base_is_read_as_it_is() {
+    let (bases, folder) = (bases::bases(), tempfile::tempdir().expect("a folder"));
+    let world = World::new(folder.path().to_owned(), &bases, true);
+    for (base, Base { reader, files }) in bases.iter().enumerate() {
+        let path = world.write(&Input { base, files: files.clone(), leaves: false });
+        for number in [0, 1] {
+            let found = outcome(&path, *reader, number);
+            let is_read = if *reader == Reader::Foreign && number > 0 {
+                found.contains("SceneDescription")
+            } else {
+                found.starts_with("Ok")
+            };
+            assert!(is_read, "{}: {found}", files[0].0);
+        }
+    }
+}
+
+#[test]
+fn damaged_files_do_no_harm() {
+    let [inputs, seed, first] = [("INPUTS", INPUTS), ("SEED", 0), ("FIRST", 0)]
+        .map(|(name, value)| from_environment(&format!("NOISEFALL_HOSTILE_{name}"), value));
+    let (bases, folder) = (bases::bases(), tempfile::tempdir().expect("a folder").keep());
+    let [whole, broken] = [("a", true), ("b", false)].map(|(name, are_whole)| World::new(folder.join(name), &bases, are_whole));
+    println!("inputs {first} to {} of seed {seed} in {}", first + inputs, folder.display());
+    let current = Arc::new(AtomicU64::new(first));
+    watch(current.clone());
+    let before = MEMORY.allocated();
+    let mut largest = 0;
+    for number in first..first + inputs {
+        current.store(number, Ordering::Relaxed);
+        let input = Input::new(&bases, seed, number);
+        let reader = bases[input.base].reader;
+        largest = largest.max(input.length());
+        let (path, start) = (whole.write(&input), Instant::now());
+        let read = catch_unwind(AssertUnwindSafe(|| outcome(&path, reader, number)));
+        let name = format!("input {number} of seed {seed}, {}", path.display());
+        let found = read.unwrap_or_else(|_| panic!("{name}: a panic"));
+        assert!(start.elapsed() < LONGEST, "{name}: {:?}", start.elapsed());
+        let peak = MEMORY.max_allocated().saturating_sub(before);
+        assert!(peak <= FACTOR * largest + ROOM, "{name}: {peak} bytes for files of {}", input.length());
+        if input.leaves && reader == Reader::Foreign {
+            let other = outcome(&broken.write(&input), reader, number);
+            assert_eq!(whole.plain(&found), broken.plain(&other), "{name}: files outside of the folder matter");
+        }
+        // Files that a mutation has cut stay, and those of the base come back.
+        let unchanged = Input { files: bases[input.base].files.clone(), ..input };
+        whole.write(&unchanged);
+    }
+    println!("a peak of {} bytes for files of up to {largest}", MEMORY.max_allocated() - before);
+    fs::remove_dir_all(folder).expect("it is there");
+}
+
+/// Ends the process if an input takes much longer than it may.
+fn watch(current: Arc<AtomicU64>) {
+    thread::spawn(move || {
+        let (mut last, mut since) = (u64::MAX, Instant::now());
+        loop {
+            thread::sleep(Duration::from_secs(1));
+            let number = current.load(Ordering::Relaxed);
+            if number != last {
+                (last, since) = (number, Instant::now());
+            } else if since.elapsed() > 6 * LONGEST {
+                let _ = writeln!(std::io::stdout(), "input {number} does not end");
+                std::process::exit(1);
+            }
+        }
+    });
+}
