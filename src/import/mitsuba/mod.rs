@@ -14,7 +14,7 @@ mod integrator;
 mod load;
 mod markup;
 mod parameters;
-mod pictures;
+pub mod pictures;
 mod sensor;
 mod shapes;
 #[cfg(test)]
@@ -30,6 +30,7 @@ use std::path::Path;
 
 use glam::DAffine3;
 
+pub use self::bsdfs::coat;
 use self::{context::Import, tree::Element};
 use super::{ImportOptions, Imported};
 use crate::scene::SceneError;
