@@ -20,7 +20,6 @@ mod toml;
 
 use std::path::{Path, PathBuf};
 
-use self::files::Files;
 use crate::{
     declare::Assets,
     file::{WriteError, replace},
@@ -46,7 +45,7 @@ pub struct Prepared {
     path: PathBuf,
     /// The scene file.
     content: Vec<u8>,
-    files: Files,
+    files: files::Files,
     /// What the format cannot say exactly.
     pub remarks: Remarks,
 }

@@ -4,7 +4,7 @@ use crate::{
     import::mitsuba::pictures,
     math::{F, M, One, U, V},
     scene::description::{SceneDescription, TextureKind},
-    texture::{TextureCompiler, TextureCoordinates, image::Image},
+    texture::{TextureCompiler, TextureCoordinates},
 };
 
 /// Pixels of a side of an image of a texture.
@@ -75,37 +75,22 @@ impl<'a> Colors<'a> {
         }
     }
 
-    /// The colors of a texture over the unit square, row by row from the top left, each after a function.
-    fn pixels<T>(&self, name: &str, f: impl Fn([f64; 3]) -> T) -> Option<Vec<T>> {
+    /// An EXR image of a texture over the unit square, after a function of its colors.
+    pub fn exr(&self, name: &str, f: impl Fn([f64; 3]) -> [f64; 3]) -> Option<Vec<u8>> {
         let id = self.id(name)?;
         let at = |i: u32| (i as f32 + 0.5) / SIDE as f32;
         let pixel = |i: u32| {
             let p = V::splat(One, [0.0; 3]);
             let at = TextureCoordinates { u: F(at(i % SIDE)), v: F(at(i / SIDE)), p, vertex: None };
             let color = self.compiler.textures.colour(One, U(id), M(true), &at);
-            f([color.x.0, color.y.0, color.z.0].map(f64::from))
+            f([color.x.0, color.y.0, color.z.0].map(f64::from)).map(|x| x as f32)
         };
-        Some((0..SIDE * SIDE).map(pixel).collect())
-    }
-
-    /// An EXR image of a texture over the unit square, after a function of its colors.
-    pub fn exr(&self, name: &str, f: impl Fn([f64; 3]) -> [f64; 3]) -> Option<Vec<u8>> {
-        let pixels = self.pixels(name, |color| f(color).map(|x| x as f32))?;
+        let pixels: Vec<[f32; 3]> = (0..SIDE * SIDE).map(pixel).collect();
         pictures::exr(SIDE, SIDE, &pixels)
-    }
-
-    /// A PNG image of a texture over the unit square, after a function of its colors to bytes.
-    pub fn png(&self, name: &str, f: impl Fn([f64; 3]) -> [u8; 3]) -> Option<Vec<u8>> {
-        pictures::png(SIDE, SIDE, &self.pixels(name, f)?)
     }
 }
 
 /// The luminance of linear Rec. 709.
 pub fn luminance([r, g, b]: [f64; 3]) -> f64 {
     0.2126 * r + 0.7152 * g + 0.0722 * b
-}
-
-/// Whether two images show the same texels at the same places: they differ in their channel at most.
-pub fn same_texels(a: &Image, b: &Image) -> bool {
-    Image { channel: a.channel, encoding: a.encoding, ..b.clone() } == *a
 }

@@ -7,8 +7,8 @@ use crate::{
     declare::Textured,
     image::Encoding,
     material::{Material, blend::Blend, diffuse_transmission::DiffuseTransmission},
-    scene::description::MaterialDescription,
-    texture::image::Image,
+    scene::description::{MaterialDescription, TextureKind},
+    texture::image::{Channel, Image},
 };
 
 /// Blends within blends.
@@ -128,16 +128,27 @@ impl Export<'_> {
             element = Element::plugin("bsdf", "normalmap").with(bitmap).with(element);
         }
         let Some(bump) = &material.bump else { return element };
-        match self.texture(&bump.texture) {
-            Some(texture) => Element::plugin("bsdf", "bumpmap")
-                .with(Element::reference("arbitrary", &texture))
-                .float("scale", bump.height)
-                .with(element),
+        match self.heights(&bump.texture) {
+            Some(heights) => Element::plugin("bsdf", "bumpmap").with(heights).float("scale", bump.height).with(element),
             None => {
                 let found = format!("the heights `{}`, which vary in space", bump.texture);
                 self.remark(found, "no bump map", "the surface is smooth");
                 element
             }
+        }
+    }
+
+    /// The texture of a bump map. Mitsuba knows the slopes of images alone.
+    fn heights(&mut self, name: &str) -> Option<Element> {
+        match self.colors.kind(name)? {
+            TextureKind::Image(image) if image.channel == Channel::Rgb => {
+                self.texture(name).map(|id| Element::reference("arbitrary", &id))
+            }
+            kind if self.colors.is_flat(name) => {
+                let found = format!("a `{}` of heights", kind.name());
+                self.baked(name, &found, |color| color).map(|image| image.attribute("name", "arbitrary"))
+            }
+            _ => None,
         }
     }
 }

@@ -102,7 +102,7 @@ impl Element {
     pub fn for_each_file(&mut self, visit: &mut impl FnMut(&mut String)) {
         if let [("name", name), ("value", path)] = &mut self.attributes[..]
             && self.tag == "string"
-            && name == FILE
+            && name.as_str() == FILE
         {
             visit(path);
         }

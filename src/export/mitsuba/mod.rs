@@ -48,7 +48,7 @@ pub fn prepare(source: Source, path: &Path) -> Result<Prepared, ExportError> {
     let mut scene = Element::new("scene").attribute("version", VERSION).with_all(scene);
     let moved = Source { assets: &new.assets, ..source };
     let files = Files::place(&moved, new.named, path)?;
-    scene.for_each_file(&mut |file| *file = files.path(file));
+    scene.for_each_file(&mut |file: &mut String| *file = files.path(file));
     let mut text = "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n".to_owned();
     scene.write(&mut text, 0);
     Ok(Prepared { path: path.to_owned(), content: text.into_bytes(), files, remarks })

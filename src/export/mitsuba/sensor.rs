@@ -57,7 +57,7 @@ impl Export<'_> {
                 let kind = if camera.lens.is_some() { "thinlens" } else { "perspective" };
                 let element = Element::plugin("sensor", kind).with(look_at(camera.eye, camera.look_at, camera.up));
                 let element = element.float("fov", camera.fov.unwrap_or(40.0)).text("fov_axis", "x");
-                match camera.lens {
+                match &camera.lens {
                     Some(lens) => element.float("aperture_radius", lens.radius.max(1e-9)).float("focus_distance", lens.focus),
                     None => element,
                 }

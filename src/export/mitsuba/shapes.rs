@@ -35,8 +35,9 @@ pub fn object(export: &mut Export, number: usize, object: &ObjectDescription, sh
 }
 
 fn add(export: &mut Export, object: &ObjectDescription, shape: &Shape) -> Result<(), ExportError> {
+    let description = export.description;
     let mut inner = vec![export.surface(object.material.as_deref())];
-    let opacity = object.material.as_ref().and_then(|name| export.description.materials.get(name)?.opacity.as_ref());
+    let opacity = object.material.as_ref().and_then(|name| description.materials.get(name)?.opacity.as_ref());
     if let Some(emission) = &object.emission {
         if opacity.is_some_and(|opacity| *opacity != Textured::Constant(1.0)) {
             export.remark("emission of a surface with `opacity`", "all of its light", "holes in the surface shine too");
