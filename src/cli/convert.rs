@@ -1,4 +1,4 @@
-//! `noisefall convert`: writes a scene of any format as a scene file of Noisefall.
+//! `noisefall convert`: writes a scene of any format as a scene file of Noisefall or Mitsuba.
 use std::{
     path::{Path, PathBuf},
     process::ExitCode,
@@ -17,17 +17,20 @@ use super::{
 };
 
 const NOTES: &str = "\
-Meshes and textures go to the folder OUT.files beside OUT.toml. Files that lie in the folder of OUT.toml stay where they are. Existing \
-files of the same names are replaced.
+Meshes and textures go to the folder OUT.files beside the scene file. Files that lie in the folder of the scene \
+file stay where they are. Existing files of the same names are replaced. A format may have no word for a part of the scene: warnings \
+list these parts and what stands for them.
 
-Example: noisefall convert room.gltf -o room.toml";
+Examples:
+  noisefall convert room.gltf -o room.toml
+  noisefall convert room.toml -o room.xml";
 
 #[derive(clap::Args)]
 #[command(after_help = NOTES)]
 pub struct Arguments {
     /// Scene file: .toml, .gltf, .glb, .xml (Mitsuba), .pbrt, .obj, .ply, .stl, or an image that carries its scene
     scene: PathBuf,
-    /// Scene file to write (.toml)
+    /// Scene file to write: .toml or .xml (Mitsuba)
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
     #[command(flatten)]
@@ -45,7 +48,9 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let description = description.map_or_else(of_text, Ok).map_err(|error| error.report())?;
     let folder = path.parent().unwrap_or(Path::new(""));
     let source = Source { description: &description, assets: &scene.assets, folder };
-    let exported = export::write(source, output).map_err(|error| error.to_string())?;
+    let prepared = export::prepare(source, output).map_err(|error| error.to_string())?;
+    options.report(output, &prepared.remarks, "written exactly")?;
+    let exported = prepared.write().map_err(|error| error.to_string())?;
     print(&format!("{}: {}", output.display(), outcome(&exported, description.objects.len())))?;
     Ok(ExitCode::SUCCESS)
 }
@@ -75,7 +80,7 @@ mod tests {
     fn the_outcome_counts_files() {
         let of = |written, copied| {
             let folder = (written + copied > 0).then(|| PathBuf::from("a.files"));
-            outcome(&Exported { text: String::new(), folder, written, copied }, 2)
+            outcome(&Exported { folder, written, copied }, 2)
         };
         assert_eq!(of(0, 0), "2 objects");
         assert_eq!(of(3, 0), "2 objects; 3 files written to a.files");

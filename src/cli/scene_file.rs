@@ -50,14 +50,22 @@ impl SceneOptions {
             tell("note: -D, --at, --variant and --allow-outside affect scenes of other programs only");
         }
         let opened = import::open(path, &options).map_err(|error| error.report())?;
-        if !opened.remarks.is_empty() {
-            let list = list(path, &opened.remarks);
-            if self.strict {
-                return Err(format!("{list}\nwith --strict, each of these is an error"));
-            }
-            tell(&format!("warning: {list}"));
-        }
+        self.report(path, &opened.remarks, "taken over exactly")?;
         Ok(opened)
+    }
+
+    /// Prints the remarks about a file on standard error, or fails if there are any and `--strict` is given. `done` is what they were
+    /// not.
+    pub fn report(&self, path: &Path, remarks: &Remarks, done: &str) -> Result<(), Failure> {
+        if remarks.is_empty() {
+            return Ok(());
+        }
+        let list = list(path, remarks, done);
+        if self.strict {
+            return Err(format!("{list}\nwith --strict, each of these is an error"));
+        }
+        tell(&format!("warning: {list}"));
+        Ok(())
     }
 
     /// The options as words of a command, each with a space before it.
@@ -71,13 +79,13 @@ impl SceneOptions {
 }
 
 /// The remarks about a scene, one line each.
-fn list(path: &Path, remarks: &Remarks) -> String {
+fn list(path: &Path, remarks: &Remarks, done: &str) -> String {
     let what = match remarks.len() {
         1 => "1 thing was".to_owned(),
         count => format!("{count} things were"),
     };
     let lines: String = remarks.lines(MOST_REMARKS).iter().map(|line| format!("\n  {line}")).collect();
-    format!("{}: {what} not taken over exactly:{lines}", quote::path(path))
+    format!("{}: {what} not {done}:{lines}", quote::path(path))
 }
 
 fn quoted(word: &str) -> String {
@@ -130,7 +138,7 @@ mod tests {
     fn a_long_list_of_remarks_is_cut() {
         let mut remarks = Remarks::default();
         (0..30).for_each(|i| remarks.add("a.xml:1:1", format!("`{i}`"), "nothing", "it is missing"));
-        let list = list(Path::new("a.xml"), &remarks);
+        let list = list(Path::new("a.xml"), &remarks, "taken over exactly");
         assert!(list.starts_with("a.xml: 30 things were not taken over exactly:\n  a.xml:1:1: `0` → nothing: it is missing\n"));
         assert_eq!((list.lines().count(), list.lines().last()), (MOST_REMARKS + 2, Some("  … and 10 more")));
     }

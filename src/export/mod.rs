@@ -3,17 +3,31 @@
 //! | file | holds |
 //! |---|---|
 //! | `toml.rs` | the format of Noisefall |
-//! | `files.rs` | meshes and textures beside the scene file |
+//! | `mitsuba/` | XML of Mitsuba 3 |
+//! | `files.rs`, `new_assets.rs` | meshes and textures beside the scene file |
 //! | `file_names.rs` | names that every system accepts |
+//! | `geometry.rs` | shapes in world space, and triangles that stand for them |
+//! | `textures.rs` | means and images of textures |
 //!
-//! Another format is a file beside `toml.rs` and a line in [`write`].
+//! Another format is a file beside `toml.rs` and a line in [`check`]. What a format cannot say is a remark, as in the readers.
 mod file_names;
 mod files;
+mod geometry;
+mod mitsuba;
+mod new_assets;
+mod textures;
 mod toml;
 
 use std::path::{Path, PathBuf};
 
-use crate::{declare::Assets, file::WriteError, memory::TooMuch, quote, scene::description::SceneDescription};
+use crate::{
+    declare::Assets,
+    file::{WriteError, replace},
+    import::Remarks,
+    memory::TooMuch,
+    quote,
+    scene::description::SceneDescription,
+};
 
 /// A scene with its files.
 #[derive(Clone, Copy)]
@@ -26,11 +40,19 @@ pub struct Source<'a> {
     pub folder: &'a Path,
 }
 
+/// A scene in another format, before anything is written.
+pub struct Prepared {
+    path: PathBuf,
+    /// The scene file.
+    content: Vec<u8>,
+    files: files::Files,
+    /// What the format cannot say exactly.
+    pub remarks: Remarks,
+}
+
 /// What an export wrote.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Exported {
-    /// The text of the scene file.
-    pub text: String,
     /// The folder of the meshes and textures, if there are any.
     pub folder: Option<PathBuf>,
     /// Number of files that were written from memory.
@@ -43,8 +65,16 @@ pub struct Exported {
 #[derive(Debug, thiserror::Error)]
 pub enum ExportError {
     /// The extension is not known.
-    #[error("{}: the format is not known; the name must end in .toml", quote::path(.0))]
+    #[error("{}: the format is not known; the name must end in .toml or .xml", quote::path(.0))]
     UnknownFormat(PathBuf),
+    /// A part of the scene is invalid.
+    #[error("{place}: {reason}")]
+    Invalid {
+        /// Its path in the scene.
+        place: String,
+        /// What is wrong.
+        reason: String,
+    },
     /// A file that the scene names.
     #[error("{}: cannot be read: {reason}", quote::path(path))]
     Unreadable {
@@ -69,19 +99,39 @@ pub enum ExportError {
     TooMuch(#[from] TooMuch),
 }
 
-type Writer = fn(Source, &Path) -> Result<Exported, ExportError>;
+type Translator = fn(Source, &Path) -> Result<Prepared, ExportError>;
+
+/// Translates a scene to the format that the name of the file asks for. Nothing is written.
+pub fn prepare(source: Source, path: &Path) -> Result<Prepared, ExportError> {
+    check(path)?(source, path)
+}
 
 /// Writes a scene. Its meshes and textures go to the folder `NAME.files` beside the file `NAME.toml`, which is written last. Each file
 /// is replaced whole or not at all.
 pub fn write(source: Source, path: &Path) -> Result<Exported, ExportError> {
-    check(path)?(source, path)
+    prepare(source, path)?.write()
 }
 
-/// The writer of a format, by the name of the file.
-pub fn check(path: &Path) -> Result<Writer, ExportError> {
+/// The translator to a format, by the name of the file.
+pub fn check(path: &Path) -> Result<Translator, ExportError> {
     let extension = path.extension().map(std::ffi::OsStr::to_ascii_lowercase);
     match extension.as_deref().and_then(|extension| extension.to_str()) {
-        Some("toml") => Ok(toml::write),
+        Some("toml") => Ok(toml::prepare),
+        Some("xml") => Ok(mitsuba::prepare),
         _ => Err(ExportError::UnknownFormat(path.to_owned())),
+    }
+}
+
+impl Prepared {
+    /// The content of the scene file.
+    pub fn content(&self) -> &[u8] {
+        &self.content
+    }
+
+    /// Writes the files, and then the scene that names them.
+    pub fn write(&self) -> Result<Exported, ExportError> {
+        let [written, copied] = self.files.write()?;
+        replace(&self.path, &self.content)?;
+        Ok(Exported { folder: (written + copied > 0).then(|| self.files.folder.clone()), written, copied })
     }
 }

@@ -152,12 +152,50 @@ fn mistakes_of_a_conversion_are_told_before_anything_is_written() {
     let onto_itself = shell.run(&["convert", "own.toml", "-o", "./own.toml"]);
     assert_eq!(onto_itself.status.code(), Some(2));
     assert!(text(&onto_itself.stderr).contains("would replace the scene itself"));
-    for (name, message) in [("a.blend", "must end in .toml"), ("nowhere/a.toml", "there is no folder")] {
+    for (name, message) in [("a.blend", "must end in .toml or .xml"), ("nowhere/a.toml", "there is no folder")] {
         let done = shell.run(&["convert", &furnace, "-o", name]);
         assert_eq!(done.status.code(), Some(1));
         assert!(text(&done.stderr).contains(message), "{}", text(&done.stderr));
     }
     assert_eq!(fs::read_dir(shell.folder()).expect("a folder").count(), 1);
+}
+
+#[test]
+fn a_scene_that_is_written_for_mitsuba_and_read_again_has_the_same_picture() {
+    let shell = Shell::new();
+    let original = scene("glass_and_mirror");
+    let done = shell.run(&["convert", &original, "-o", "copy.xml", "--strict"]);
+    assert!(done.status.success(), "{}", text(&done.stderr));
+    let render = |scene: &str, image: &str| {
+        let done = shell.run(&["render", scene, "-o", image, "--spp", "16", "--size", "48x32"]);
+        assert!(done.status.success(), "{}", text(&done.stderr));
+        read(&shell.path(image)).expect("an image").radiance
+    };
+    let (ours, theirs) = (render(&original, "a.exr"), render("copy.xml", "b.exr"));
+    // The samples are the same but for rounding, so the difference of a pixel has mean 0: 5 standard errors.
+    let differences: Vec<f64> =
+        ours.as_flattened().iter().zip(theirs.as_flattened()).map(|(a, b)| f64::from(*a) - f64::from(*b)).collect();
+    let count = differences.len() as f64;
+    let mean = differences.iter().sum::<f64>() / count;
+    let variance = differences.iter().map(|d| (d - mean).powi(2)).sum::<f64>() / (count - 1.0);
+    assert!(mean.abs() <= 5.0 * (variance / count).sqrt() + 1e-6, "{mean} ± {}", (variance / count).sqrt());
+}
+
+#[test]
+fn what_mitsuba_cannot_say_is_a_warning_or_with_strict_an_error() {
+    let shell = Shell::new();
+    let original = scene("isosurfaces");
+    let strict = shell.run(&["convert", &original, "-o", "copy.xml", "--strict"]);
+    assert_eq!(strict.status.code(), Some(1));
+    let message = text(&strict.stderr);
+    assert!(
+        message.contains("copy.xml") && message.contains("not written exactly") && message.contains("an isosurface"),
+        "{message}"
+    );
+    assert_eq!(fs::read_dir(shell.folder()).expect("a folder").count(), 0);
+    let done = shell.run(&["convert", &original, "-o", "copy.xml"]);
+    assert!(done.status.success() && text(&done.stderr).contains("an isosurface"), "{}", text(&done.stderr));
+    assert!(shell.path("copy.xml").exists());
 }
 
 #[test]

@@ -4,10 +4,11 @@ use std::{collections::BTreeSet, fs};
 use crate::imports::{imports, source, source_files};
 
 /// Folders and the files beside them, from the top down. Those of one line do not import each other.
-const LAYERS: [&[&str]; 12] = [
+const LAYERS: [&[&str]; 13] = [
     &["validate", "study"],
     &["render", "report"],
-    &["measure", "import", "export"],
+    &["export"],
+    &["measure", "import"],
     &["integrator", "edit"],
     &["scene"],
     &["light"],

@@ -15,7 +15,7 @@ mod load;
 mod markup;
 mod packed;
 mod parameters;
-mod pictures;
+pub mod pictures;
 mod sensor;
 mod shapes;
 #[cfg(test)]
@@ -31,6 +31,7 @@ use std::path::Path;
 
 use glam::DAffine3;
 
+pub use self::bsdfs::coat;
 use self::{context::Import, tree::Element};
 use super::{ImportOptions, Imported};
 use crate::scene::SceneError;

@@ -44,6 +44,13 @@ impl Coat {
         self.of_base(base)
     }
 
+    /// The color of Mitsuba's nonlinear plastic that reflects as much as ours of an albedo: the inverse of
+    /// [`of_nonlinear`](Coat::of_nonlinear).
+    pub fn nonlinear_of(&self, albedo: f64) -> f64 {
+        let base = albedo / (1.0 - albedo * (1.0 - self.enters / self.square));
+        (base / (1.0 + base * self.returns)).clamp(0.0, 1.0)
+    }
+
     /// With f = b T T/(π η²) for the base b.
     fn of_base(&self, base: f64) -> f64 {
         (base / (1.0 + base * (1.0 - self.enters / self.square))).clamp(0.0, 1.0)
@@ -120,6 +127,16 @@ mod tests {
         let [smooth, rough] = [0.0, 0.002].map(|alpha| Coat::new(1.49, alpha));
         assert!((smooth.enters - rough.enters).abs() < 2e-3, "{} {}", smooth.enters, rough.enters);
         assert!((smooth.returns - rough.returns).abs() < 1e-2, "{} {}", smooth.returns, rough.returns);
+    }
+
+    #[test]
+    fn colours_of_nonlinear_plastics_come_back() {
+        for alpha in [0.0, 0.1, 0.5] {
+            let coat = Coat::new(1.5, alpha);
+            for albedo in [0.0, 0.2, 0.7] {
+                assert!((coat.of_nonlinear(coat.nonlinear_of(albedo)) - albedo).abs() < 1e-9, "{alpha} {albedo}");
+            }
+        }
     }
 
     #[test]

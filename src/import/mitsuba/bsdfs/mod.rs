@@ -1,6 +1,6 @@
 //! BSDFs: one file a family.
 mod adapters;
-mod coat;
+pub mod coat;
 mod glass;
 mod indices;
 mod metal;

@@ -1,0 +1,78 @@
+//! What an export has made so far.
+use std::collections::HashMap;
+
+use super::{
+    super::{Source, new_assets::NewAssets, textures::Colors},
+    markup::Element,
+};
+use crate::{
+    declare::Resources,
+    import::{Names, Remarks},
+    scene::description::SceneDescription,
+};
+
+/// A translation.
+pub struct Export<'a> {
+    pub description: &'a SceneDescription,
+    pub colors: Colors<'a>,
+    pub new: NewAssets,
+    pub remarks: Remarks,
+    /// The elements of the scene.
+    pub scene: Vec<Element>,
+    /// What is being translated, such as `materials.gold`, for remarks.
+    pub place: String,
+    /// Whether what is being translated uses coordinates of the surface.
+    pub uses_coordinates: bool,
+    /// Ids of textures.
+    pub textures: HashMap<String, Known>,
+    /// Ids of materials by name and whether their back reflects.
+    pub materials: HashMap<String, Known>,
+    /// Paths of meshes by what determines them.
+    pub meshes: HashMap<usize, String>,
+    ids: Names,
+}
+
+/// An object that others refer to.
+#[derive(Clone)]
+pub struct Known {
+    pub id: String,
+    pub uses_coordinates: bool,
+}
+
+impl<'a> Export<'a> {
+    pub fn new(source: Source<'a>, resources: &'a Resources) -> Export<'a> {
+        Export {
+            description: source.description,
+            colors: Colors::new(source.description, resources),
+            new: NewAssets::new(source.assets),
+            remarks: Remarks::default(),
+            scene: Vec::new(),
+            place: String::new(),
+            uses_coordinates: false,
+            textures: HashMap::new(),
+            materials: HashMap::new(),
+            meshes: HashMap::new(),
+            ids: Names::default(),
+        }
+    }
+
+    /// Adds a remark about what is being translated.
+    pub fn remark(&mut self, found: impl Into<String>, used: impl Into<String>, effect: impl Into<String>) {
+        self.remarks.add(self.place.clone(), found, used, effect);
+    }
+
+    /// An id that no other object has. Mitsuba reserves dots and leading underscores, and replaces what follows a `$`.
+    pub fn id(&mut self, name: &str, fallback: &str) -> String {
+        let plain: String = name.chars().map(|c| if c == '.' || c == '$' || c.is_control() { '-' } else { c }).collect();
+        self.ids.unique(plain.trim_start_matches('_'), fallback)
+    }
+
+    /// Translates something at a place, and returns whether it uses coordinates.
+    pub fn at<T>(&mut self, place: String, translate: impl FnOnce(&mut Export<'a>) -> T) -> (T, bool) {
+        let outer = (std::mem::replace(&mut self.place, place), std::mem::take(&mut self.uses_coordinates));
+        let made = translate(self);
+        let uses = self.uses_coordinates;
+        (self.place, self.uses_coordinates) = (outer.0, outer.1 | uses);
+        (made, uses)
+    }
+}

@@ -1,0 +1,125 @@
+//! Lamps without surface, and the background.
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use glam::{DAffine3, DVec3};
+
+use super::{
+    context::Export,
+    markup::{Element, FILE, words},
+};
+use crate::{
+    image::Encoding,
+    light::{
+        background::image::Image,
+        lamp::{
+            LampKind,
+            projector::Projector,
+            spot::{Falloff, Spot},
+        },
+    },
+    scene::description::{BackgroundDescription, LampDescription},
+    shape::product,
+};
+
+/// Adds all lamps and the background.
+pub fn all(export: &mut Export) {
+    let description = export.description;
+    for (number, lamp) in description.lamps.iter().enumerate() {
+        let place = if lamp.name.is_empty() { format!("lamps[{number}]") } else { format!("lamp \"{}\"", lamp.name) };
+        let (element, _) = export.at(place, |export| export.lamp(lamp));
+        let id = export.id(&lamp.name, "lamp");
+        export.scene.push(element.attribute("id", id));
+    }
+    if let Some(background) = &description.background {
+        let (element, _) = export.at("background".to_owned(), |export| export.background(background));
+        export.scene.push(element);
+    }
+}
+
+impl Export<'_> {
+    fn lamp(&mut self, lamp: &LampDescription) -> Element {
+        let map = product(&lamp.transform).unwrap_or(DAffine3::IDENTITY);
+        let point = |p: DVec3| map.transform_point3(p);
+        match &lamp.kind {
+            LampKind::Point(lamp) => Element::plugin("emitter", "point")
+                .point("position", point(lamp.position))
+                .with(Element::color("intensity", lamp.intensity)),
+            LampKind::Directional(lamp) => Element::plugin("emitter", "directional")
+                .vector("direction", map.transform_vector3(lamp.direction))
+                .with(Element::color("irradiance", lamp.irradiance)),
+            LampKind::Spot(lamp) => self.spot(lamp, look_at(point(lamp.position), point(lamp.target), None)),
+            LampKind::Projector(lamp) => {
+                let up = map.transform_vector3(lamp.up);
+                self.projector(lamp, look_at(point(lamp.position), point(lamp.target), Some(up)))
+            }
+        }
+    }
+
+    fn spot(&mut self, lamp: &Spot, place: Element) -> Element {
+        if lamp.falloff != Falloff::Linear && lamp.inner < lamp.angle {
+            self.remark("the falloff of a spot", "one that is linear in the angle", "its edge has another softness");
+        }
+        Element::plugin("emitter", "spot")
+            .with(place)
+            .with(Element::color("intensity", lamp.intensity))
+            .float("cutoff_angle", lamp.angle)
+            .float("beam_width", lamp.inner.min(lamp.angle))
+    }
+
+    /// The irradiance of Mitsuba's is that at a distance of 1, divided by π.
+    fn projector(&mut self, lamp: &Projector, place: Element) -> Element {
+        if !lamp.flat {
+            self.remark("a projector of even intensity", "one of even irradiance", "its light is brighter towards the edges");
+        }
+        let element = Element::plugin("emitter", "projector").with(place).float("scale", lamp.scale / PI).float("fov", lamp.fov);
+        let element = element.text("fov_axis", "x");
+        if lamp.image.is_empty() {
+            return element.with(Element::color("irradiance", [1.0; 3]));
+        }
+        let path = self.new.name(&lamp.image);
+        let image = Element::plugin("texture", "bitmap").attribute("name", "irradiance");
+        element.with(image.text(FILE, &path).flag("raw", lamp.encoding == Encoding::Linear))
+    }
+
+    fn background(&mut self, background: &BackgroundDescription) -> Element {
+        match background {
+            BackgroundDescription::Constant(constant) => {
+                Element::plugin("emitter", "constant").with(Element::color("radiance", constant.radiance))
+            }
+            BackgroundDescription::Image(image) => {
+                let path = self.new.name(&image.path);
+                let element = Element::plugin("emitter", "envmap").text(FILE, &path).float("scale", image.scale);
+                element.transform("to_world", &turn(image))
+            }
+            BackgroundDescription::Sky(sky) => {
+                self.remark("a sky by Preetham", "`sunsky`", "another fit of the radiance and the color of the sky");
+                Element::plugin("emitter", "sunsky")
+                    .float("turbidity", sky.turbidity.clamp(1.0, 10.0))
+                    .float("sky_scale", sky.sky_scale)
+                    .float("sun_scale", sky.sun_scale)
+                    .vector("sun_direction", sky.sun.normalize_or(DVec3::Y))
+                    // Mitsuba's zenith is z.
+                    .transform("to_world", &DAffine3::from_rotation_x(-FRAC_PI_2))
+            }
+        }
+    }
+}
+
+/// The turn of a background. Mitsuba's images have their centre at +z, and ours at −z.
+fn turn(image: &Image) -> DAffine3 {
+    let map = product(&image.transform).unwrap_or(DAffine3::IDENTITY);
+    let degrees = image.rotate - 180.0;
+    let turn = if degrees == 0.0 { DAffine3::IDENTITY } else { DAffine3::from_rotation_y(degrees.to_radians()) };
+    DAffine3 { translation: DVec3::ZERO, ..map } * turn
+}
+
+/// The transform of what looks at a point along +z.
+pub fn look_at(origin: DVec3, target: DVec3, up: Option<DVec3>) -> Element {
+    let forward = (target - origin).normalize_or(DVec3::Z);
+    let up = up
+        .filter(|up| up.cross(forward).length() > 1e-9 * up.length())
+        .unwrap_or_else(|| if forward.y.abs() < 0.9 { DVec3::Y } else { DVec3::X });
+    let step = Element::new("lookat").attribute("origin", words(&origin.to_array()));
+    let step = step.attribute("target", words(&target.to_array())).attribute("up", words(&up.to_array()));
+    Element::new("transform").attribute("name", "to_world").with(step)
+}

@@ -1,0 +1,158 @@
+//! Metals, glass and plastics.
+use super::{context::Export, markup::Element};
+use crate::{
+    declare::Textured,
+    import::mitsuba::coat::Coat,
+    material::{Conductor, Dielectric, Plastic, Reflectance, Roughness, ggx, thin_dielectric::ThinDielectric},
+};
+
+impl Export<'_> {
+    pub fn mirror(&mut self, reflectance: &Textured) -> Element {
+        let reflectance = self.color("specular_reflectance", reflectance);
+        Element::plugin("bsdf", "conductor").text("material", "none").with(reflectance)
+    }
+
+    pub fn metal(&mut self, metal: &Conductor) -> Element {
+        if let Reflectance::Schlick(color) = &metal.fresnel {
+            return self.schlick(color, metal);
+        }
+        let is_smooth = is_smooth(&metal.roughness);
+        let element = Element::plugin("bsdf", if is_smooth { "conductor" } else { "roughconductor" });
+        let element = match &metal.fresnel {
+            Reflectance::Index { eta, k } => element.with(Element::color("eta", *eta)).with(Element::color("k", *k)),
+            Reflectance::Constant(color) | Reflectance::Schlick(color) => {
+                let color = self.color("specular_reflectance", color);
+                element.text("material", "none").with(color)
+            }
+        };
+        if is_smooth {
+            return element;
+        }
+        self.compensation(metal.energy_compensation);
+        self.facets(element, &metal.roughness, metal.anisotropy, metal.tangent_rotation)
+    }
+
+    /// Schlick's metal is that of Disney's model.
+    fn schlick(&mut self, color: &Textured, metal: &Conductor) -> Element {
+        let color = self.color("base_color", color);
+        let element = Element::plugin("bsdf", "principled").with(color).float("metallic", 1.0);
+        if is_smooth(&metal.roughness) {
+            self.remark(
+                "a smooth metal by Schlick's approximation",
+                "a width of facets of 0.001",
+                "reflections are slightly soft",
+            );
+            return element.float("roughness", 0.0);
+        }
+        self.compensation(metal.energy_compensation);
+        if metal.anisotropy > 0.0 {
+            self.remark("anisotropy of a metal by Schlick's approximation", "none", "highlights are round");
+        }
+        let roughness = match &metal.roughness {
+            Roughness::Roughness(roughness) => self.number("roughness", roughness),
+            Roughness::Alpha(Textured::Constant(alpha)) => Element::number("roughness", alpha.sqrt()),
+            Roughness::Alpha(alpha) => Element::number("roughness", self.constant("alpha", alpha).sqrt()),
+        };
+        element.with(roughness)
+    }
+
+    pub fn glass(&mut self, glass: &Dielectric) -> Element {
+        let is_smooth = is_smooth(&glass.roughness);
+        let element = Element::plugin("bsdf", if is_smooth { "dielectric" } else { "roughdielectric" })
+            .float("int_ior", glass.ior)
+            .float("ext_ior", glass.ior_outside);
+        if glass.transmittance != [1.0; 3] {
+            self.remark("`transmittance` of the interior", "1, clear glass", "the glass has no tint");
+        }
+        if is_smooth {
+            return element;
+        }
+        self.compensation(glass.energy_compensation);
+        self.facets(element, &glass.roughness, glass.anisotropy, glass.tangent_rotation)
+    }
+
+    pub fn pane(&mut self, pane: &ThinDielectric) -> Element {
+        let element = Element::plugin("bsdf", "thindielectric").float("int_ior", pane.ior).float("ext_ior", 1.0);
+        if pane.transmittance == [1.0; 3] {
+            return element;
+        }
+        let effect = "slanted and inner ways through the pane have the tint of the straight one";
+        self.remark("`transmittance` of a pane", "`specular_transmittance`", effect);
+        element.with(Element::color("specular_transmittance", pane.transmittance))
+    }
+
+    /// Ours is that of Mitsuba with `nonlinear` if its coat is smooth. Otherwise the color of the base is another one.
+    pub fn plastic(&mut self, plastic: &Plastic) -> Element {
+        let is_smooth = is_smooth(&plastic.roughness);
+        let element = Element::plugin("bsdf", if is_smooth { "plastic" } else { "roughplastic" })
+            .float("int_ior", plastic.ior)
+            .float("ext_ior", 1.0)
+            .flag("nonlinear", true);
+        if is_smooth {
+            let albedo = self.color("diffuse_reflectance", &plastic.albedo);
+            return element.with(albedo);
+        }
+        let alpha = match &plastic.roughness {
+            Roughness::Roughness(root) => self.constant("roughness", root).powi(2),
+            Roughness::Alpha(alpha) => self.constant("alpha", alpha),
+        };
+        let albedo = match &plastic.albedo {
+            Textured::Constant(albedo) => {
+                let coat = Coat::new(plastic.ior, alpha);
+                Textured::Constant(albedo.map(|x| coat.nonlinear_of(x)))
+            }
+            textured @ Textured::Texture(_) => {
+                self.remark("a textured base under a rough coat", "the same texture", "the base is up to 2 % brighter or darker");
+                textured.clone()
+            }
+        };
+        let albedo = self.color("diffuse_reflectance", &albedo);
+        element.text("distribution", "ggx").float("alpha", alpha).with(albedo)
+    }
+
+    /// Widths of facets along u and v: α_t = α √(2/(1 + (1 − a)²)) and α_b = (1 − a) α_t.
+    fn facets(&mut self, element: Element, roughness: &Roughness, anisotropy: f64, rotation: f64) -> Element {
+        let element = element.text("distribution", "ggx");
+        if anisotropy == 0.0 {
+            let alpha = match roughness {
+                Roughness::Alpha(alpha) => self.number("alpha", alpha),
+                Roughness::Roughness(Textured::Constant(root)) => Element::number("alpha", root * root),
+                Roughness::Roughness(Textured::Texture(name)) => self.squared("alpha", name),
+            };
+            return element.with(alpha);
+        }
+        self.uses_coordinates = true;
+        let alpha = match roughness {
+            Roughness::Alpha(alpha) => self.constant("alpha", alpha),
+            Roughness::Roughness(root) => self.constant("roughness", root).powi(2),
+        };
+        let long = alpha * (2.0 / (1.0 + (1.0 - anisotropy).powi(2))).sqrt();
+        let turns = rotation / 90.0;
+        if turns != turns.round() {
+            self.remark(
+                format!("`tangent_rotation` {rotation}"),
+                "the nearest multiple of 90°",
+                "highlights have another direction",
+            );
+        }
+        let is_turned = turns.round().rem_euclid(2.0) == 1.0;
+        // Facets of width 0 are a mirror.
+        let short = ((1.0 - anisotropy) * long).max(1e-4);
+        let [u, v] = if is_turned { [short, long] } else { [long, short] };
+        element.float("alpha_u", u).float("alpha_v", v)
+    }
+
+    fn compensation(&mut self, is_on: bool) {
+        if is_on {
+            self.remark("`energy_compensation`", "single scattering", "rough metal and glass are darker");
+        }
+    }
+}
+
+fn is_smooth(roughness: &Roughness) -> bool {
+    match roughness {
+        Roughness::Roughness(Textured::Constant(root)) => root * root < f64::from(ggx::SMOOTH),
+        Roughness::Alpha(Textured::Constant(alpha)) => *alpha < f64::from(ggx::SMOOTH),
+        Roughness::Roughness(Textured::Texture(_)) | Roughness::Alpha(Textured::Texture(_)) => false,
+    }
+}
