@@ -97,8 +97,8 @@ fn lamps_with_a_plugin_come_back() {
         Directional { direction: DVec3::new(0.0, -1.0, 0.0), irradiance: [3.0, 2.0, 1.0] }.into(),
         spot.into(),
     ];
-    let mut scene = SceneDescription::default();
-    scene.lamps = cases.iter().map(|kind| LampDescription { kind: kind.clone(), ..LampDescription::default() }).collect();
+    let lamps = cases.iter().map(|kind| LampDescription { kind: kind.clone(), ..LampDescription::default() }).collect();
+    let scene = SceneDescription { lamps, ..SceneDescription::default() };
     let RoundTrip { imported, remarks, .. } = round_trip(&scene, &scenes());
     let found: Vec<LampKind> = imported.description.lamps.iter().map(|lamp| lamp.kind.clone()).collect();
     assert_eq!(found, cases);
