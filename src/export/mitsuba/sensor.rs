@@ -13,7 +13,7 @@ const NEAR: f64 = 1e-2;
 /// Adds the integrator and the sensor.
 pub fn settings(export: &mut Export) {
     let (integrator, _) = export.at("render".to_owned(), Export::integrator);
-    let (sensor, _) = export.at("camera".to_owned(), |export| export.sensor());
+    let (sensor, _) = export.at("camera".to_owned(), Export::sensor);
     export.scene.extend([integrator, sensor]);
 }
 
