@@ -8,6 +8,7 @@
 //! `NOISEFALL_HOSTILE_FIRST` is the number of the first input, to repeat one. The files of an input that fails stay where the message
 //! says; those of an input that ends the process are the last ones in that folder.
 mod bases;
+mod json;
 mod mutation;
 
 use std::{

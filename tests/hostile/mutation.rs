@@ -2,16 +2,16 @@
 use std::ops::Range;
 
 use rand::{Rng, rngs::SmallRng};
-use serde_json::{Value, json};
 
-use super::bases::{File, Structure, glb};
+use super::{
+    bases::{File, Structure, glb},
+    json,
+};
 
 /// Stands for the folder above the scenes in paths.
 pub const ROOT: &str = "@ROOT@";
 /// A mutation that repeats parts does not make a file longer than this, bytes.
 const LONGEST: usize = 1 << 18;
-/// Longer JSON is changed as text, bytes.
-const LONGEST_JSON: usize = 1 << 14;
 const NUMBERS: [&str; 14] = [
     "0",
     "-1",
@@ -74,7 +74,7 @@ const OUTSIDE: [&str; 6] =
 pub fn mutate((_, structure, bytes): &mut File, random: &mut SmallRng) -> bool {
     match structure {
         Structure::Text => text(bytes, random),
-        Structure::Json => json_text(bytes, random),
+        Structure::Json => json::mutate(bytes, random),
         Structure::Glb => container(bytes, random),
         Structure::Bytes => raw(bytes, random),
         Structure::Png => {
@@ -87,7 +87,7 @@ pub fn mutate((_, structure, bytes): &mut File, random: &mut SmallRng) -> bool {
     }
 }
 
-fn pick<T: Copy>(list: &[T], random: &mut SmallRng) -> T {
+pub fn pick<T: Copy>(list: &[T], random: &mut SmallRng) -> T {
     list[random.random_range(0..list.len())]
 }
 
@@ -155,7 +155,7 @@ fn tokens(bytes: &[u8]) -> Vec<Range<usize>> {
     tokens
 }
 
-fn text(bytes: &mut Vec<u8>, random: &mut SmallRng) -> bool {
+pub fn text(bytes: &mut Vec<u8>, random: &mut SmallRng) -> bool {
     let tokens = tokens(bytes);
     if tokens.is_empty() || random.random_bool(0.15) {
         return raw(bytes, random);
@@ -196,7 +196,7 @@ fn pick_range(list: &[Range<usize>], random: &mut SmallRng) -> Range<usize> {
 }
 
 /// A path outside of the folder with the same ending.
-fn outside(name: &str, random: &mut SmallRng) -> Option<String> {
+pub fn outside(name: &str, random: &mut SmallRng) -> Option<String> {
     let (_, ending) = name.rsplit_once('.').filter(|(start, end)| !start.is_empty() && end.chars().all(char::is_alphabetic))?;
     Some(match random.random_range(0..=OUTSIDE.len()) {
         place if place < OUTSIDE.len() => format!("{}.{ending}", OUTSIDE[place]),
@@ -220,70 +220,13 @@ fn leave_folder(bytes: &mut Vec<u8>, tokens: &[Range<usize>], random: &mut Small
     })
 }
 
-fn json_text(bytes: &mut Vec<u8>, random: &mut SmallRng) -> bool {
-    let parsed =
-        if bytes.len() <= LONGEST_JSON && random.random_bool(0.8) { serde_json::from_slice::<Value>(bytes).ok() } else { None };
-    let Some(mut value) = parsed else { return text(bytes, random) };
-    let leaves = change(&mut value, random);
-    *bytes = value.to_string().into_bytes();
-    leaves
-}
-
-/// Changes a value at a random place.
-fn change(value: &mut Value, random: &mut SmallRng) -> bool {
-    let descends = random.random_bool(0.85);
-    match value {
-        Value::Object(table) if !table.is_empty() => {
-            let key = table.keys().nth(random.random_range(0..table.len())).cloned().unwrap_or_default();
-            if descends {
-                return table.get_mut(&key).is_some_and(|part| change(part, random));
-            }
-            table.remove(&key);
-        }
-        Value::Array(list) if !list.is_empty() => {
-            let at = random.random_range(0..list.len());
-            if descends {
-                return change(&mut list[at], random);
-            }
-            let copy = list[at].clone();
-            match random.random_range(0..3) {
-                0 => drop(list.remove(at)),
-                1 => list.extend(vec![copy; 1usize << random.random_range(0..8u32)]),
-                _ => list[at] = list[random.random_range(0..list.len())].clone(),
-            }
-        }
-        Value::String(name) => {
-            let path = outside(name, random);
-            *value = json!(path.clone().unwrap_or_else(|| pick(&["", "SCALAR", "MAT4", "data:,", "\u{0}"], random).to_owned()));
-            return path.is_some();
-        }
-        _ => {
-            let numbers = [
-                json!(0),
-                json!(-1),
-                json!(1),
-                json!(2),
-                json!(4),
-                json!(7),
-                json!(5121),
-                json!(4_294_967_295u64),
-                json!(u64::MAX),
-            ];
-            let others = [json!(1e308), json!(-1e-320), json!(null), json!(0.5), json!([]), json!({}), json!(true), json!("")];
-            let all: Vec<&Value> = numbers.iter().chain(&others).collect();
-            *value = pick(&all, random).clone();
-        }
-    }
-    false
-}
-
 /// Changes the JSON or the bytes of a binary file whose chunks are whole, and otherwise any bytes.
 fn container(file: &mut Vec<u8>, random: &mut SmallRng) -> bool {
     let length = |at: usize| Some(u32::from_le_bytes(file.get(at..at + 4)?.try_into().ok()?) as usize);
     let chunk = |at: usize| file.get(at + 8..(at + 8).checked_add(length(at)?)?).map(<[u8]>::to_vec);
     let chunks = chunk(12).and_then(|json| chunk(20 + json.len()).map(|bytes| (json, bytes)));
     let Some((mut json, mut bytes)) = chunks.filter(|_| random.random_bool(0.8)) else { return raw(file, random) };
-    let leaves = if random.random_bool(0.7) { json_text(&mut json, random) } else { raw(&mut bytes, random) };
+    let leaves = if random.random_bool(0.7) { json::mutate(&mut json, random) } else { raw(&mut bytes, random) };
     *file = glb(&json, &bytes);
     leaves
 }
