@@ -119,6 +119,7 @@ fn blends_follow_the_names_of_their_parts() {
     assert_eq!([&blend.first, &blend.second], ["floor", "paper"]);
     let problem = refuses(&mut document, &Edit::remove(path("materials.paper")));
     assert_eq!(problem.message, "the material `paper` is in use");
+    assert_eq!(problem.help, "use another material for `gold` first");
 }
 
 #[test]

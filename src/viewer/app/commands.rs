@@ -185,8 +185,8 @@ impl App {
             return;
         }
         let dialogs = &mut self.dialogs;
-        if dialogs.help || dialogs.gallery.open || dialogs.wait() {
-            (dialogs.help, dialogs.gallery.open, dialogs.scene_error) = (false, false, None);
+        if dialogs.help || dialogs.gallery.open || dialogs.remarks || dialogs.wait() {
+            (dialogs.help, dialogs.gallery.open, dialogs.remarks, dialogs.scene_error) = (false, false, false, None);
         } else if dialogs.file_error.is_some() || !dialogs.notices.0.is_empty() {
             dialogs.file_error = None;
             dialogs.notices.0.clear();

@@ -16,6 +16,8 @@ use super::catalogue::in_full;
 pub struct FoundRecovery {
     pub file: PathBuf,
     pub recovery: Recovery,
+    /// The title of a scene without a file; empty if it has none.
+    pub title: String,
     /// Time since the last change.
     pub age: Duration,
     /// Whether the scene file was changed later.
@@ -69,7 +71,12 @@ fn read(file: PathBuf) -> Option<FoundRecovery> {
     let changed = |path: &Path| path.metadata().and_then(|metadata| metadata.modified()).ok();
     let written = changed(&file)?;
     let is_older = recovery.file().and_then(changed).is_some_and(|later| later > written);
-    Some(FoundRecovery { file, recovery, age: written.elapsed().unwrap_or_default(), is_older })
+    let title = if recovery.file().is_none() { title(&recovery) } else { String::new() };
+    Some(FoundRecovery { file, recovery, title, age: written.elapsed().unwrap_or_default(), is_older })
+}
+
+fn title(recovery: &Recovery) -> String {
+    recovery.open().map(|document| document.description().title.clone()).unwrap_or_default()
 }
 
 fn is_of(recovery: &Recovery, scene: Option<&Path>) -> bool {
@@ -121,5 +128,17 @@ pub mod tests {
         fs::write(&scene, document.text()).expect("it is written");
         assert!(find(&kept, Some(&scene)).is_none());
         assert_eq!(files(&kept), 0);
+    }
+
+    #[test]
+    fn a_scene_without_a_file_is_found_with_its_title() {
+        let kept = tempfile::tempdir().expect("a folder");
+        let mut document = Document::untitled(BUILT_IN).expect("it is a scene");
+        let edit = Edit::set(ParameterPath::of("title"), OwnedValue::Text("Two lamps".to_owned()));
+        document.apply(&edit).expect("a title can be anything");
+        let mut own = None;
+        assert!(keep(kept.path(), &mut own, &document));
+        drop(own);
+        assert_eq!(find(kept.path(), None).map(|found| found.title).as_deref(), Some("Two lamps"));
     }
 }

@@ -28,7 +28,7 @@ pub enum ConflictAnswer {
 pub fn show(ctx: &egui::Context, conflict: &Conflict, file: &str) -> Option<ConflictAnswer> {
     let explain = |ui: &mut Ui| {
         let end = if conflict.file.is_ok() { "" } else { " and has errors" };
-        ui.label(format!("`{file}` was changed by another program{end}. The scene in this window has unsaved changes."));
+        ui.label(format!("“{file}” was changed by another program{end}. The scene in this window has unsaved changes."));
     };
     let keep = if conflict.save.is_some() {
         "Replaces the file with the scene in this window."

@@ -3,7 +3,7 @@ use std::time::Duration;
 
 use egui::{Align2, RichText};
 
-use crate::viewer::widgets::{palette::Palette, style::over_the_picture};
+use crate::viewer::widgets::{palette::Palette, quotation::with_quotation_marks, style::over_the_picture};
 
 /// A message. Good news disappear after some seconds; errors stay until they are closed, and can be copied.
 pub struct Notice {
@@ -62,7 +62,7 @@ fn show_notice(ui: &mut egui::Ui, notice: &Notice) -> bool {
     ui.horizontal(|ui| {
         let colour = if notice.is_error { ui.bad() } else { ui.visuals().text_color() };
         ui.set_max_width(620.0);
-        ui.add(egui::Label::new(RichText::new(&notice.text).color(colour)).wrap());
+        ui.add(egui::Label::new(RichText::new(with_quotation_marks(&notice.text)).color(colour)).wrap());
         if notice.is_error && ui.small_button("Copy").on_hover_text("Copies this message.").clicked() {
             ui.ctx().copy_text(notice.text.clone());
         }

@@ -18,7 +18,7 @@ pub enum RecoveryAnswer {
 pub fn show(ctx: &egui::Context, found: &FoundRecovery) -> Option<RecoveryAnswer> {
     let explain = |ui: &mut Ui| {
         let path = found.recovery.file();
-        let scene = path.map_or_else(|| "a scene without a file".to_owned(), |path| format!("`{}`", catalogue::name("", path)));
+        let scene = name(found);
         let label = ui.label(format!("Restore unsaved changes of {scene} from {} ago?", in_words(found.age)));
         path.into_iter().for_each(|path| _ = label.clone().on_hover_text(path.display().to_string()));
         if found.is_older {
@@ -31,6 +31,15 @@ pub fn show(ctx: &egui::Context, found: &FoundRecovery) -> Option<RecoveryAnswer
         Choice::new("Later", "Asks again the next time. (Esc)", RecoveryAnswer::Later),
     ];
     ask(ctx, "Unsaved changes were found", 420.0, explain, choices, RecoveryAnswer::Later)
+}
+
+/// The name of the scene: that of its file, or else its title.
+fn name(found: &FoundRecovery) -> String {
+    match found.recovery.file() {
+        Some(path) => format!("“{}”", catalogue::name("", path)),
+        None if found.title.is_empty() => "a scene without a file".to_owned(),
+        None => format!("“{}”, a scene without a file,", found.title),
+    }
 }
 
 /// A time in its largest unit.

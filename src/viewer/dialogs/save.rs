@@ -16,7 +16,7 @@ impl SaveDialog {
     /// A dialog that suggests a path after the last file or after the scene.
     pub fn new(target: SaveTarget, scene: Option<&Path>, last_saved: Option<&Path>) -> SaveDialog {
         let path = suggested_path(target, scene, last_saved).display().to_string();
-        SaveDialog { target, field: PathField::new(path, "path/to/file") }
+        SaveDialog { target, field: PathField::of_new_file(path, "path/to/file") }
     }
 
     /// The text of the field.
@@ -59,7 +59,7 @@ pub fn show(ctx: &egui::Context, dialog: &mut Option<SaveDialog>) -> Option<Save
     if let Some(other) = other {
         return Some(SaveAnswer::Other(other));
     }
-    if let Some(path) = field.path().filter(|_| save) {
+    if let Some(path) = field.path().filter(|_| save).map(|path| target.completed(path)) {
         match target.check(&path) {
             Ok(()) => return Some(SaveAnswer::File(target, path)),
             Err(error) => field.refusal = Some(error),
@@ -110,7 +110,7 @@ fn dialog_body(ui: &mut egui::Ui, target: &mut SaveTarget, field: &mut PathField
     let target = *target;
     ui.add_space(4.0);
     let entered = field.show(ui);
-    let exists = field.path().is_some_and(|path| path.is_file());
+    let exists = field.path().is_some_and(|path| target.completed(path).is_file());
     field.remark(ui, if exists { "This file exists. Replace it?" } else { "" });
     let (mut save, mut cancel) = (entered && !exists, false);
     ui.horizontal(|ui| {

@@ -1,5 +1,5 @@
 //! Files to save, and their names.
-use std::path::{Path, PathBuf};
+use std::path::{Path, PathBuf, is_separator};
 
 use noisefall::{file, render::image_file::check_target};
 
@@ -74,6 +74,12 @@ impl SaveTarget {
         file::check(path).map_err(|error| error.to_string())
     }
 
+    /// The path with the usual extension if its name has none.
+    pub fn completed(self, path: PathBuf) -> PathBuf {
+        let is_folder = path.to_string_lossy().ends_with(is_separator);
+        if is_folder || path.extension().is_some() { path } else { path.with_extension(self.extensions()[0]) }
+    }
+
     /// Whether a file has one of the extensions.
     pub fn takes(self, path: &Path) -> bool {
         let extension = path.extension().map(|extension| extension.to_string_lossy().to_ascii_lowercase());
@@ -140,6 +146,17 @@ mod tests {
             assert!(takes(SaveTarget::Path, &format!("a.{extension}")) && PathForm::of_extension(extension).is_some());
         }
         assert!(!takes(SaveTarget::Path, "a.png") && SaveTarget::Path.check(Path::new("a.png")).is_err());
+    }
+
+    #[test]
+    fn a_name_without_extension_is_completed_and_a_folder_is_not() {
+        let completed = |target: SaveTarget, path: &str| target.completed(path.into());
+        assert_eq!(completed(SaveTarget::Scene, "a/mine"), Path::new("a/mine.toml"));
+        assert_eq!(completed(SaveTarget::Picture, "shot"), Path::new("shot.png"));
+        assert_eq!(completed(SaveTarget::Layers, "shot"), Path::new("shot.exr"));
+        assert_eq!(completed(SaveTarget::Picture, "shot.exr"), Path::new("shot.exr"));
+        assert_eq!(completed(SaveTarget::Picture, "shot.jpg"), Path::new("shot.jpg"), "a wrong one is refused");
+        assert_eq!(completed(SaveTarget::Scene, "folder/"), Path::new("folder/"));
     }
 
     #[test]

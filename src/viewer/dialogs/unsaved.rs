@@ -56,7 +56,7 @@ pub fn show(ctx: &egui::Context, scene: &str) -> Option<Answer> {
         Choice::new("Discard changes", "Continues without saving.", Answer::Discard),
         Choice::new("Cancel", "Returns to the scene. (Esc)", Answer::Cancel),
     ];
-    let explain = |ui: &mut Ui| _ = ui.label(format!("`{scene}` has changes that are not saved."));
+    let explain = |ui: &mut Ui| _ = ui.label(format!("“{scene}” has changes that are not saved."));
     ask(ctx, "Unsaved changes", 380.0, explain, choices, Answer::Cancel)
 }
 

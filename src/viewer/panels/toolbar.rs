@@ -51,8 +51,11 @@ impl Toolbar<'_> {
         const WHOLE: f32 = 860.0;
         const OF_REGION: f32 = 56.0;
         const OF_ENDS: f32 = 104.0;
+        const OF_IMAGE: f32 = 42.0;
         let needed = WHOLE + if self.has_region { OF_REGION } else { 0.0 };
-        let is_narrow = ui.available_width() < needed;
+        let room = ui.available_width() - needed;
+        let is_narrow = room < 0.0;
+        let (save_name, longer) = if room < OF_IMAGE { ("Save…", 0.0) } else { ("Save image…", OF_IMAGE) };
         let contents = |ui: &mut Ui| {
             let mut command = None;
             let mut asks = |asked: Option<Command>| command = asked.or(command);
@@ -77,9 +80,9 @@ impl Toolbar<'_> {
                 asks(menu::show(ui, self.settings).map(Command::Compare));
             }
             if !is_narrow {
-                ui.add_space((ui.available_width() - OF_ENDS).max(0.0));
+                ui.add_space((ui.available_width() - OF_ENDS - longer).max(0.0));
             }
-            let save = ui.add_enabled(self.can_save, Button::new("Save…"));
+            let save = ui.add_enabled(self.can_save, Button::new(save_name));
             let doc = "Saves the image as PNG or EXR. (Ctrl+E)";
             asks(save.on_hover_text(doc).clicked().then_some(Command::SavePicture));
             asks(ui.button("Help").on_hover_text("Lists keys and mouse actions. (F1)").clicked().then_some(Command::Help));

@@ -102,3 +102,26 @@ fn a_picture_is_replaced_only_by_the_button_that_says_so() {
     wait(&mut window, "the file", |app| app.window.last_saved.is_some());
     assert!(image_file::read(&path).is_ok());
 }
+
+#[test]
+fn a_typed_name_replaces_the_suggested_one_and_enter_saves_after_a_click_elsewhere() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = window("furnace");
+    window.state_mut().window.last_saved = Some(folder.path().join("shot.exr"));
+    window.key_press_modifiers(Modifiers::COMMAND, Key::E);
+    window.run_steps(4);
+    window.event(egui::Event::Text("mine".to_owned()));
+    window.run_steps(3);
+    let typed = window.state().dialogs.save.as_ref().map(|dialog| dialog.path().to_owned());
+    assert_eq!(typed, Some(folder.path().join("mine").display().to_string()));
+    let above = window.get_by_role(Role::TextInput).rect().center_top() - vec2(0.0, 10.0);
+    click_at(&mut window, above);
+    window.run_steps(3);
+    window.state_mut().window.last_saved = None;
+    window.key_press(Key::Enter);
+    window.run_steps(3);
+    assert!(window.state().dialogs.save.is_none());
+    let path = folder.path().join("mine.png");
+    wait(&mut window, "the file", |app| app.window.last_saved.as_ref() == Some(&path));
+    assert!(image_file::read(&path).is_ok());
+}

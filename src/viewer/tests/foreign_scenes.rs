@@ -23,7 +23,7 @@ fn remarks_are_counted_at_the_bottom_and_listed() {
     let mut window = window("furnace");
     assert!(window.query_by_label("2 remarks").is_none());
     let remark = |found: &str| Remark {
-        place: "a.xml:1:1".to_owned(),
+        place: "/a/long/way/a.xml:1:1".to_owned(),
         found: found.to_owned(),
         used: "plastic".to_owned(),
         effect: "it looks smooth".to_owned(),
@@ -33,8 +33,10 @@ fn remarks_are_counted_at_the_bottom_and_listed() {
     window.run_steps(2);
     click(&mut window, "2 remarks");
     assert!(window.state().dialogs.remarks);
-    window.get_by_label("a.xml:1:1 and another place: `hair` → plastic: it looks smooth");
-    window.get_by_label("a.xml:1:1: `cloth` → plastic: it looks smooth");
+    window.get_by_label("a.xml:1:1 and another place: “hair” → plastic: it looks smooth");
+    window.get_by_label("a.xml:1:1: “cloth” → plastic: it looks smooth");
+    press(&mut window, Key::Escape);
+    assert!(!window.state().dialogs.remarks);
 }
 
 #[test]

@@ -47,7 +47,7 @@ fn changes_of_a_lost_window_are_offered_and_restored() {
         let mut window = reopened(start, &kept_in);
         wait(&mut window, "the question", |app| app.dialogs.recovery.is_some());
         window.run_steps(2);
-        assert!(window.query_by_label_contains("Restore unsaved changes of `mine` from").is_some());
+        assert!(window.query_by_label_contains("Restore unsaved changes of “mine” from").is_some());
         press(&mut window, Key::Escape);
         assert!(window.state().dialogs.recovery.is_none() && kept(&kept_in).len() == 1);
     }

@@ -71,7 +71,7 @@ fn buttons_of_the_toolbar_do_what_they_say() {
     click(&mut window, "Fit");
     assert_eq!(window.state().window.view.zoom, None);
     wait(&mut window, "a full picture", App::can_save);
-    click(&mut window, "Save…");
+    click(&mut window, "Save image…");
     assert!(window.query_by_label("Save image").is_some());
     click(&mut window, "EXR");
     assert!(window.state().dialogs.save.as_ref().is_some_and(|dialog| dialog.path().ends_with(".exr")));

@@ -6,5 +6,6 @@ pub mod kinds;
 pub mod number;
 pub mod palette;
 pub mod path_field;
+pub mod quotation;
 pub mod style;
 pub mod typed_number;

@@ -1,11 +1,14 @@
 //! A field for a path, which the file dialog of the system can fill in.
 use std::{
-    path::PathBuf,
+    path::{PathBuf, is_separator},
     time::{Duration, Instant},
 };
 
 use crossbeam_channel::{Receiver, Sender, unbounded};
-use egui::{Key, RichText, TextEdit, Ui};
+use egui::{
+    Id, Key, RichText, TextEdit, Ui,
+    text::{CCursor, CCursorRange},
+};
 
 /// A dialog that ends sooner was never shown, because nobody can dismiss it so fast.
 const TOO_SOON: Duration = Duration::from_millis(300);
@@ -19,11 +22,29 @@ pub struct PathField {
     /// Result of the file dialog; `None` if there is no dialog.
     picked: (Sender<Option<PathBuf>>, Receiver<Option<PathBuf>>),
     focus: bool,
+    keyboard: Keyboard,
+}
+
+/// How a field takes the keyboard.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Keyboard {
+    /// At first, and after an error.
+    Once,
+    /// Whenever nothing else has it. The name of the file is still to be selected.
+    SelectsName,
+    /// Whenever nothing else has it.
+    Always,
 }
 
 impl PathField {
     pub fn new(path: String, hint: &'static str) -> PathField {
-        PathField { path, hint, refusal: None, picked: unbounded(), focus: true }
+        PathField { path, hint, refusal: None, picked: unbounded(), focus: true, keyboard: Keyboard::Once }
+    }
+
+    /// A field for a new file. The name of the file is selected, so that typing replaces it. After a click elsewhere the field has the
+    /// keyboard again, so that Enter still counts.
+    pub fn of_new_file(path: String, hint: &'static str) -> PathField {
+        PathField { keyboard: Keyboard::SelectsName, ..PathField::new(path, hint) }
     }
 
     /// The trimmed path; `None` if it is empty.
@@ -40,16 +61,31 @@ impl PathField {
             Err(_) => {}
         }
         let field = ui.add(TextEdit::singleline(&mut self.path).hint_text(self.hint).desired_width(f32::INFINITY));
-        if std::mem::take(&mut self.focus) {
+        // Before the field takes the keyboard back.
+        let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+        let is_idle = self.keyboard != Keyboard::Once && ui.memory(|memory| memory.focused().is_none());
+        if std::mem::take(&mut self.focus) || is_idle {
             field.request_focus();
+        }
+        if self.keyboard == Keyboard::SelectsName {
+            self.keyboard = Keyboard::Always;
+            self.select_name(ui, field.id);
         }
         if field.changed() {
             self.refusal = None;
         }
-        let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
         // After an error the user can continue typing.
         self.focus = entered;
         entered
+    }
+
+    /// Selects what follows the folder.
+    fn select_name(&self, ui: &Ui, id: Id) {
+        let end = self.path.chars().count();
+        let start = end - self.path.chars().rev().take_while(|letter| !is_separator(*letter)).count();
+        let mut state = TextEdit::load_state(ui.ctx(), id).unwrap_or_default();
+        state.cursor.set_char_range(Some(CCursorRange::two(CCursor::new(start), CCursor::new(end))));
+        TextEdit::store_state(ui.ctx(), id, state);
     }
 
     /// Shows the error message, or else this remark, in a line that keeps its height when it is empty.

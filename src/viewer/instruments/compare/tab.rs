@@ -24,7 +24,7 @@ pub fn show(
 ) -> Option<RenderSettings> {
     let Some(mut compare) = *comparison else {
         let row = ui.horizontal(|ui| {
-            ui.label("Choose settings to compare with: both get the same time.");
+            ui.label("Choose settings to compare with. From then on both get the same time.");
             menu::show(ui, settings)
         });
         return row.inner;
