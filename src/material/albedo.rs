@@ -8,14 +8,14 @@
 use std::sync::LazyLock;
 
 use super::{
-    albedo_table::{ACROSS, DOWN, build},
+    albedo_table::{ACROSS, DOWN, Tabulated, build},
     ggx::SMOOTH,
 };
 use crate::math::{F, Lanes, SimdLevel, U, round::floor};
 
 /// Table of 1 − E(μ, α) of perfectly reflecting microfacets, the light that single scattering loses to shadowing, with its
 /// average.
-pub static LOSS: LazyLock<Vec<[f32; 4]>> = LazyLock::new(|| build(SimdLevel::best(), None));
+pub static LOSS: LazyLock<Vec<[f32; 4]>> = LazyLock::new(|| build(SimdLevel::best(), Tabulated::Loss));
 
 /// A line of a table: α is fixed, per lane.
 #[derive(Clone, Copy)]

@@ -1,15 +1,17 @@
-//! Rough metal whose facets are wider along one tangent than along the other, such as brushed steel.
+//! Rough metal whose facets are wider along one tangent than along the other, such as brushed steel, or have the Beckmann distribution.
 //!
 //! The facets are those of `anisotropy.rs`. The light that single scattering loses is restored by a factor 1 + ℓ/(1 − ℓ) F_avg E_avg /
 //! (1 − F_avg (1 − E_avg)), where ℓ is no more than the loss towards the viewer and E_avg is that of a round distribution (E. Turquin,
 //! "Practical multiple scattering compensation for microfacet models", 2019). The factor depends on ω_o alone: with it the BSDF is not
-//! reciprocal, and some light stays lost.
+//! reciprocal, and some light stays lost. With Beckmann facets, there is single scattering only.
 use super::{
     Bsdf, BsdfSample, ChosenLobe, Lobes, Local, Materials, Shade, Stage,
     albedo::Albedo,
     anisotropy::{Widths, loss},
+    beckmann::Beckmann,
     conductor_fresnel::{ConductorFresnel, ConductorRow},
     ggx,
+    microfacets::Microfacets,
 };
 use crate::{
     math::{F, Lanes, M, One, Pick, V},
@@ -35,52 +37,64 @@ impl TangentRow {
 
     /// Anisotropy, and cosine and sine of the rotation.
     #[inline(always)]
-    fn read<L: Lanes>(l: L, materials: &Materials, at: &Local<L>) -> (F<L>, (F<L>, F<L>)) {
+    pub fn read<L: Lanes>(l: L, materials: &Materials, at: &Local<L>) -> (F<L>, (F<L>, F<L>)) {
         let [_, _, _, row] = materials.row(l, at.material, 2);
         let [anisotropy, cos, sin, _] = l.rows(&materials.further, row.bits());
         (anisotropy, (cos, sin))
     }
 }
 
-impl Shade for AnisotropicConductor {
-    type Bsdf<'a, L: Lanes> = AnisotropicConductorBsdf<'a, L>;
-    const STAGE: Stage = Stage::AnisotropicConductor;
-    const GLOSSY: bool = true;
-    const CHARTED: bool = true;
-    const LOBES: bool = false;
+/// The stage of conductors with Beckmann facets.
+pub struct BeckmannConductor;
 
-    #[inline(always)]
-    fn at<'a, L: Lanes>(l: L, materials: &'a Materials, _: Directions, at: &Local<L>) -> AnisotropicConductorBsdf<'a, L> {
-        let fresnel = ConductorFresnel::read(l, materials, at.material, at.colour);
-        let compensated = ConductorRow::read_compensated(l, materials, at.material);
-        let (anisotropy, _) = TangentRow::read(l, materials, at);
-        let widths = Widths::new(at.alpha, anisotropy);
-        AnisotropicConductorBsdf { l, loss: materials.tables.loss, fresnel, widths, compensated }
-    }
+/// Implements [`Shade`] with facets of the widths at a point.
+macro_rules! shade {
+    ($Stage:ident, $Facets:ty, $facets:expr) => {
+        impl Shade for $Stage {
+            type Bsdf<'a, L: Lanes> = AnisotropicConductorBsdf<'a, L, $Facets>;
+            const STAGE: Stage = Stage::$Stage;
+            const GLOSSY: bool = true;
+            const CHARTED: bool = true;
+            const LOBES: bool = false;
 
-    #[inline(always)]
-    fn turn<L: Lanes>(l: L, materials: &Materials, at: &Local<L>) -> (F<L>, F<L>) {
-        TangentRow::read(l, materials, at).1
-    }
+            #[inline(always)]
+            fn at<'a, L: Lanes>(l: L, materials: &'a Materials, _: Directions, at: &Local<L>) -> Self::Bsdf<'a, L> {
+                let fresnel = ConductorFresnel::read(l, materials, at.material, at.colour);
+                let compensated = ConductorRow::read_compensated(l, materials, at.material);
+                let (anisotropy, _) = TangentRow::read(l, materials, at);
+                let widths = Widths::new(at.alpha, anisotropy);
+                AnisotropicConductorBsdf { l, loss: materials.tables.loss, fresnel, widths, facets: $facets(widths), compensated }
+            }
 
-    #[inline(always)]
-    fn alpha<L: Lanes>(_: L, bsdf: &AnisotropicConductorBsdf<'_, L>) -> F<L> {
-        bsdf.widths.mean()
-    }
+            #[inline(always)]
+            fn turn<L: Lanes>(l: L, materials: &Materials, at: &Local<L>) -> (F<L>, F<L>) {
+                TangentRow::read(l, materials, at).1
+            }
+
+            #[inline(always)]
+            fn alpha<L: Lanes>(_: L, bsdf: &Self::Bsdf<'_, L>) -> F<L> {
+                bsdf.widths.mean()
+            }
+        }
+    };
 }
+shade!(AnisotropicConductor, Widths<L>, std::convert::identity);
+shade!(BeckmannConductor, Beckmann<Widths<L>>, Beckmann);
 
 /// The BSDF of an anisotropic conductor at a point.
 #[derive(Clone, Copy)]
-pub struct AnisotropicConductorBsdf<'a, L: Lanes> {
+pub struct AnisotropicConductorBsdf<'a, L: Lanes, D = Widths<L>> {
     l: L,
     /// The table of lost light.
     loss: &'a [[f32; 4]],
     fresnel: ConductorFresnel<L>,
     widths: Widths<L>,
+    /// Facets of these widths.
+    facets: D,
     compensated: M<L>,
 }
 
-impl<L: Lanes> AnisotropicConductorBsdf<'_, L> {
+impl<L: Lanes, D: Microfacets<L>> AnisotropicConductorBsdf<'_, L, D> {
     /// The factor that restores lost light.
     #[inline(always)]
     fn gain(&self, wo: V<L>) -> V<L> {
@@ -101,26 +115,26 @@ impl<L: Lanes> AnisotropicConductorBsdf<'_, L> {
     }
 }
 
-impl<L: Lanes> Bsdf<L> for AnisotropicConductorBsdf<'_, L> {
+impl<L: Lanes, D: Microfacets<L>> Bsdf<L> for AnisotropicConductorBsdf<'_, L, D> {
     #[inline(always)]
     fn eval(&self, wo: V<L>, wi: V<L>) -> (V<L>, F<L>) {
         let zero = wo.z.splat(0.0);
         let h = (wo + wi).normalized();
-        let density = ggx::reflection_pdf(self.widths, wo, h);
-        let f = self.fresnel.reflectance(wo.dot(h)) * self.gain(wo) * (density * ggx::g1(self.widths, wi));
+        let density = ggx::reflection_pdf(self.facets, wo, h);
+        let f = self.fresnel.reflectance(wo.dot(h)) * self.gain(wo) * (density * ggx::g1(self.facets, wi));
         let above = wi.z.above(0.0);
         (above.pick(f, V { x: zero, y: zero, z: zero }), above.pick(density, zero))
     }
 
     #[inline(always)]
     fn sample(&self, wo: V<L>, u: (F<L>, F<L>), _: F<L>) -> BsdfSample<L> {
-        let wi = ggx::sample_reflection(self.widths, wo, u);
+        let wi = ggx::sample_reflection(self.facets, wo, u);
         let (f, pdf) = self.eval(wo, wi);
         BsdfSample::of(wi, f, pdf)
     }
 }
 
-impl Lobes for AnisotropicConductorBsdf<'_, One> {
+impl<D: Microfacets<One>> Lobes for AnisotropicConductorBsdf<'_, One, D> {
     fn chosen(&self, _: V<One>, _: (F<One>, F<One>), _: F<One>) -> ChosenLobe {
         ChosenLobe::only("microfacet reflection")
     }

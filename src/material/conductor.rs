@@ -6,13 +6,14 @@
 //! facet each time with probability 1 − E_avg, which sums to F_avg² E_avg/(1 − F_avg(1 − E_avg)) for k ≥ 2.
 use std::f32::consts::FRAC_1_PI;
 
-pub use super::anisotropic_conductor::AnisotropicConductor;
+pub use super::anisotropic_conductor::{AnisotropicConductor, BeckmannConductor};
 use super::{
     Bsdf, BsdfSample, ChosenLobe, Compile, CompiledMaterial, Lobes, Local, MaterialCompiler, Materials, Roughness, Shade, Stage,
     albedo::Albedo,
     anisotropic_conductor::TangentRow,
     conductor_fresnel::{ConductorFresnel, ConductorRow, Reflectance},
     ggx, grazing,
+    microfacets::{DISTRIBUTION, Distribution},
 };
 use crate::{
     declare::{Declare, Kind, Parameter, Parameters, Problem, Range},
@@ -27,6 +28,8 @@ pub struct Conductor {
     pub fresnel: Reflectance,
     /// Roughness, 0 for a smooth surface.
     pub roughness: Roughness,
+    /// Distribution of the microfacets.
+    pub distribution: Distribution,
     /// How much longer the highlight is along the tangent ∂p/∂u, from 0 (round) to 1.
     pub anisotropy: f64,
     /// Rotation of the tangent about the normal, degrees.
@@ -40,6 +43,7 @@ impl Default for Conductor {
         Conductor {
             fresnel: Reflectance::default(),
             roughness: Roughness::SMOOTH,
+            distribution: Distribution::Ggx,
             anisotropy: 0.0,
             tangent_rotation: 0.0,
             energy_compensation: true,
@@ -65,7 +69,7 @@ pub(super) const TANGENT_ROTATION: Parameter =
     Parameter::new("tangent_rotation", "Rotation of the tangent about the normal.").unit("degrees");
 
 impl Kind for Conductor {
-    const KIND: Parameter = Parameter::new("conductor", "Metal, smooth or rough: GGX microfacets with Fresnel's reflectance.")
+    const KIND: Parameter = Parameter::new("conductor", "Metal, smooth or rough: microfacets with Fresnel's reflectance.")
         .aliases("metal metallic gold copper rough_conductor")
         .advice("such as conductor = { f0 = [1.0, 0.78, 0.34], roughness = 0.3 }");
 }
@@ -74,6 +78,7 @@ impl Declare for Conductor {
     fn parameters(&mut self, p: &mut dyn Parameters) {
         p.one_of(&mut self.fresnel);
         p.one_of(&mut self.roughness);
+        p.word(&DISTRIBUTION, &mut self.distribution);
         p.number(&ANISOTROPY, &mut self.anisotropy, Range::UNIT);
         p.number(&TANGENT_ROTATION, &mut self.tangent_rotation, Range::linear(-360.0, 360.0));
         p.flag(&ENERGY_COMPENSATION, &mut self.energy_compensation);
@@ -83,22 +88,24 @@ impl Declare for Conductor {
 impl Compile for Conductor {
     fn compile(&self, compiler: &mut MaterialCompiler) -> Result<CompiledMaterial, Problem> {
         let (alpha, most) = compiler.alpha(&self.roughness)?;
-        if self.energy_compensation {
+        let is_beckmann = self.distribution == Distribution::Beckmann;
+        let compensated = self.energy_compensation && !is_beckmann;
+        if compensated {
             compiler.tables.need_loss();
         }
-        let row = ConductorRow::new(&self.fresnel, self.energy_compensation)?;
+        let row = ConductorRow::new(&self.fresnel, compensated)?;
         let colour = self.fresnel.colour(compiler)?;
         let mut stage = if most < ggx::SMOOTH { Stage::Mirror } else { Stage::Conductor };
         let mut further = Vec::new();
-        if stage == Stage::Conductor && self.anisotropy > 0.0 {
-            stage = Stage::AnisotropicConductor;
+        if stage == Stage::Conductor && (is_beckmann || self.anisotropy > 0.0) {
+            stage = if is_beckmann { Stage::BeckmannConductor } else { Stage::AnisotropicConductor };
             further = TangentRow { anisotropy: self.anisotropy, rotation: self.tangent_rotation }.pack();
         }
         let plain = CompiledMaterial::new(stage, colour, compiler);
         Ok(CompiledMaterial {
             alpha,
             rows: row.pack(),
-            charted: !further.is_empty(),
+            charted: !further.is_empty() && self.anisotropy > 0.0,
             further,
             scatters_where_black: !matches!(self.fresnel, Reflectance::Constant(_)),
             albedo: self.fresnel.head_on().unwrap_or(plain.albedo),

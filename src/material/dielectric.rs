@@ -1,13 +1,15 @@
 //! The smooth dielectric: mirror reflection and refraction.
-pub use super::rough_dielectric::RoughDielectric;
 use super::{
     AlphaSource, Bsdf, BsdfSample, ChosenLobe, Compile, CompiledMaterial, Lobes, Local, MaterialCompiler, Materials, Roughness,
     Shade, Stage,
+    anisotropic_conductor::TangentRow,
     conductor::{ANISOTROPY, ENERGY_COMPENSATION, TANGENT_ROTATION},
     fresnel, ggx, ior,
+    microfacets::{DISTRIBUTION, Distribution},
     principled::Principled,
     refraction::{FAINT, uncompressed},
 };
+pub use super::{rough_dielectric::RoughDielectric, tinted_dielectric::TintedDielectric};
 use crate::{
     declare::{Declare, Kind, Parameter, Parameters, Problem, Range, Textured},
     math::{F, Lanes, M, One, Pick, U, V},
@@ -23,12 +25,18 @@ pub struct Dielectric {
     pub ior_outside: f64,
     /// Roughness of the interface, 0 for a smooth one.
     pub roughness: Roughness,
+    /// Distribution of the microfacets.
+    pub distribution: Distribution,
     /// How much longer the highlight is along the tangent ∂p/∂u, from 0 (round) to 1.
     pub anisotropy: f64,
     /// Rotation of the tangent about the normal, degrees.
     pub tangent_rotation: f64,
     /// Transmittance of a metre of the interior, per channel.
     pub transmittance: [f64; 3],
+    /// Factor of the light that the interface reflects.
+    pub specular_reflectance: Textured,
+    /// Factor of the light that passes the interface.
+    pub specular_transmittance: Textured,
     /// Whether to add the light that scatters more than once between microfacets.
     pub energy_compensation: bool,
 }
@@ -39,9 +47,12 @@ impl Default for Dielectric {
             ior: 1.5,
             ior_outside: 1.0,
             roughness: Roughness::SMOOTH,
+            distribution: Distribution::Ggx,
             anisotropy: 0.0,
             tangent_rotation: 0.0,
             transmittance: [1.0; 3],
+            specular_reflectance: Textured::grey(1.0),
+            specular_transmittance: Textured::grey(1.0),
             energy_compensation: true,
         }
     }
@@ -62,11 +73,46 @@ impl Dielectric {
         Ok(CompiledMaterial { alpha, inside, ..glass.compile(compiler)? })
     }
 
+    fn is_tinted(&self) -> bool {
+        let white = Textured::grey(1.0);
+        self.specular_reflectance != white || self.specular_transmittance != white
+    }
+
+    /// Glass with tints or Beckmann facets. The light that scatters more than once is lost if it is anisotropic or has such facets.
+    fn tinted(
+        &self,
+        compiler: &mut MaterialCompiler,
+        eta: f32,
+        (alpha, most): (AlphaSource, f32),
+    ) -> Result<CompiledMaterial, Problem> {
+        let beckmann = self.distribution == Distribution::Beckmann;
+        let compensated = self.energy_compensation && !beckmann && self.anisotropy == 0.0 && most >= ggx::SMOOTH;
+        let row = DielectricRow { beckmann, ..DielectricRow::rough(compiler, eta, (alpha, most), compensated) };
+        let colour = compiler.colour(&SPECULAR_REFLECTANCE, &self.specular_reflectance, &Range::UNIT)?;
+        let transmittance = compiler.colour(&SPECULAR_TRANSMITTANCE, &self.specular_transmittance, &Range::UNIT)?;
+        Ok(CompiledMaterial {
+            alpha,
+            colour,
+            transmittance: Some(transmittance),
+            inside: Some(self.transmittance.map(|x| x as f32)),
+            rows: row.pack(),
+            further: TangentRow { anisotropy: self.anisotropy, rotation: self.tangent_rotation }.pack(),
+            charted: self.anisotropy > 0.0,
+            ..CompiledMaterial::colourless(Stage::TintedDielectric)
+        })
+    }
+
     /// Glass of constant α, in a medium of index 1.
     pub fn new(ior: f32, alpha: f32, energy_compensation: bool) -> Dielectric {
         Dielectric { ior: f64::from(ior), roughness: Roughness::alpha(alpha), energy_compensation, ..Dielectric::default() }
     }
 }
+
+/// The tints of interfaces.
+pub(super) const SPECULAR_REFLECTANCE: Parameter =
+    Parameter::new("specular_reflectance", "Factor of the light that the surface reflects; 1 for a physical one.");
+pub(super) const SPECULAR_TRANSMITTANCE: Parameter =
+    Parameter::new("specular_transmittance", "Factor of the light that passes the surface; 1 for a physical one.");
 
 impl Kind for Dielectric {
     const KIND: Parameter =
@@ -87,11 +133,14 @@ impl Declare for Dielectric {
         p.number(&IOR, &mut self.ior, Range::INDEX);
         p.number(&IOR_OUTSIDE, &mut self.ior_outside, Range::INDEX);
         p.one_of(&mut self.roughness);
+        p.word(&DISTRIBUTION, &mut self.distribution);
         p.number(&ANISOTROPY, &mut self.anisotropy, Range::UNIT);
         p.number(&TANGENT_ROTATION, &mut self.tangent_rotation, Range::linear(-360.0, 360.0));
         let range =
             Range::UNIT.expected("every channel must lie in [0, 1]: the fraction that one metre of the interior transmits");
         p.colour(&TRANSMITTANCE, &mut self.transmittance, range);
+        p.textured(&SPECULAR_REFLECTANCE, &mut self.specular_reflectance, Range::UNIT);
+        p.textured(&SPECULAR_TRANSMITTANCE, &mut self.specular_transmittance, Range::UNIT);
         p.flag(&ENERGY_COMPENSATION, &mut self.energy_compensation);
     }
 }
@@ -100,16 +149,17 @@ impl Compile for Dielectric {
     fn compile(&self, compiler: &mut MaterialCompiler) -> Result<CompiledMaterial, Problem> {
         let (alpha, most) = compiler.alpha(&self.roughness)?;
         let eta = self.ior as f32 / self.ior_outside as f32;
+        let is_beckmann = most >= ggx::SMOOTH && self.distribution == Distribution::Beckmann;
+        if is_beckmann || self.is_tinted() {
+            return self.tinted(compiler, eta, (alpha, most));
+        }
         if most >= ggx::SMOOTH && self.anisotropy > 0.0 {
             return self.anisotropic(compiler, eta, alpha);
         }
-        let mut row = DielectricRow { eta, table: 0, varies: false };
+        let mut row = DielectricRow { eta, table: 0, varies: false, beckmann: false };
         let mut stage = Stage::Dielectric;
         if most >= ggx::SMOOTH {
-            let varies = matches!(alpha, AlphaSource::Texture { .. });
-            let compensated = self.energy_compensation && (eta - 1.0).abs() >= FAINT;
-            row.table = compiler.tables.interface(compensated.then_some((eta, if varies { None } else { Some(most) })));
-            row.varies = varies && compensated;
+            row = DielectricRow::rough(compiler, eta, (alpha, most), self.energy_compensation);
             stage = Stage::RoughDielectric;
         }
         let inside = Some(self.transmittance.map(|x| x as f32));
@@ -125,11 +175,29 @@ pub(super) struct DielectricRow {
     table: u32,
     /// The table has rows for every roughness.
     varies: bool,
+    /// Its facets have the Beckmann distribution.
+    beckmann: bool,
 }
 
 impl DielectricRow {
+    /// A rough interface with GGX facets and its table.
+    fn rough(compiler: &mut MaterialCompiler, eta: f32, (alpha, most): (AlphaSource, f32), compensated: bool) -> DielectricRow {
+        let varies = matches!(alpha, AlphaSource::Texture { .. });
+        let compensated = compensated && (eta - 1.0).abs() >= FAINT;
+        let table = compiler.tables.interface(compensated.then_some((eta, if varies { None } else { Some(most) })));
+        DielectricRow { eta, table, varies: varies && compensated, beckmann: false }
+    }
+
     fn pack(&self) -> [[f32; 4]; 3] {
-        [[self.eta, f32::from_bits(self.table), f32::from(u8::from(self.varies)), 0.0], [0.0; 4], [0.0; 4]]
+        let [varies, beckmann] = [self.varies, self.beckmann].map(|flag| f32::from(u8::from(flag)));
+        [[self.eta, f32::from_bits(self.table), varies, beckmann], [0.0; 4], [0.0; 4]]
+    }
+
+    /// Lanes with Beckmann facets.
+    #[inline(always)]
+    pub fn read_beckmann<L: Lanes>(l: L, materials: &Materials, at: &Local<L>) -> M<L> {
+        let [_, _, _, beckmann] = materials.row(l, at.material, 0);
+        beckmann.above(0.0)
     }
 
     /// The index beyond the surface over that on the side of the viewer, the table, and whether roughness varies.

@@ -7,8 +7,11 @@
 //!
 //! Single scattering uses the separable G = G1(ω_o) G1(ω_i), like Mitsuba's rough conductor, so that references agree; the
 //! height-correlated form would be slightly brighter at grazing angles.
+//!
+//! Masking, pdfs and reflections are the same for all [`Microfacets`].
 use std::f32::consts::FRAC_1_PI;
 
+use super::microfacets::Microfacets;
 use crate::math::{F, Lanes, V, trig::sin_cos_turns};
 
 /// Minimum width of a rough surface. f32 directions are too coarse for a narrower peak, so smaller widths are treated as smooth.
@@ -57,8 +60,8 @@ pub fn d<L: Lanes>(alpha: impl Width<L>, h: V<L>) -> F<L> {
 
 /// Fraction of microfacets visible from direction `w`, on either side of the surface (Walter et al. 2007, equation 34).
 #[inline(always)]
-pub fn g1<L: Lanes>(alpha: impl Width<L>, w: V<L>) -> F<L> {
-    w.z.abs() * g1_over_cos(alpha, w)
+pub fn g1<L: Lanes>(facets: impl Microfacets<L>, w: V<L>) -> F<L> {
+    w.z.abs() * facets.g1_over_cos(w)
 }
 
 /// G1(w)/|cos θ|, which stays finite at grazing angles.
@@ -87,20 +90,20 @@ pub fn sample_visible_normal<L: Lanes>(alpha: impl Width<L>, wo: V<L>, u: (F<L>,
 /// Pdf of [`sample_visible_normal`] per solid angle of `h`: G1(ω_o) max(0, ω_o·h) D(h) / cos θ_o (Heitz, "Sampling the GGX
 /// Distribution of Visible Normals", 2018, equation 3).
 #[inline(always)]
-pub fn visible_normal_pdf<L: Lanes>(alpha: impl Width<L>, wo: V<L>, h: V<L>) -> F<L> {
-    g1_over_cos(alpha, wo) * wo.dot(h).max(wo.z.splat(0.0)) * d(alpha, h)
+pub fn visible_normal_pdf<L: Lanes>(facets: impl Microfacets<L>, wo: V<L>, h: V<L>) -> F<L> {
+    facets.g1_over_cos(wo) * wo.dot(h).max(wo.z.splat(0.0)) * facets.d(h)
 }
 
 /// Samples a direction reflected by a visible microfacet; below the surface if the microfacet reflects light to other facets.
 #[inline(always)]
-pub fn sample_reflection<L: Lanes>(alpha: impl Width<L>, wo: V<L>, u: (F<L>, F<L>)) -> V<L> {
-    let h = sample_visible_normal(alpha, wo, u);
+pub fn sample_reflection<L: Lanes>(facets: impl Microfacets<L>, wo: V<L>, u: (F<L>, F<L>)) -> V<L> {
+    let h = facets.sample_visible_normal(wo, u);
     h * (2.0 * wo.dot(h)) - wo
 }
 
 /// Pdf of [`sample_reflection`] per solid angle of the reflected direction; `h` is halfway between it and `wo`. Multiplied by
 /// G1(ω_i), it is f |cos θ_i| of perfectly reflecting microfacets.
 #[inline(always)]
-pub fn reflection_pdf<L: Lanes>(alpha: impl Width<L>, wo: V<L>, h: V<L>) -> F<L> {
-    0.25 * (g1_over_cos(alpha, wo) * d(alpha, h))
+pub fn reflection_pdf<L: Lanes>(facets: impl Microfacets<L>, wo: V<L>, h: V<L>) -> F<L> {
+    0.25 * (facets.g1_over_cos(wo) * facets.d(h))
 }

@@ -3,12 +3,13 @@
 //! A kind is one file and one line of the catalogue below. The line names the description, which stands in the file with its parameters,
 //! and the stages of the kernel that shade it. A stage is compiled once a SIMD level, with nothing in it that its kind does not need.
 //!
-//! Roughness is the width α of the GGX distribution (`ggx.rs`); the tables that account for all light are in `albedo.rs` for reflection
+//! Roughness is the width α of the distribution of microfacets (`microfacets.rs`: `ggx.rs` or `beckmann.rs`); the tables that account for all light are in `albedo.rs` for reflection
 //! and in `missing_energy.rs` for interfaces.
 mod albedo;
 mod albedo_table;
 mod anisotropic_conductor;
 mod anisotropy;
+mod beckmann;
 pub mod blend;
 mod bsdf;
 mod compiled;
@@ -22,6 +23,7 @@ pub mod ggx;
 mod grazing;
 pub mod lambertian;
 mod materials;
+pub mod microfacets;
 pub mod mirror;
 mod missing_energy;
 pub mod null;
@@ -29,12 +31,14 @@ pub mod plastic;
 pub mod principled;
 mod refraction;
 pub mod rough_dielectric;
+pub mod rough_plastic;
 mod roughness;
 mod shade;
 mod tables;
 #[cfg(test)]
 mod tests;
 pub mod thin_dielectric;
+mod tinted_dielectric;
 
 pub use self::{
     bsdf::{Bsdf, BsdfSample, ChosenLobe, Lobes},
@@ -45,9 +49,11 @@ pub use self::{
     diffuse_transmission::DiffuseTransmission,
     lambertian::{Lambertian, LambertianBsdf},
     materials::{Local, Materials},
+    microfacets::Distribution,
     mirror::Mirror,
     plastic::Plastic,
     rough_dielectric::{RoughDielectric, RoughDielectricBsdf},
+    rough_plastic::RoughPlastic,
     roughness::Roughness,
     shade::Shade,
 };
@@ -91,9 +97,10 @@ macro_rules! materials {
 materials! {
     lambertian::Lambertian => Plain Diffuse,
     mirror::Mirror => Mirror,
-    conductor::Conductor => Conductor AnisotropicConductor,
-    dielectric::Dielectric => Dielectric RoughDielectric,
+    conductor::Conductor => Conductor AnisotropicConductor BeckmannConductor,
+    dielectric::Dielectric => Dielectric RoughDielectric TintedDielectric,
     plastic::Plastic => Plastic,
+    rough_plastic::RoughPlastic => RoughPlastic,
     thin_dielectric::ThinDielectric => ThinDielectric,
     diffuse_transmission::DiffuseTransmission => DiffuseTransmission,
     principled::Principled => Principled PrincipledGlass,

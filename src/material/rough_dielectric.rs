@@ -6,6 +6,7 @@ use super::{
     Bsdf, BsdfSample, ChosenLobe, Lobes, Local, Materials, Shade, Stage,
     dielectric::{DielectricBsdf, DielectricRow},
     fresnel, ggx,
+    microfacets::Microfacets,
     missing_energy::{LossTable, MissingEnergy},
     refraction::{FAINT, uncompressed},
 };
@@ -35,9 +36,9 @@ impl Shade for RoughDielectric {
 
 /// The rough interface between two transparent media; radiance that passes is scaled by 1/η² as in [`DielectricBsdf`].
 #[derive(Clone, Copy)]
-pub struct RoughDielectricBsdf<'a, L: Lanes> {
+pub struct RoughDielectricBsdf<'a, L: Lanes, D = F<L>> {
     eta: F<L>,
-    alpha: F<L>,
+    facets: D,
     missing: Option<MissingEnergy<'a, L>>,
 }
 
@@ -60,7 +61,15 @@ impl<'a, L: Lanes> RoughDielectricBsdf<'a, L> {
             Some(table) => Some(MissingEnergy::new(l, alpha, outside, table)),
             None => None,
         };
-        RoughDielectricBsdf { eta, alpha, missing }
+        RoughDielectricBsdf::of(eta, alpha, missing)
+    }
+}
+
+impl<'a, L: Lanes, D: Microfacets<L>> RoughDielectricBsdf<'a, L, D> {
+    /// The interface of any facets; `missing` is their lost light.
+    #[inline(always)]
+    pub(super) fn of(eta: F<L>, facets: D, missing: Option<MissingEnergy<'a, L>>) -> Self {
+        RoughDielectricBsdf { eta, facets, missing }
     }
 
     /// The relative index: that beyond the surface over that on the side of the viewer.
@@ -101,16 +110,16 @@ impl<'a, L: Lanes> RoughDielectricBsdf<'a, L> {
         let (seen, eta) = (swap.pick(opposite, cos), swap.pick(1.0 / self.eta, self.eta));
         let (reflectance, _) = fresnel::dielectric(seen.max(cos.splat(0.0)), eta);
         let chosen = through.pick(1.0 - reflectance, reflectance);
-        let pdf = ggx::visible_normal_pdf(self.alpha, wo, m) * chosen * (index * index * opposite / square);
+        let pdf = ggx::visible_normal_pdf(self.facets, wo, m) * chosen * (index * index * opposite / square);
         let exists = cos.above(0.0) & opposite.above(0.0) & square.above(0.0);
         let pdf = exists.pick(pdf, cos.splat(0.0));
-        (pdf * ggx::g1(self.alpha, wi), pdf)
+        (pdf * ggx::g1(self.facets, wi), pdf)
     }
 
     /// Samples a direction via a visible facet, and tells whether it is on the correct side.
     #[inline(always)]
     fn sample_single(&self, wo: V<L>, u: (F<L>, F<L>), lobe: F<L>) -> (V<L>, M<L>) {
-        let m = ggx::sample_visible_normal(self.alpha, wo, u);
+        let m = self.facets.sample_visible_normal(wo, u);
         let cos = wo.dot(m).max(wo.z.splat(0.0));
         let (reflectance, cos_t) = fresnel::dielectric(cos, self.eta);
         let reflects = lobe.lt(reflectance);
@@ -134,7 +143,7 @@ impl<'a, L: Lanes> RoughDielectricBsdf<'a, L> {
     }
 }
 
-impl<L: Lanes> Bsdf<L> for RoughDielectricBsdf<'_, L> {
+impl<L: Lanes, D: Microfacets<L>> Bsdf<L> for RoughDielectricBsdf<'_, L, D> {
     #[inline(always)]
     fn eval(&self, wo: V<L>, wi: V<L>) -> (V<L>, F<L>) {
         let (mut f, mut pdf) = self.single(wo, wi);
@@ -166,7 +175,7 @@ impl<L: Lanes> Bsdf<L> for RoughDielectricBsdf<'_, L> {
     }
 }
 
-impl Lobes for RoughDielectricBsdf<'_, One> {
+impl<D: Microfacets<One>> Lobes for RoughDielectricBsdf<'_, One, D> {
     fn chosen(&self, wo: V<One>, u: (F<One>, F<One>), lobe: F<One>) -> ChosenLobe {
         if self.faint().0 {
             return DielectricBsdf { eta: self.eta }.chosen(wo, u, lobe);
@@ -175,7 +184,7 @@ impl Lobes for RoughDielectricBsdf<'_, One> {
         if lobe.0 < lost {
             return ChosenLobe { name: "further scattering between microfacets", probability: lost };
         }
-        let m = ggx::sample_visible_normal(self.alpha, wo, u);
+        let m = self.facets.sample_visible_normal(wo, u);
         let (reflectance, _) = fresnel::dielectric(wo.dot(m).max(F(0.0)), self.eta);
         let rest = F((lobe.0 - lost) / (1.0 - lost));
         let chosen = ChosenLobe::of_two(["microfacet reflection", "microfacet refraction"], reflectance.0, rest);

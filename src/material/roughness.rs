@@ -13,7 +13,7 @@ pub enum Roughness {
 const ROUGHNESS: Parameter =
     Parameter::new("roughness", "Square root of α; 0 is smooth.").symbol("√α").aliases("rough glossiness");
 const ALPHA: Parameter =
-    Parameter::new("alpha", "Width of the GGX distribution of microfacet slopes; 0 is smooth.").symbol("α").aliases("a");
+    Parameter::new("alpha", "Width of the distribution of microfacet slopes; 0 is smooth.").symbol("α").aliases("a");
 
 impl Roughness {
     /// A smooth surface.

@@ -4,7 +4,13 @@ use std::{
     time::{Duration, Instant},
 };
 
-use super::{albedo, albedo_table, dielectric_albedo, ggx::SMOOTH, missing_energy};
+use super::{
+    Distribution, albedo,
+    albedo_table::{self, Tabulated},
+    dielectric_albedo,
+    ggx::SMOOTH,
+    missing_energy,
+};
 use crate::{declare::Precision, math::SimdLevel};
 
 /// Index of refraction and roughness of an interface with energy compensation; the roughness is `None` if it varies.
@@ -13,8 +19,8 @@ pub type Interface = (f32, Option<f32>);
 /// Parameters of a table.
 #[derive(Clone, Copy, PartialEq)]
 enum TableOf {
-    /// A coat with this index of refraction.
-    Coat(f32),
+    /// A function of a coat.
+    Coat(Tabulated),
     /// An interface, or none.
     Interface(Option<Interface>),
 }
@@ -64,7 +70,12 @@ impl Tables {
 
     /// The first row of the table of a coat.
     pub fn coat(&mut self, ior: f32) -> u32 {
-        self.table(TableOf::Coat(ior))
+        self.table(TableOf::Coat(Tabulated::Coat(ior)))
+    }
+
+    /// The first row of the table of light that is refracted once by a coat.
+    pub fn refraction(&mut self, ior: f32, distribution: Distribution) -> u32 {
+        self.table(TableOf::Coat(Tabulated::Refraction(ior, distribution)))
     }
 
     /// The first row of the table of an interface; without an interface, that of no compensation.
@@ -101,7 +112,7 @@ impl TableOf {
 
     fn rows(self, precision: Precision) -> Vec<[f32; 4]> {
         match self {
-            TableOf::Coat(ior) => albedo_table::build(SimdLevel::best(), Some(ior)),
+            TableOf::Coat(of) => albedo_table::build(SimdLevel::best(), of),
             TableOf::Interface(None) => missing_energy::nothing_missing(),
             TableOf::Interface(Some((eta, Some(alpha)))) => {
                 dielectric_albedo::uniform_rows(eta, alpha.clamp(SMOOTH, 1.0), precision)

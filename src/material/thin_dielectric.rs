@@ -9,8 +9,9 @@
 //! in the direction in which it came, so that radiance is not scaled. This is the limit of a slab of [`super::Dielectric`] whose
 //! thickness goes to 0 while t stays.
 use super::{
-    Bsdf, BsdfSample, ChosenLobe, Compile, CompiledMaterial, Lobes, Local, MaterialCompiler, Materials, Shade, Stage, fresnel,
-    ior,
+    Bsdf, BsdfSample, ChosenLobe, Compile, CompiledMaterial, Lobes, Local, MaterialCompiler, Materials, Shade, Stage,
+    dielectric::{SPECULAR_REFLECTANCE, SPECULAR_TRANSMITTANCE},
+    fresnel, ior,
 };
 use crate::{
     declare::{Declare, Kind, Parameter, Parameters, Problem, Range},
@@ -25,11 +26,15 @@ pub struct ThinDielectric {
     pub ior: f64,
     /// Transmittance of a crossing at normal incidence, without reflections at the faces.
     pub transmittance: [f64; 3],
+    /// Factor of the light that the pane reflects.
+    pub specular_reflectance: [f64; 3],
+    /// Factor of the light that passes the pane.
+    pub specular_transmittance: [f64; 3],
 }
 
 impl Default for ThinDielectric {
     fn default() -> Self {
-        ThinDielectric { ior: 1.5, transmittance: [1.0; 3] }
+        ThinDielectric { ior: 1.5, transmittance: [1.0; 3], specular_reflectance: [1.0; 3], specular_transmittance: [1.0; 3] }
     }
 }
 
@@ -49,13 +54,16 @@ impl Declare for ThinDielectric {
         p.number(&IOR, &mut self.ior, Range::INDEX);
         let range = Range::UNIT.expected("every channel must lie in [0, 1]: the fraction that one crossing transmits");
         p.colour(&TRANSMITTANCE, &mut self.transmittance, range);
+        p.colour(&SPECULAR_REFLECTANCE, &mut self.specular_reflectance, Range::UNIT);
+        p.colour(&SPECULAR_TRANSMITTANCE, &mut self.specular_transmittance, Range::UNIT);
     }
 }
 
 impl Compile for ThinDielectric {
     fn compile(&self, _: &mut MaterialCompiler) -> Result<CompiledMaterial, Problem> {
         let octaves = self.transmittance.map(|t| (-t.log2()).min(1e30) as f32);
-        let rows = PaneRow { eta: self.ior as f32, octaves }.pack();
+        let tints = [self.specular_reflectance, self.specular_transmittance].map(|tint| tint.map(|x| x as f32));
+        let rows = PaneRow { eta: self.ior as f32, octaves, tints }.pack();
         Ok(CompiledMaterial { rows, ..CompiledMaterial::colourless(Stage::ThinDielectric) })
     }
 }
@@ -65,12 +73,23 @@ struct PaneRow {
     eta: f32,
     /// −log₂ t.
     octaves: [f32; 3],
+    /// Factors of reflected and of transmitted light.
+    tints: [[f32; 3]; 2],
 }
 
 impl PaneRow {
     fn pack(&self) -> [[f32; 4]; 3] {
         let [r, g, b] = self.octaves;
-        [[r, g, b, self.eta], [0.0; 4], [0.0; 4]]
+        let [[rr, rg, rb], [tr, tg, tb]] = self.tints;
+        [[r, g, b, self.eta], [rr, rg, rb, 0.0], [tr, tg, tb, 0.0]]
+    }
+
+    /// Factors of reflected and of transmitted light.
+    #[inline(always)]
+    fn read_tints<L: Lanes>(l: L, materials: &Materials, material: U<L>) -> (V<L>, V<L>) {
+        let [rr, rg, rb, _] = materials.row(l, material, 1);
+        let [tr, tg, tb, _] = materials.row(l, material, 2);
+        (V { x: rr, y: rg, z: rb }, V { x: tr, y: tg, z: tb })
     }
 
     /// η and −log₂ t.
@@ -91,7 +110,7 @@ impl Shade for ThinDielectric {
     #[inline(always)]
     fn at<L: Lanes>(l: L, materials: &Materials, _: Directions, at: &Local<L>) -> ThinDielectricBsdf<L> {
         let (eta, octaves) = PaneRow::read(l, materials, at.material);
-        ThinDielectricBsdf { eta, octaves }
+        ThinDielectricBsdf { eta, octaves, tints: PaneRow::read_tints(l, materials, at.material) }
     }
 }
 
@@ -100,6 +119,8 @@ impl Shade for ThinDielectric {
 pub struct ThinDielectricBsdf<L: Lanes> {
     eta: F<L>,
     octaves: V<L>,
+    /// Factors of reflected and of transmitted light.
+    tints: (V<L>, V<L>),
 }
 
 impl<L: Lanes> ThinDielectricBsdf<L> {
@@ -117,7 +138,7 @@ impl<L: Lanes> ThinDielectricBsdf<L> {
             (r + r * crossing * passed, passed)
         };
         let [x, y, z] = [channel(self.octaves.x), channel(self.octaves.y), channel(self.octaves.z)];
-        (V { x: x.0, y: y.0, z: z.0 }, V { x: x.1, y: y.1, z: z.1 })
+        (self.tints.0 * V { x: x.0, y: y.0, z: z.0 }, self.tints.1 * V { x: x.1, y: y.1, z: z.1 })
     }
 
     /// The probability of choosing reflection: its fraction of the light in the channel with the most reflected or transmitted
@@ -155,7 +176,7 @@ mod tests {
     use crate::math::M;
 
     fn pane(ior: f64, transmittance: f64) -> Materials {
-        Materials::new(&[ThinDielectric { ior, transmittance: [transmittance, 1.0, 0.0] }.into()])
+        Materials::new(&[ThinDielectric { ior, transmittance: [transmittance, 1.0, 0.0], ..ThinDielectric::default() }.into()])
     }
 
     fn shares(materials: &Materials, cos: f64) -> ([f32; 3], [f32; 3]) {
@@ -175,6 +196,16 @@ mod tests {
                 assert!((reflected[2] - once).abs() < 1e-6 && passed[2] < 1e-6, "{ior} {cos}");
             }
         }
+    }
+
+    #[test]
+    fn tints_are_factors_of_what_is_reflected_and_what_passes() {
+        let clear = ThinDielectric::default();
+        let tinted =
+            ThinDielectric { specular_reflectance: [0.5, 0.2, 0.0], specular_transmittance: [0.3, 0.8, 1.0], ..clear.clone() };
+        let [clear, tinted] = [clear, tinted].map(|pane| shares(&Materials::new(&[pane.into()]), 0.4));
+        let scaled = |light: [f32; 3], by: [f32; 3]| [0, 1, 2].map(|c| light[c] * by[c]);
+        assert_eq!(tinted, (scaled(clear.0, [0.5, 0.2, 0.0]), scaled(clear.1, [0.3, 0.8, 1.0])));
     }
 
     #[test]

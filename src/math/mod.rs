@@ -1,5 +1,6 @@
 //! Numbers, vectors and frames in lanes, and colour: mathematics without light transport.
 pub mod colour;
+pub mod erf;
 pub mod exp;
 pub mod frame;
 pub mod lanes;

@@ -86,6 +86,7 @@ impl Export<'_> {
             Material::Dielectric(glass) => Base::transparent(self.glass(glass)),
             Material::ThinDielectric(pane) => Base::transparent(self.pane(pane)),
             Material::Plastic(plastic) => Base::opaque(self.plastic(plastic)),
+            Material::RoughPlastic(plastic) => Base::opaque(self.rough_plastic(plastic)),
             Material::DiffuseTransmission(sheet) => Base::transparent(self.sheet(sheet)),
             Material::Principled(principled) => self.principled(principled),
             Material::Blend(blend) => Base::transparent(self.blend(blend, one_sided, depth)),

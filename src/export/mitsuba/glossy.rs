@@ -2,8 +2,10 @@
 use super::{context::Export, markup::Element};
 use crate::{
     declare::Textured,
-    import::mitsuba::coat::Coat,
-    material::{Conductor, Dielectric, Plastic, Reflectance, Roughness, ggx, thin_dielectric::ThinDielectric},
+    import::mitsuba::coat,
+    material::{
+        Conductor, Dielectric, Distribution, Plastic, Reflectance, RoughPlastic, Roughness, ggx, thin_dielectric::ThinDielectric,
+    },
 };
 
 impl Export<'_> {
@@ -28,7 +30,8 @@ impl Export<'_> {
         if is_smooth {
             return element;
         }
-        self.compensation(metal.energy_compensation);
+        self.compensation(metal.energy_compensation, metal.distribution);
+        let element = element.text("distribution", word(metal.distribution));
         self.facets(element, &metal.roughness, metal.anisotropy, metal.tangent_rotation)
     }
 
@@ -44,7 +47,10 @@ impl Export<'_> {
             );
             return element.float("roughness", 0.0);
         }
-        self.compensation(metal.energy_compensation);
+        self.compensation(metal.energy_compensation, metal.distribution);
+        if metal.distribution == Distribution::Beckmann {
+            self.remark("Beckmann facets of a metal by Schlick's approximation", "GGX facets", "highlights have a wide glow");
+        }
         if metal.anisotropy > 0.0 {
             self.remark("anisotropy of a metal by Schlick's approximation", "none", "highlights are round");
         }
@@ -64,21 +70,34 @@ impl Export<'_> {
         if glass.transmittance != [1.0; 3] {
             self.remark("`transmittance` of the interior", "1, clear glass", "the glass has no tint");
         }
+        let element = self.tint(element, "specular_reflectance", &glass.specular_reflectance);
+        let element = self.tint(element, "specular_transmittance", &glass.specular_transmittance);
         if is_smooth {
             return element;
         }
-        self.compensation(glass.energy_compensation);
+        self.compensation(glass.energy_compensation, glass.distribution);
+        let element = element.text("distribution", word(glass.distribution));
         self.facets(element, &glass.roughness, glass.anisotropy, glass.tangent_rotation)
     }
 
     pub fn pane(&mut self, pane: &ThinDielectric) -> Element {
         let element = Element::plugin("bsdf", "thindielectric").float("int_ior", pane.ior).float("ext_ior", 1.0);
-        if pane.transmittance == [1.0; 3] {
+        let element = self.tint(element, "specular_reflectance", &Textured::Constant(pane.specular_reflectance));
+        if pane.transmittance != [1.0; 3] {
+            let effect = "slanted and inner ways through the pane have the tint of the straight one";
+            self.remark("`transmittance` of a pane", "`specular_transmittance`", effect);
+        }
+        let passed = [0, 1, 2].map(|i| pane.transmittance[i] * pane.specular_transmittance[i]);
+        self.tint(element, "specular_transmittance", &Textured::Constant(passed))
+    }
+
+    /// A factor of reflected or transmitted light, left out if it is 1.
+    fn tint(&mut self, element: Element, name: &str, tint: &Textured) -> Element {
+        if *tint == Textured::grey(1.0) {
             return element;
         }
-        let effect = "slanted and inner ways through the pane have the tint of the straight one";
-        self.remark("`transmittance` of a pane", "`specular_transmittance`", effect);
-        element.with(Element::color("specular_transmittance", pane.transmittance))
+        let tint = self.color(name, tint);
+        element.with(tint)
     }
 
     /// Ours is that of Mitsuba with `nonlinear` if its coat is smooth. Otherwise the color of the base is another one.
@@ -96,11 +115,9 @@ impl Export<'_> {
             Roughness::Roughness(root) => self.constant("roughness", root).powi(2),
             Roughness::Alpha(alpha) => self.constant("alpha", alpha),
         };
+        self.remark("a plastic with a rough coat", "`roughplastic`", "light that scatters more than once in the coat is lost");
         let albedo = match &plastic.albedo {
-            Textured::Constant(albedo) => {
-                let coat = Coat::new(plastic.ior, alpha);
-                Textured::Constant(albedo.map(|x| coat.nonlinear_of(x)))
-            }
+            Textured::Constant(albedo) => Textured::Constant(albedo.map(|x| nonlinear(x, plastic.ior, alpha))),
             textured @ Textured::Texture(_) => {
                 self.remark("a textured base under a rough coat", "the same texture", "the base is up to 2 % brighter or darker");
                 textured.clone()
@@ -110,9 +127,35 @@ impl Export<'_> {
         element.text("distribution", "ggx").float("alpha", alpha).with(albedo)
     }
 
+    /// Mitsuba's own; it finds the internal reflectance by itself.
+    pub fn rough_plastic(&mut self, plastic: &RoughPlastic) -> Element {
+        let is_smooth = is_smooth(&plastic.roughness);
+        let element = Element::plugin("bsdf", if is_smooth { "plastic" } else { "roughplastic" })
+            .float("int_ior", plastic.ior)
+            .float("ext_ior", 1.0)
+            .flag("nonlinear", plastic.nonlinear);
+        let element = self.tint(element, "specular_reflectance", &Textured::Constant(plastic.specular_reflectance));
+        let albedo = self.color("diffuse_reflectance", &plastic.albedo);
+        let element = element.with(albedo);
+        let (element, expected) = if is_smooth {
+            (element, 1.0)
+        } else {
+            let alpha = match &plastic.roughness {
+                Roughness::Roughness(root) => self.constant("roughness", root).powi(2),
+                Roughness::Alpha(alpha) => self.constant("alpha", alpha),
+            };
+            let expected = coat::internal_reflectance(plastic.ior, alpha, plastic.distribution);
+            (element.text("distribution", word(plastic.distribution)).float("alpha", alpha), expected)
+        };
+        if (plastic.internal_reflectance - expected).abs() > 0.01 {
+            let found = format!("`internal_reflectance` {}", plastic.internal_reflectance);
+            self.remark(found, format!("{expected:.3}"), "the base has another brightness");
+        }
+        element
+    }
+
     /// Widths of facets along u and v: α_t = α √(2/(1 + (1 − a)²)) and α_b = (1 − a) α_t.
     fn facets(&mut self, element: Element, roughness: &Roughness, anisotropy: f64, rotation: f64) -> Element {
-        let element = element.text("distribution", "ggx");
         if anisotropy == 0.0 {
             let alpha = match roughness {
                 Roughness::Alpha(alpha) => self.number("alpha", alpha),
@@ -142,11 +185,30 @@ impl Export<'_> {
         element.float("alpha_u", u).float("alpha_v", v)
     }
 
-    fn compensation(&mut self, is_on: bool) {
-        if is_on {
+    fn compensation(&mut self, is_on: bool, distribution: Distribution) {
+        if is_on && distribution == Distribution::Ggx {
             self.remark("`energy_compensation`", "single scattering", "rough metal and glass are darker");
         }
     }
+}
+
+/// Mitsuba's name of a distribution.
+fn word(distribution: Distribution) -> &'static str {
+    match distribution {
+        Distribution::Ggx => "ggx",
+        Distribution::Beckmann => "beckmann",
+    }
+}
+
+/// The color of a nonlinear `roughplastic` whose base reflects as much as ours of an albedo ρ.
+///
+/// Ours is f = b T T/π with b = ρ/(η² (1 − ρ) + ρ T̄), Mitsuba's has b = ρ'/(η² (1 − ρ' R)).
+fn nonlinear(albedo: f64, eta: f64, alpha: f64) -> f64 {
+    let square = eta * eta;
+    let passes = 1.0 - coat::mean_reflectance(eta, alpha, Distribution::Ggx);
+    let returns = coat::internal_reflectance(eta, alpha, Distribution::Ggx);
+    let base = square * albedo / (square * (1.0 - albedo) + albedo * passes);
+    (base / (1.0 + base * returns)).clamp(0.0, 1.0)
 }
 
 fn is_smooth(roughness: &Roughness) -> bool {

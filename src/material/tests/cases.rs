@@ -1,12 +1,15 @@
 //! The table of cases.
 use super::super::{
-    Bsdf, BsdfSample, Conductor, Lambertian, LambertianBsdf, Local, Material, Materials, Mirror, Plastic, Reflectance, Shade,
-    Stage,
+    Bsdf, BsdfSample, Conductor, Dielectric, Distribution, Lambertian, LambertianBsdf, Local, Material, Materials, Mirror,
+    Plastic, Reflectance, RoughPlastic, Roughness, Shade, Stage,
     anisotropic_conductor::AnisotropicConductorBsdf,
-    conductor::{AnisotropicConductor, ConductorBsdf},
+    anisotropy::Widths,
+    beckmann::Beckmann,
+    conductor::{AnisotropicConductor, BeckmannConductor, ConductorBsdf},
     mirror::MirrorBsdf,
     plastic::PlasticBsdf,
     principled::{Principled, PrincipledBsdf},
+    rough_plastic::RoughPlasticBsdf,
 };
 use crate::{
     declare::Textured,
@@ -58,6 +61,8 @@ impl Case {
             Stage::Conductor => Any::Conductor(Conductor::at(One, all, directions, &at)),
             Stage::Plastic => Any::Plastic(Plastic::at(One, all, directions, &at)),
             Stage::Principled => Any::Principled(Principled::at(One, all, directions, &at)),
+            Stage::BeckmannConductor => Any::BeckmannConductor(BeckmannConductor::at(One, all, directions, &at)),
+            Stage::RoughPlastic => Any::RoughPlastic(RoughPlastic::at(One, all, directions, &at)),
             Stage::AnisotropicConductor => Any::AnisotropicConductor(AnisotropicConductor::at(One, all, directions, &at)),
             _ => unreachable!("tested with the dielectrics"),
         }
@@ -92,7 +97,44 @@ pub fn cases() -> Vec<Case> {
             all.push(Case { reciprocal: false, ..Case::new(material, alpha, cosine, false) });
         }
     }
+    all.extend(beckmann_metals());
+    all.extend(rough_plastics());
     all.extend(principled());
+    all
+}
+
+fn beckmann_metals() -> impl Iterator<Item = Case> {
+    [0.001, 0.05, 0.3, 1.0].into_iter().flat_map(|alpha| [0.0, 0.6].map(|anisotropy| (alpha, anisotropy))).map(
+        |(alpha, anisotropy)| {
+            let metal = Conductor::new(fresnels()[1].clone(), alpha, true);
+            let metal = Conductor { distribution: Distribution::Beckmann, anisotropy, ..metal };
+            Case::new(metal, alpha, Directions::Cosine, false)
+        },
+    )
+}
+
+fn rough_plastics() -> Vec<Case> {
+    let mut all = Vec::new();
+    for alpha in [0.0, 0.01, 0.1, 0.3, 1.0] {
+        for distribution in [Distribution::Ggx, Distribution::Beckmann] {
+            let white = RoughPlastic {
+                albedo: Textured::grey(1.0),
+                roughness: Roughness::alpha(alpha),
+                distribution,
+                ..RoughPlastic::default()
+            };
+            let paint = RoughPlastic {
+                albedo: [0.8, 0.3, 0.0].into(),
+                ior: 1.3,
+                specular_reflectance: [1.0, 0.5, 0.0],
+                internal_reflectance: 0.3,
+                nonlinear: true,
+                ..white.clone()
+            };
+            all.push(Case::new(white, alpha, Directions::Cosine, alpha == 0.0));
+            all.push(Case::new(paint, alpha, Directions::Cosine, false));
+        }
+    }
     all
 }
 
@@ -141,6 +183,8 @@ pub enum Any<'a> {
     Plastic(PlasticBsdf<'a, One>),
     Principled(PrincipledBsdf<'a, One, false>),
     AnisotropicConductor(AnisotropicConductorBsdf<'a, One>),
+    BeckmannConductor(AnisotropicConductorBsdf<'a, One, Beckmann<Widths<One>>>),
+    RoughPlastic(RoughPlasticBsdf<'a, One>),
 }
 
 impl Bsdf<One> for Any<'_> {
@@ -152,6 +196,8 @@ impl Bsdf<One> for Any<'_> {
             Any::Plastic(bsdf) => bsdf.eval(wo, wi),
             Any::Principled(bsdf) => bsdf.eval(wo, wi),
             Any::AnisotropicConductor(bsdf) => bsdf.eval(wo, wi),
+            Any::BeckmannConductor(bsdf) => bsdf.eval(wo, wi),
+            Any::RoughPlastic(bsdf) => bsdf.eval(wo, wi),
         }
     }
 
@@ -163,6 +209,8 @@ impl Bsdf<One> for Any<'_> {
             Any::Plastic(bsdf) => bsdf.sample(wo, u, lobe),
             Any::Principled(bsdf) => bsdf.sample(wo, u, lobe),
             Any::AnisotropicConductor(bsdf) => bsdf.sample(wo, u, lobe),
+            Any::BeckmannConductor(bsdf) => bsdf.sample(wo, u, lobe),
+            Any::RoughPlastic(bsdf) => bsdf.sample(wo, u, lobe),
         }
     }
 }
@@ -182,6 +230,39 @@ pub fn mixed() -> [Vec<Material>; 2] {
     [
         vec![conductor(first.clone(), true), conductor(second.clone(), false), conductor(gold(), true), conductor(second, true)],
         vec![plastic(1.5, 0.0), plastic(1.5, 0.2), plastic(2.0, 0.2), plastic(1.3, 0.0)],
+    ]
+}
+
+/// Metals with Beckmann facets, plastics of single scattering and tinted glass, four of each.
+pub fn mixed_facets() -> [Vec<Material>; 3] {
+    let beckmann = Distribution::Beckmann;
+    let metal = |fresnel, anisotropy| Conductor { distribution: beckmann, anisotropy, ..Conductor::new(fresnel, 0.2, true) };
+    let plastic =
+        |distribution, alpha| RoughPlastic { distribution, roughness: Roughness::alpha(alpha), ..RoughPlastic::default() };
+    let glass = |distribution, alpha| Dielectric {
+        distribution,
+        specular_reflectance: [0.9, 0.5, 0.2].into(),
+        ..Dielectric::new(1.5, alpha, false)
+    };
+    let [first, second, _] = fresnels();
+    [
+        [metal(first.clone(), 0.0), metal(second, 0.5), metal(gold(), 0.0), metal(first, 0.8)].map(Material::from).into(),
+        [
+            plastic(beckmann, 0.2),
+            plastic(Distribution::Ggx, 0.2),
+            plastic(beckmann, 0.0),
+            RoughPlastic { nonlinear: true, ..plastic(beckmann, 0.5) },
+        ]
+        .map(Material::from)
+        .into(),
+        [
+            glass(beckmann, 0.2),
+            glass(Distribution::Ggx, 0.2),
+            glass(Distribution::Ggx, 0.0),
+            Dielectric { anisotropy: 0.5, ..glass(beckmann, 0.3) },
+        ]
+        .map(Material::from)
+        .into(),
     ]
 }
 
@@ -206,7 +287,9 @@ pub fn mixed_principled() -> [Vec<Material>; 2] {
 /// The colour that a texture may replace; white for types without.
 fn colour(material: &Material) -> [f32; 3] {
     let source = match material {
-        Material::Lambertian(Lambertian { albedo }) | Material::Plastic(Plastic { albedo, .. }) => albedo,
+        Material::Lambertian(Lambertian { albedo })
+        | Material::Plastic(Plastic { albedo, .. })
+        | Material::RoughPlastic(RoughPlastic { albedo, .. }) => albedo,
         Material::Mirror(Mirror { reflectance }) => reflectance,
         Material::Conductor(Conductor { fresnel: Reflectance::Constant(f0) | Reflectance::Schlick(f0), .. }) => f0,
         Material::Principled(Principled { base_color, .. }) => base_color,

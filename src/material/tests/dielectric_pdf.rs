@@ -3,6 +3,7 @@ use rand::{Rng, SeedableRng, rngs::SmallRng};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use super::super::{
+    beckmann::Beckmann,
     bsdf::Bsdf,
     rough_dielectric::RoughDielectricBsdf,
     tests::dielectric_fixtures::{COSINES, Direction, ROUGHNESSES, combine, dot, interfaces, rough, rows_of, view, wide},
@@ -71,7 +72,7 @@ impl HalfVectors {
     }
 
     /// The pdf at (x, y) times the solid angle that the square maps to, by differences.
-    fn density(&self, bsdf: &RoughDielectricBsdf<'_, One>, x: f64, y: f64, through: bool) -> f64 {
+    fn density(&self, bsdf: &impl Bsdf<One>, x: f64, y: f64, through: bool) -> f64 {
         const STEP: f64 = 1e-6;
         let [middle, right, up] = [(x, y), (x + STEP, y), (x, y + STEP)].map(|(x, y)| self.direction(x, y, through));
         let (Some(middle), Some(right), Some(up)) = (middle, right, up) else { return 0.0 };
@@ -81,7 +82,7 @@ impl HalfVectors {
     }
 
     /// The pdf integrated over all bins.
-    fn probabilities(&self, bsdf: &RoughDielectricBsdf<'_, One>) -> Vec<f64> {
+    fn probabilities(&self, bsdf: &impl Bsdf<One>) -> Vec<f64> {
         let [steps_down, steps_around] = Self::STEPS;
         let (across, around) = ((Self::DOWN * steps_down) as f64, (Self::AROUND * steps_around) as f64);
         let mut all = vec![0.0; 2 * Self::DOWN * Self::AROUND];
@@ -97,23 +98,38 @@ impl HalfVectors {
     }
 }
 
+/// Fails if samples of single scattering are not distributed as their pdf.
+fn check_facets(bsdf: &impl Bsdf<One>, (eta, alpha): (f32, f32), cos: f32, tests: usize, rng: &mut SmallRng) {
+    const SAMPLES: usize = 10_000;
+    let wo = view(cos);
+    let grid = HalfVectors { eta: eta.into(), alpha: alpha.into(), wo: wide(wo) };
+    let mut expected = grid.probabilities(bsdf);
+    expected.push(1.0 - expected.iter().sum::<f64>());
+    let mut counts = vec![0.0; expected.len()];
+    for _ in 0..SAMPLES {
+        let sample = bsdf.sample(wo, (F(rng.random()), F(rng.random())), F(rng.random()));
+        counts[if sample.weight.x.0 > 0.0 { grid.bin(wide(sample.wi)) } else { expected.len() - 1 }] += 1.0;
+    }
+    let expected: Vec<_> = expected.iter().map(|p| p * SAMPLES as f64).collect();
+    check_counts(&counts, &expected, tests, &format!("{eta} {alpha} {cos}"));
+}
+
 #[test]
 fn facets_are_distributed_as_their_pdf_and_all_samples_that_exist_are_in_it() {
-    const SAMPLES: usize = 10_000;
     let mut rng = SmallRng::seed_from_u64(3);
     let cases = interfaces(&ROUGHNESSES);
+    for (&case, cos) in cases.iter().flat_map(|case| COSINES.map(|cos| (case, cos))) {
+        check_facets(&rough(case.0, case.1, None), case, cos, cases.len() * COSINES.len(), &mut rng);
+    }
+}
+
+#[test]
+fn beckmann_facets_are_distributed_as_their_pdf() {
+    let mut rng = SmallRng::seed_from_u64(5);
+    let cases = interfaces(&[0.01, 0.1, 0.3, 1.0]);
     for (&(eta, alpha), cos) in cases.iter().flat_map(|case| COSINES.map(|cos| (case, cos))) {
-        let (wo, bsdf) = (view(cos), rough(eta, alpha, None));
-        let grid = HalfVectors { eta: eta.into(), alpha: alpha.into(), wo: wide(wo) };
-        let mut expected = grid.probabilities(&bsdf);
-        expected.push(1.0 - expected.iter().sum::<f64>());
-        let mut counts = vec![0.0; expected.len()];
-        for _ in 0..SAMPLES {
-            let sample = bsdf.sample(wo, (F(rng.random()), F(rng.random())), F(rng.random()));
-            counts[if sample.weight.x.0 > 0.0 { grid.bin(wide(sample.wi)) } else { expected.len() - 1 }] += 1.0;
-        }
-        let expected: Vec<_> = expected.iter().map(|p| p * SAMPLES as f64).collect();
-        check_counts(&counts, &expected, cases.len() * COSINES.len(), &format!("{eta} {alpha} {cos}"));
+        let bsdf = RoughDielectricBsdf::of(F::<One>(eta), Beckmann(F::<One>(alpha)), None);
+        check_facets(&bsdf, (eta, alpha), cos, cases.len() * COSINES.len(), &mut rng);
     }
 }
 

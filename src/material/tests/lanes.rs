@@ -3,11 +3,13 @@ use fearless_simd_macros::simd;
 
 use super::{
     super::{
-        Bsdf, Conductor, Material, Materials, Plastic, Shade,
-        albedo_table::build,
+        Bsdf, Conductor, Distribution, Material, Materials, Plastic, RoughPlastic, Shade,
+        albedo_table::{Tabulated, build},
+        conductor::BeckmannConductor,
+        dielectric::TintedDielectric,
         principled::{Principled, PrincipledGlass},
     },
-    cases::{local, mixed, mixed_principled},
+    cases::{local, mixed, mixed_facets, mixed_principled},
 };
 use crate::{
     math::{F, Lanes, MAX_LANES, SimdLevel, V, in_lanes},
@@ -64,8 +66,12 @@ fn answer<L: Lanes>(bsdf: &impl Bsdf<L>, wo: V<L>, u: (F<L>, F<L>), lobe: F<L>) 
 fn any_number_of_lanes_gives_the_same_bits() {
     let [conductors, plastics] = mixed();
     let [opaque, clear] = mixed_principled();
+    let [beckmann, rough, glass] = mixed_facets();
     assert!(are_alike::<Conductor>(&conductors), "conductors");
     assert!(are_alike::<Plastic>(&plastics), "plastics");
+    assert!(are_alike::<BeckmannConductor>(&beckmann), "Beckmann conductors");
+    assert!(are_alike::<RoughPlastic>(&rough), "plastics of single scattering");
+    assert!(are_alike::<TintedDielectric>(&glass), "tinted glass");
     assert!(are_alike::<Principled>(&opaque), "opaque principled materials");
     assert!(are_alike::<PrincipledGlass>(&clear), "clear principled materials");
 }
@@ -85,6 +91,8 @@ fn are_alike<K: Shade>(list: &[Material]) -> bool {
 
 #[test]
 fn tables_are_built_alike_at_every_level() {
-    let all: Vec<_> = SimdLevel::available().into_iter().map(|level| build(level, Some(1.5))).collect();
-    assert!(all.windows(2).all(|pair| pair[0] == pair[1]));
+    for of in [Tabulated::Coat(1.5), Tabulated::Refraction(1.5, Distribution::Beckmann)] {
+        let all: Vec<_> = SimdLevel::available().into_iter().map(|level| build(level, of)).collect();
+        assert!(all.windows(2).all(|pair| pair[0] == pair[1]), "{of:?}");
+    }
 }

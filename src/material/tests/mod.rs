@@ -8,7 +8,9 @@ mod distribution;
 mod energy;
 mod fresnel;
 mod lanes;
+mod mitsuba;
 mod principled;
+mod tinted;
 
 use crate::math::{F, One, V};
 

@@ -4,6 +4,7 @@ use glam::DVec3;
 use super::{RoundTrip, round_trip, scenes};
 use crate::{
     declare::Textured,
+    import::mitsuba::coat,
     light::lamp::{
         LampKind,
         directional::Directional,
@@ -11,8 +12,8 @@ use crate::{
         spot::{Falloff, Spot},
     },
     material::{
-        Conductor, Dielectric, Lambertian, Material, Plastic, Reflectance, Roughness, blend::Blend, null::Null,
-        thin_dielectric::ThinDielectric,
+        Conductor, Dielectric, Distribution, Lambertian, Material, Plastic, Reflectance, RoughPlastic, Roughness, blend::Blend,
+        null::Null, thin_dielectric::ThinDielectric,
     },
     scene::description::{Bump, LampDescription, MaterialDescription, SceneDescription},
     shape::Sphere,
@@ -74,11 +75,40 @@ fn materials_with_a_plugin_come_back() {
 }
 
 #[test]
-fn rough_plastics_come_back_but_for_rounding() {
-    let case = Plastic { albedo: Textured::grey(0.5), ior: 1.5, roughness: Roughness::Alpha(Textured::Constant(0.25)) };
-    let (found, remarks) = of(plain(case));
-    let Material::Plastic(Plastic { albedo: Textured::Constant(albedo), .. }) = found.kind else { panic!("a plastic") };
-    assert!(albedo.iter().all(|x| (x - 0.5).abs() < 1e-9) && remarks.is_empty(), "{albedo:?} {remarks:?}");
+fn rough_plastics_of_mitsuba_come_back() {
+    for distribution in [Distribution::Ggx, Distribution::Beckmann] {
+        let case = RoughPlastic {
+            roughness: Roughness::Alpha(Textured::Constant(0.25)),
+            distribution,
+            specular_reflectance: [0.5, 0.25, 1.0],
+            internal_reflectance: coat::internal_reflectance(1.5, 0.25, distribution),
+            nonlinear: true,
+            ..RoughPlastic::default()
+        };
+        let (found, remarks) = of(plain(case.clone()));
+        assert_eq!(found.kind, case.into());
+        assert!(remarks.is_empty(), "{remarks:?}");
+    }
+}
+
+#[test]
+fn tints_and_beckmann_facets_come_back() {
+    let glass = Dielectric {
+        roughness: Roughness::Alpha(Textured::Constant(0.25)),
+        distribution: Distribution::Beckmann,
+        specular_reflectance: Textured::Constant([0.5, 0.25, 1.0]),
+        specular_transmittance: Textured::Constant([1.0, 0.25, 0.5]),
+        energy_compensation: false,
+        ..Dielectric::default()
+    };
+    let pane =
+        ThinDielectric { specular_reflectance: [0.5, 0.25, 1.0], specular_transmittance: [0.75; 3], ..ThinDielectric::default() };
+    let cases: [Material; 2] = [glass.into(), pane.into()];
+    for case in cases {
+        let (found, remarks) = of(plain(case.clone()));
+        assert_eq!(found.kind, case);
+        assert!(remarks.is_empty(), "{remarks:?}");
+    }
 }
 
 #[test]

@@ -34,6 +34,9 @@ fn each_loss_of_a_material_is_a_remark() {
         ("thin_dielectric = { ior = 1.5, transmittance = [0.5, 0.9, 0.9] }", "`transmittance` of a pane"),
         ("plastic = { albedo = 0.5, ior = 1.5, roughness = { texture = \"squares\" } }", "the texture `squares` of `roughness`"),
         ("plastic = { albedo = { texture = \"squares\" }, ior = 1.5, roughness = 0.4 }", "a textured base under a rough coat"),
+        ("plastic = { albedo = 0.5, ior = 1.5, roughness = 0.4 }", "a plastic with a rough coat"),
+        ("rough_plastic = { albedo = 0.5, ior = 1.5, alpha = 0.4 }", "`internal_reflectance` 1"),
+        ("conductor = { f0 = 0.8, alpha = 0.2, distribution = \"beckmann\" }", "Beckmann facets"),
         ("diffuse_transmission = { reflectance = 0.3, transmittance = 0.3 }", "`diffuse_transmission`"),
         ("principled = { base_color = 0.5 }", "`principled`, OpenPBR"),
     ] {

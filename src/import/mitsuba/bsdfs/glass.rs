@@ -13,18 +13,21 @@ use crate::{
 
 pub fn dielectric(import: &mut Import, element: Element, _: bool) -> Result<MaterialDescription, SceneError> {
     let [ior, ior_outside] = indices::interface(import, element, "bk7")?;
-    untinted(import, element)?;
-    Ok(transparent(Dielectric { ior, ior_outside, ..Dielectric::default() }))
+    let [specular_reflectance, specular_transmittance] = tints(import, element)?;
+    Ok(transparent(Dielectric { ior, ior_outside, specular_reflectance, specular_transmittance, ..Dielectric::default() }))
 }
 
 pub fn rough_dielectric(import: &mut Import, element: Element, _: bool) -> Result<MaterialDescription, SceneError> {
     let [ior, ior_outside] = indices::interface(import, element, "bk7")?;
-    untinted(import, element)?;
+    let [specular_reflectance, specular_transmittance] = tints(import, element)?;
     let facets = roughness::facets(import, element)?;
     Ok(transparent(Dielectric {
         ior,
         ior_outside,
         roughness: facets.roughness,
+        distribution: facets.distribution,
+        specular_reflectance,
+        specular_transmittance,
         anisotropy: facets.anisotropy,
         tangent_rotation: facets.tangent_rotation,
         energy_compensation: false,
@@ -34,16 +37,23 @@ pub fn rough_dielectric(import: &mut Import, element: Element, _: bool) -> Resul
 
 pub fn thin_dielectric(import: &mut Import, element: Element, _: bool) -> Result<MaterialDescription, SceneError> {
     let [inside, outside] = indices::interface(import, element, "bk7")?;
-    untinted(import, element)?;
-    Ok(transparent(ThinDielectric { ior: (inside / outside).clamp(0.05, 20.0), ..ThinDielectric::default() }))
-}
-
-/// Glass of ours reflects and transmits without a tint at its surface.
-fn untinted(import: &mut Import, element: Element) -> Result<(), SceneError> {
-    for name in ["specular_reflectance", "specular_transmittance"] {
-        if import.colour(element, name, 1.0, Role::Reflectance)? != Textured::grey(1.0) {
-            import.remark_value(element, name, "1, clear glass", "the glass has no tint")?;
+    let names = ["specular_reflectance", "specular_transmittance"];
+    let mut constant = [[1.0; 3]; 2];
+    for ((tint, name), constant) in tints(import, element)?.into_iter().zip(names).zip(&mut constant) {
+        match tint {
+            Textured::Constant(tint) => *constant = tint,
+            Textured::Texture(_) => import.remark_value(element, name, "1, clear glass", "the glass has no tint")?,
         }
     }
-    Ok(())
+    let [specular_reflectance, specular_transmittance] = constant;
+    let ior = (inside / outside).clamp(0.05, 20.0);
+    Ok(transparent(ThinDielectric { ior, specular_reflectance, specular_transmittance, ..ThinDielectric::default() }))
+}
+
+/// Factors of reflected and of transmitted light.
+fn tints(import: &mut Import, element: Element) -> Result<[Textured; 2], SceneError> {
+    Ok([
+        import.colour(element, "specular_reflectance", 1.0, Role::Reflectance)?,
+        import.colour(element, "specular_transmittance", 1.0, Role::Reflectance)?,
+    ])
 }

@@ -7,7 +7,6 @@ mod metal;
 mod metals;
 mod opaque;
 mod principled;
-mod recoloured;
 mod roughness;
 
 use super::{

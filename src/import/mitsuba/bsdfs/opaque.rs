@@ -1,11 +1,11 @@
 //! Diffuse surfaces and plastics.
 use super::{
     super::{colours::Role, context::Import, tree::Element},
-    coat::Coat,
+    coat::internal_reflectance,
     indices, one_or_two_sided, roughness,
 };
 use crate::{
-    material::{Lambertian, Plastic, Roughness},
+    material::{Distribution, Lambertian, Plastic, RoughPlastic, Roughness},
     scene::{
         SceneError,
         description::{MaterialDescription, Textured},
@@ -26,15 +26,14 @@ pub fn rough_diffuse(import: &mut Import, element: Element, two_sided: bool) -> 
 }
 
 pub fn plastic(import: &mut Import, element: Element, two_sided: bool) -> Result<MaterialDescription, SceneError> {
-    coated(import, element, two_sided, Roughness::SMOOTH, Some(0.0))
+    coated(import, element, two_sided, (Roughness::SMOOTH, Distribution::Ggx))
 }
 
 pub fn rough_plastic(import: &mut Import, element: Element, two_sided: bool) -> Result<MaterialDescription, SceneError> {
-    roughness::distribution(import, element)?;
+    let distribution = roughness::distribution(import, element)?;
     element.ignore(&["sample_visible"]);
     let alpha = import.fraction(element, "alpha", 0.1)?;
-    let constant = if let Textured::Constant(alpha) = alpha { Some(alpha) } else { None };
-    coated(import, element, two_sided, Roughness::Alpha(alpha), constant)
+    coated(import, element, two_sided, (Roughness::Alpha(alpha), distribution))
 }
 
 pub fn polarized_plastic(import: &mut Import, element: Element, two_sided: bool) -> Result<MaterialDescription, SceneError> {
@@ -42,13 +41,12 @@ pub fn polarized_plastic(import: &mut Import, element: Element, two_sided: bool)
     rough_plastic(import, element, two_sided)
 }
 
-/// A diffuse base under a coat. `alpha` is its width if it is the same everywhere.
+/// A diffuse base under a coat.
 fn coated(
     import: &mut Import,
     element: Element,
     two_sided: bool,
-    roughness: Roughness,
-    alpha: Option<f64>,
+    (roughness, distribution): (Roughness, Distribution),
 ) -> Result<MaterialDescription, SceneError> {
     let [inside, outside] = indices::interface(import, element, "polypropylene")?;
     let ior = inside / outside;
@@ -56,17 +54,24 @@ fn coated(
         import.remark(element, "a coat of index 1", "the surface has no highlight");
     }
     let ior = ior.clamp(1.0, 20.0);
+    let internal_reflectance = match &roughness {
+        Roughness::Alpha(Textured::Constant(alpha)) => internal_reflectance(ior, *alpha, distribution),
+        // That of a smooth coat.
+        _ => 1.0,
+    };
+    let specular_reflectance = match import.colour(element, "specular_reflectance", 1.0, Role::Reflectance)? {
+        Textured::Constant(colour) => colour.map(|x| x.clamp(0.0, 1.0)),
+        Textured::Texture(_) => {
+            import.remark_value(element, "specular_reflectance", "1, a clear coat", "the highlight is brighter, and white")?;
+            [1.0; 3]
+        }
+    };
+    let albedo = import.colour(element, "diffuse_reflectance", 0.5, Role::Reflectance)?;
     let nonlinear = element.flag("nonlinear", false)?;
-    let colour = import.colour(element, "diffuse_reflectance", 0.5, Role::Reflectance)?;
-    let coat = Coat::new(ior, alpha.unwrap_or(0.1));
-    let ours = |x: f64| if nonlinear { coat.of_nonlinear(x) } else { coat.of_linear(x) };
-    let is_ours = nonlinear && alpha == Some(0.0);
-    let albedo = if is_ours { Some(colour.clone()) } else { import.recoloured(&colour, &ours) };
-    if albedo.is_none() {
-        import.remark_value(element, "diffuse_reflectance", "a nonlinear plastic", "the base is darker and more saturated")?;
+    // The smooth one is ours.
+    if nonlinear && roughness == Roughness::SMOOTH && specular_reflectance == [1.0; 3] {
+        return Ok(one_or_two_sided(Plastic { albedo, ior, roughness }, two_sided));
     }
-    if import.colour(element, "specular_reflectance", 1.0, Role::Reflectance)? != Textured::grey(1.0) {
-        import.remark_value(element, "specular_reflectance", "1, a clear coat", "the highlight is brighter, and white")?;
-    }
-    Ok(one_or_two_sided(Plastic { albedo: albedo.unwrap_or(colour), ior, roughness }, two_sided))
+    let plastic = RoughPlastic { albedo, ior, roughness, distribution, specular_reflectance, internal_reflectance, nonlinear };
+    Ok(one_or_two_sided(plastic, two_sided))
 }

@@ -2,7 +2,7 @@
 use super::{SENSOR, material, read_with, refused, remarks, scene};
 use crate::{
     import::ImportOptions,
-    material::{Material, Reflectance, Roughness},
+    material::{Distribution, Material, Reflectance, Roughness},
     scene::description::{TextureKind, Textured},
 };
 
@@ -71,26 +71,44 @@ fn widths_of_facets_become_a_width_and_an_anisotropy() {
     let long = width * (2.0 / (1.0 + (1.0 - a) * (1.0 - a))).sqrt();
     assert!((long - 0.3).abs() < 1e-12 && ((1.0 - a) * long - 0.1).abs() < 1e-12 && turned == 0.0);
     assert_eq!(rough(&(wide("alpha_u", 0.1) + &wide("alpha_v", 0.3))).2, 90.0);
-    let (_, imported) = material("<bsdf type=\"roughconductor\"/>");
-    assert!(remarks(&imported)[0].contains("Beckmann"));
+    let (metal, imported) = material("<bsdf type=\"roughconductor\"/>");
+    assert!(matches!(metal.kind, Material::Conductor(metal) if metal.distribution == Distribution::Beckmann));
+    assert!(imported.remarks.is_empty());
+    let (_, imported) = material("<bsdf type=\"roughconductor\"><string name=\"distribution\" value=\"phong\"/></bsdf>");
+    assert!(remarks(&imported)[0].contains("phong"));
 }
 
 #[test]
-fn plastics_are_linear_by_default_and_ours_reflects_as_much() {
-    let albedo = |nonlinear: bool| {
-        let text = format!(
-            "<bsdf type=\"plastic\"><rgb name=\"diffuse_reflectance\" value=\"0.5\"/><float name=\"int_ior\" value=\"1.9\"/>\
-             <boolean name=\"nonlinear\" value=\"{nonlinear}\"/></bsdf>"
-        );
-        match material(&text).0.kind {
-            Material::Plastic(plastic) => plastic.albedo,
-            other => panic!("{other:?}"),
-        }
+fn plastics_are_taken_over_exactly() {
+    let text = "<bsdf type=\"roughplastic\"><rgb name=\"diffuse_reflectance\" value=\"0.5\"/><float name=\"alpha\" value=\"0.3\"/>\
+        <float name=\"int_ior\" value=\"1.5\"/><float name=\"ext_ior\" value=\"1\"/><boolean name=\"nonlinear\" value=\"true\"/>\
+        <rgb name=\"specular_reflectance\" value=\"0.2\"/></bsdf>";
+    let (found, imported) = material(text);
+    let Material::RoughPlastic(plastic) = found.kind else { panic!("not a plastic") };
+    assert_eq!((plastic.albedo, plastic.ior, plastic.nonlinear), (Textured::grey(0.5), 1.5, true));
+    assert_eq!((plastic.distribution, plastic.specular_reflectance), (Distribution::Beckmann, [0.2; 3]));
+    assert!((plastic.internal_reflectance - 0.53).abs() < 3e-3 && imported.remarks.is_empty());
+    let (smooth, _) = material("<bsdf type=\"plastic\"/>");
+    assert!(matches!(smooth.kind, Material::RoughPlastic(plastic) if !plastic.nonlinear && plastic.internal_reflectance == 1.0));
+}
+
+#[test]
+fn glass_has_tints() {
+    let text = |kind: &str| {
+        format!(
+            "<bsdf type=\"{kind}\"><rgb name=\"specular_reflectance\" value=\"0.2\"/>\
+             <rgb name=\"specular_transmittance\" value=\"0.1 0.5 0.3\"/></bsdf>"
+        )
     };
-    assert_eq!(albedo(true), Textured::grey(0.5));
-    let Textured::Constant([linear, ..]) = albedo(false) else { panic!("it is constant") };
-    // ρ' = ρ/(1 − R + ρ R) with R ≈ 0.76 at an index of 1.9.
-    assert!((linear - 0.5 / (1.0 - 0.5 * 0.76)).abs() < 0.02, "{linear}");
+    for kind in ["dielectric", "roughdielectric"] {
+        let (glass, imported) = material(&text(kind));
+        let Material::Dielectric(glass) = glass.kind else { panic!("not glass") };
+        let expected = (Textured::grey(0.2), Textured::Constant([0.1, 0.5, 0.3]));
+        assert_eq!((glass.specular_reflectance, glass.specular_transmittance), expected);
+        assert!(imported.remarks.is_empty());
+    }
+    let (pane, _) = material(&text("thindielectric"));
+    assert!(matches!(pane.kind, Material::ThinDielectric(pane) if pane.specular_transmittance == [0.1, 0.5, 0.3]));
 }
 
 #[test]

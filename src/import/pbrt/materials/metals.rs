@@ -19,7 +19,8 @@ impl Import {
     pub(super) fn conductor(&mut self, entity: &Entity) -> Result<Material, SceneError> {
         let fresnel = self.fresnel(entity, "")?;
         let Facets { roughness, anisotropy, tangent_rotation } = self.facets(entity, "", 0.0)?;
-        Ok(Conductor { fresnel, roughness, anisotropy, tangent_rotation, energy_compensation: false }.into())
+        Ok(Conductor { fresnel, roughness, anisotropy, tangent_rotation, energy_compensation: false, ..Conductor::default() }
+            .into())
     }
 
     /// Copper, η and k, or the reflectance at normal incidence.

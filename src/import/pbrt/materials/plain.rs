@@ -59,7 +59,7 @@ impl Import {
     }
 
     pub(super) fn thin_dielectric(&mut self, entity: &Entity) -> Result<Material, SceneError> {
-        Ok(ThinDielectric { ior: self.index(entity, "eta", 1.5)?, transmittance: [1.0; 3] }.into())
+        Ok(ThinDielectric { ior: self.index(entity, "eta", 1.5)?, ..ThinDielectric::default() }.into())
     }
 
     /// An index of refraction that is the same for all wavelengths.
