@@ -99,7 +99,10 @@ fn materials() {
         anisotropy: 0.0,
         tangent_rotation: 0.0,
         transmittance: [1.0; 3],
+        specular_reflectance: Textured::grey(1.0),
+        specular_transmittance: Textured::grey(1.0),
         energy_compensation: true,
+        ..Dielectric::default()
     };
     assert_eq!(material("dielectric.ior = 1.5"), glass.into());
     let nested = instance(
@@ -113,6 +116,7 @@ fn materials() {
         tangent_rotation: 0.0,
         transmittance: [0.1, 0.2, 0.3],
         energy_compensation: false,
+        ..Dielectric::default()
     };
     assert_eq!((nested.material, nested.compiled.inside), (rough.into(), Some([0.1, 0.2, 0.3])));
     assert_eq!(nested.compiled.alpha, AlphaSource::Constant(0.25));

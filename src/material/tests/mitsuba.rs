@@ -31,7 +31,10 @@ fn assert_close(found: V<One>, expected: [f32; 3], tolerance: f32, what: &str) {
     }
 }
 
-const PLASTIC: [(Distribution, f32, f64, [Angles; 2], [f32; 3]); 9] = [
+/// Facets, their width, the internal reflectance, the two directions and the value of a plastic.
+type Case = (Distribution, f32, f64, [Angles; 2], [f32; 3]);
+
+const PLASTIC: [Case; 9] = [
     (Ggx, 0.1, 0.5519, [(0.9, 0.2), (0.8, 2.5)], [0.191_13, 0.072_492, 0.001_636_8]),
     (Ggx, 0.1, 0.5519, [(0.5, 0.0), (0.6, 3.3)], [0.282_2, 0.125_11, 0.038_577]),
     (Ggx, 0.1, 0.5519, [(0.3, 1.0), (0.4, 4.0)], [0.257_59, 0.119_98, 0.046_769]),
