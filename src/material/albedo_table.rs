@@ -4,8 +4,8 @@ use fearless_simd_macros::simd;
 use super::{
     beckmann::Beckmann,
     fresnel::dielectric,
-    ggx::{SMOOTH, g1},
-    microfacets::{Distribution, Microfacets},
+    ggx::SMOOTH,
+    microfacets::{Distribution, Microfacets, g1},
 };
 use crate::math::{F, Lanes, MAX_LANES, One, Pick, SimdLevel, V, in_lanes};
 

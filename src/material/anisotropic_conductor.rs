@@ -10,8 +10,7 @@ use super::{
     anisotropy::{Widths, loss},
     beckmann::Beckmann,
     conductor_fresnel::{ConductorFresnel, ConductorRow},
-    ggx,
-    microfacets::Microfacets,
+    microfacets::{self, Microfacets},
 };
 use crate::{
     math::{F, Lanes, M, One, Pick, V},
@@ -120,15 +119,15 @@ impl<L: Lanes, D: Microfacets<L>> Bsdf<L> for AnisotropicConductorBsdf<'_, L, D>
     fn eval(&self, wo: V<L>, wi: V<L>) -> (V<L>, F<L>) {
         let zero = wo.z.splat(0.0);
         let h = (wo + wi).normalized();
-        let density = ggx::reflection_pdf(self.facets, wo, h);
-        let f = self.fresnel.reflectance(wo.dot(h)) * self.gain(wo) * (density * ggx::g1(self.facets, wi));
+        let density = microfacets::reflection_pdf(self.facets, wo, h);
+        let f = self.fresnel.reflectance(wo.dot(h)) * self.gain(wo) * (density * microfacets::g1(self.facets, wi));
         let above = wi.z.above(0.0);
         (above.pick(f, V { x: zero, y: zero, z: zero }), above.pick(density, zero))
     }
 
     #[inline(always)]
     fn sample(&self, wo: V<L>, u: (F<L>, F<L>), _: F<L>) -> BsdfSample<L> {
-        let wi = ggx::sample_reflection(self.facets, wo, u);
+        let wi = microfacets::sample_reflection(self.facets, wo, u);
         let (f, pdf) = self.eval(wo, wi);
         BsdfSample::of(wi, f, pdf)
     }

@@ -5,7 +5,8 @@
 //! restores a part of the lost light, and never adds light.
 use super::{
     albedo::Albedo,
-    ggx::{SMOOTH, Width},
+    ggx::{self, SMOOTH, Width, facets},
+    microfacets::Microfacets,
 };
 use crate::math::{F, Lanes, M, Pick, U, V};
 
@@ -57,6 +58,8 @@ impl<L: Lanes> Widths<L> {
         Widths { x: mask.pick(self.x, other.x), y: mask.pick(self.y, other.y) }
     }
 }
+
+facets!(Widths<L>);
 
 impl<L: Lanes> Width<L> for Widths<L> {
     #[inline(always)]
@@ -114,7 +117,7 @@ pub fn reflected<L: Lanes>(l: L, table: &[[f32; 4]], first: U<L>, widths: Widths
 mod tests {
     use super::*;
     use crate::{
-        material::{albedo::LOSS, ggx},
+        material::{albedo::LOSS, ggx, microfacets},
         math::One,
     };
 
@@ -132,8 +135,8 @@ mod tests {
             let h = V::splat(One, [0.36, -0.48, 0.8]);
             for (round, wide) in [
                 (ggx::d(F::<One>(0.3), h), ggx::d(widths, h)),
-                (ggx::g1(F::<One>(0.3), w), ggx::g1(widths, w)),
-                (ggx::visible_normal_pdf(F::<One>(0.3), w, h), ggx::visible_normal_pdf(widths, w, h)),
+                (microfacets::g1(F::<One>(0.3), w), microfacets::g1(widths, w)),
+                (microfacets::visible_normal_pdf(F::<One>(0.3), w, h), microfacets::visible_normal_pdf(widths, w, h)),
             ] {
                 assert!((round.0 - wide.0).abs() <= 1e-5 * round.0, "{} {}", round.0, wide.0);
             }
@@ -156,8 +159,8 @@ mod tests {
             for w in directions() {
                 let (mut kept, count) = (0.0, 28_657);
                 for u in super::super::tests::lattice(count, 17_711) {
-                    let wi = ggx::sample_reflection(widths, w, u);
-                    kept += if wi.z.0 > 0.0 { f64::from(ggx::g1(widths, wi).0) } else { 0.0 };
+                    let wi = microfacets::sample_reflection(widths, w, u);
+                    kept += if wi.z.0 > 0.0 { f64::from(microfacets::g1(widths, wi).0) } else { 0.0 };
                 }
                 let lost = 1.0 - kept / f64::from(count);
                 let table = f64::from(loss(One, &LOSS, widths, M(true), w).0);

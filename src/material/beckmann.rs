@@ -79,7 +79,7 @@ fn within<L: Lanes>(y: F<L>) -> F<L> {
 mod tests {
     use super::*;
     use crate::{
-        material::{anisotropy::Widths, ggx},
+        material::{anisotropy::Widths, ggx, microfacets},
         math::One,
     };
 
@@ -123,7 +123,7 @@ mod tests {
             let facets = Beckmann(F::<One>(alpha));
             let found = facets.d(direction(cos, 0.4)).0;
             assert!((found - d).abs() < 1e-4 * d, "{alpha} {cos}: {found} {d}");
-            let found = ggx::g1(facets, direction(cos, 0.4)).0;
+            let found = microfacets::g1(facets, direction(cos, 0.4)).0;
             assert!((found - g1).abs() < 4e-3 * g1, "{alpha} {cos}: {found} {g1}");
         }
     }

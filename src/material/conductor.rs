@@ -13,7 +13,7 @@ use super::{
     anisotropic_conductor::TangentRow,
     conductor_fresnel::{ConductorFresnel, ConductorRow, Reflectance},
     ggx, grazing,
-    microfacets::{DISTRIBUTION, Distribution},
+    microfacets::{self, DISTRIBUTION, Distribution},
 };
 use crate::{
     declare::{Declare, Kind, Parameter, Parameters, Problem, Range},
@@ -179,8 +179,8 @@ impl<L: Lanes> ConductorBsdf<L> {
         let zero = wo.z.splat(0.0);
         let cos = wi.z.max(zero);
         let h = (wo + wi).normalized();
-        let density = ggx::reflection_pdf(self.alpha, wo, h);
-        let single = self.fresnel.reflectance(wo.dot(h)) * (density * ggx::g1(self.alpha, wi));
+        let density = microfacets::reflection_pdf(self.alpha, wo, h);
+        let single = self.fresnel.reflectance(wo.dot(h)) * (density * microfacets::g1(self.alpha, wi));
         let further = self.returned * (loss * self.loss(cos) * cos);
         let mut pdf = (1.0 - loss) * density;
         if self.compensated.any() {
@@ -201,7 +201,7 @@ impl<L: Lanes> Bsdf<L> for ConductorBsdf<L> {
     fn sample(&self, wo: V<L>, u: (F<L>, F<L>), lobe: F<L>) -> BsdfSample<L> {
         let loss = self.loss(wo.z);
         let further = lobe.lt(loss);
-        let mut wi = ggx::sample_reflection(self.alpha, wo, u);
+        let mut wi = microfacets::sample_reflection(self.alpha, wo, u);
         if further.any() {
             wi = further.pick(grazing::sample(self.alpha, u, lobe / loss), wi);
         }

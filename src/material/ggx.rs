@@ -7,11 +7,9 @@
 //!
 //! Single scattering uses the separable G = G1(ω_o) G1(ω_i), like Mitsuba's rough conductor, so that references agree; the
 //! height-correlated form would be slightly brighter at grazing angles.
-//!
-//! Masking, pdfs and reflections are the same for all [`Microfacets`].
 use std::f32::consts::FRAC_1_PI;
 
-use super::microfacets::Microfacets;
+use super::{ggx, microfacets::Microfacets};
 use crate::math::{F, Lanes, V, trig::sin_cos_turns};
 
 /// Minimum width of a rough surface. f32 directions are too coarse for a narrower peak, so smaller widths are treated as smooth.
@@ -51,17 +49,36 @@ impl<L: Lanes> Width<L> for F<L> {
     }
 }
 
+/// Makes a width stand for facets of this distribution.
+macro_rules! facets {
+    ($Width:ty) => {
+        impl<L: Lanes> Microfacets<L> for $Width {
+            #[inline(always)]
+            fn d(self, h: V<L>) -> F<L> {
+                ggx::d(self, h)
+            }
+
+            #[inline(always)]
+            fn g1_over_cos(self, w: V<L>) -> F<L> {
+                ggx::g1_over_cos(self, w)
+            }
+
+            #[inline(always)]
+            fn sample_visible_normal(self, wo: V<L>, u: (F<L>, F<L>)) -> V<L> {
+                ggx::sample_visible_normal(self, wo, u)
+            }
+        }
+    };
+}
+pub(super) use facets;
+
+facets!(F<L>);
+
 /// Density of microfacet area over normals `h`, h.z ≥ 0: ∫ D(h) h.z dh = 1 (Walter et al. 2007, equation 33).
 #[inline(always)]
 pub fn d<L: Lanes>(alpha: impl Width<L>, h: V<L>) -> F<L> {
     let e = alpha.squeezed_square(h) + h.z * h.z;
     FRAC_1_PI / (alpha.area() * (e * e))
-}
-
-/// Fraction of microfacets visible from direction `w`, on either side of the surface (Walter et al. 2007, equation 34).
-#[inline(always)]
-pub fn g1<L: Lanes>(facets: impl Microfacets<L>, w: V<L>) -> F<L> {
-    w.z.abs() * facets.g1_over_cos(w)
 }
 
 /// G1(w)/|cos θ|, which stays finite at grazing angles.
@@ -70,7 +87,7 @@ pub fn g1_over_cos<L: Lanes>(alpha: impl Width<L>, w: V<L>) -> F<L> {
     2.0 / (w.z.abs() + (alpha.stretched_square(w) + w.z * w.z).sqrt())
 }
 
-/// Samples a microfacet normal visible from `wo` (wo.z > 0), with the pdf of [`visible_normal_pdf`]; u.0 < 1.
+/// Samples a microfacet normal visible from `wo` (wo.z > 0), with the pdf of [`microfacets::visible_normal_pdf`](super::microfacets::visible_normal_pdf); u.0 < 1.
 ///
 /// Dupuy and Benyoub, "Sampling Visible GGX Normals with Spherical Caps", 2023, listing 3: stretching by α maps the microfacets
 /// to a sphere, on which reflections of `wo` are uniform over a cap.
@@ -85,25 +102,4 @@ pub fn sample_visible_normal<L: Lanes>(alpha: impl Width<L>, wo: V<L>, u: (F<L>,
     let (x, y) = alpha.stretch(sin * cos_phi + stretched.x, sin * sin_phi + stretched.y);
     let z = (1.0 - u.0) * (1.0 + stretched.z);
     V { x, y, z }.normalized()
-}
-
-/// Pdf of [`sample_visible_normal`] per solid angle of `h`: G1(ω_o) max(0, ω_o·h) D(h) / cos θ_o (Heitz, "Sampling the GGX
-/// Distribution of Visible Normals", 2018, equation 3).
-#[inline(always)]
-pub fn visible_normal_pdf<L: Lanes>(facets: impl Microfacets<L>, wo: V<L>, h: V<L>) -> F<L> {
-    facets.g1_over_cos(wo) * wo.dot(h).max(wo.z.splat(0.0)) * facets.d(h)
-}
-
-/// Samples a direction reflected by a visible microfacet; below the surface if the microfacet reflects light to other facets.
-#[inline(always)]
-pub fn sample_reflection<L: Lanes>(facets: impl Microfacets<L>, wo: V<L>, u: (F<L>, F<L>)) -> V<L> {
-    let h = facets.sample_visible_normal(wo, u);
-    h * (2.0 * wo.dot(h)) - wo
-}
-
-/// Pdf of [`sample_reflection`] per solid angle of the reflected direction; `h` is halfway between it and `wo`. Multiplied by
-/// G1(ω_i), it is f |cos θ_i| of perfectly reflecting microfacets.
-#[inline(always)]
-pub fn reflection_pdf<L: Lanes>(facets: impl Microfacets<L>, wo: V<L>, h: V<L>) -> F<L> {
-    0.25 * (facets.g1_over_cos(wo) * facets.d(h))
 }

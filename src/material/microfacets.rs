@@ -1,12 +1,10 @@
 //! Distributions of microfacet normals.
 //!
-//! Rough materials are generic over [`Microfacets`]: GGX by its [width](ggx::Width), and [`Beckmann`] of such a width. Stages of GGX facets alone
-//! contain nothing of the other.
-pub use super::beckmann::Beckmann;
-use super::{anisotropy::Widths, ggx};
+//! Rough materials are generic over [`Microfacets`]: those of `ggx.rs`, of `beckmann.rs`, or of both (`either_facets.rs`). Stages of GGX
+//! facets alone contain nothing of the other. Masking, pdfs and reflections are the same for all.
 use crate::{
     declare::{Parameter, words},
-    math::{F, Lanes, M, Pick, V},
+    math::{F, Lanes, V},
 };
 
 /// A distribution of microfacet normals in a scene description.
@@ -39,57 +37,33 @@ pub trait Microfacets<L: Lanes>: Copy {
     fn d(self, h: V<L>) -> F<L>;
     /// Smith's G1(w)/|cos θ|, which stays finite at grazing angles.
     fn g1_over_cos(self, w: V<L>) -> F<L>;
-    /// Samples a microfacet normal visible from `wo` (wo.z > 0) with the pdf of [`ggx::visible_normal_pdf`]; u.0 < 1.
+    /// Samples a microfacet normal visible from `wo` (wo.z > 0) with the pdf of [`visible_normal_pdf`]; u.0 < 1.
     fn sample_visible_normal(self, wo: V<L>, u: (F<L>, F<L>)) -> V<L>;
 }
 
-macro_rules! ggx {
-    ($($Width:ty)*) => { $(
-        impl<L: Lanes> Microfacets<L> for $Width {
-            #[inline(always)]
-            fn d(self, h: V<L>) -> F<L> {
-                ggx::d(self, h)
-            }
-
-            #[inline(always)]
-            fn g1_over_cos(self, w: V<L>) -> F<L> {
-                ggx::g1_over_cos(self, w)
-            }
-
-            #[inline(always)]
-            fn sample_visible_normal(self, wo: V<L>, u: (F<L>, F<L>)) -> V<L> {
-                ggx::sample_visible_normal(self, wo, u)
-            }
-        }
-    )* };
-}
-ggx!(F<L> Widths<L>);
-
-/// Facets of either distribution, per lane.
-#[derive(Clone, Copy)]
-pub struct EitherFacets<L: Lanes> {
-    /// Their widths.
-    pub widths: Widths<L>,
-    /// Lanes with Beckmann facets.
-    pub beckmann: M<L>,
+/// Fraction of microfacets visible from direction `w`, on either side of the surface (Walter et al. 2007, equation 34).
+#[inline(always)]
+pub fn g1<L: Lanes>(facets: impl Microfacets<L>, w: V<L>) -> F<L> {
+    w.z.abs() * facets.g1_over_cos(w)
 }
 
-impl<L: Lanes> Microfacets<L> for EitherFacets<L> {
-    #[inline(always)]
-    fn d(self, h: V<L>) -> F<L> {
-        let ggx = ggx::d(self.widths, h);
-        if self.beckmann.any() { self.beckmann.pick(Beckmann(self.widths).d(h), ggx) } else { ggx }
-    }
+/// Pdf of [`Microfacets::sample_visible_normal`] per solid angle of `h`: G1(ω_o) max(0, ω_o·h) D(h) / cos θ_o (Heitz, "Sampling the GGX
+/// Distribution of Visible Normals", 2018, equation 3).
+#[inline(always)]
+pub fn visible_normal_pdf<L: Lanes>(facets: impl Microfacets<L>, wo: V<L>, h: V<L>) -> F<L> {
+    facets.g1_over_cos(wo) * wo.dot(h).max(wo.z.splat(0.0)) * facets.d(h)
+}
 
-    #[inline(always)]
-    fn g1_over_cos(self, w: V<L>) -> F<L> {
-        let ggx = ggx::g1_over_cos(self.widths, w);
-        if self.beckmann.any() { self.beckmann.pick(Beckmann(self.widths).g1_over_cos(w), ggx) } else { ggx }
-    }
+/// Samples a direction reflected by a visible microfacet; below the surface if the microfacet reflects light to other facets.
+#[inline(always)]
+pub fn sample_reflection<L: Lanes>(facets: impl Microfacets<L>, wo: V<L>, u: (F<L>, F<L>)) -> V<L> {
+    let h = facets.sample_visible_normal(wo, u);
+    h * (2.0 * wo.dot(h)) - wo
+}
 
-    #[inline(always)]
-    fn sample_visible_normal(self, wo: V<L>, u: (F<L>, F<L>)) -> V<L> {
-        let ggx = ggx::sample_visible_normal(self.widths, wo, u);
-        if self.beckmann.any() { self.beckmann.pick(Beckmann(self.widths).sample_visible_normal(wo, u), ggx) } else { ggx }
-    }
+/// Pdf of [`sample_reflection`] per solid angle of the reflected direction; `h` is halfway between it and `wo`. Multiplied by
+/// G1(ω_i), it is f |cos θ_i| of perfectly reflecting microfacets.
+#[inline(always)]
+pub fn reflection_pdf<L: Lanes>(facets: impl Microfacets<L>, wo: V<L>, h: V<L>) -> F<L> {
+    0.25 * (facets.g1_over_cos(wo) * facets.d(h))
 }

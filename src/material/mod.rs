@@ -3,13 +3,13 @@
 //! A kind is one file and one line of the catalogue below. The line names the description, which stands in the file with its parameters,
 //! and the stages of the kernel that shade it. A stage is compiled once a SIMD level, with nothing in it that its kind does not need.
 //!
-//! Roughness is the width α of the distribution of microfacets (`microfacets.rs`: `ggx.rs` or `beckmann.rs`); the tables that account for all light are in `albedo.rs` for reflection
-//! and in `missing_energy.rs` for interfaces.
+//! Roughness is the width α of the distribution of microfacets (`microfacets.rs`: `ggx.rs` or `beckmann.rs`);
+//! the tables that account for all light are in `albedo.rs` for reflection and in `missing_energy.rs` for interfaces.
 mod albedo;
 mod albedo_table;
 mod anisotropic_conductor;
 mod anisotropy;
-mod beckmann;
+pub mod beckmann;
 pub mod blend;
 mod bsdf;
 mod compiled;
@@ -18,6 +18,7 @@ mod conductor_fresnel;
 pub mod dielectric;
 mod dielectric_albedo;
 pub mod diffuse_transmission;
+mod either_facets;
 pub mod fresnel;
 pub mod ggx;
 mod grazing;

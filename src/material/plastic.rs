@@ -12,7 +12,7 @@ use super::{
     Bsdf, BsdfSample, ChosenLobe, Compile, CompiledMaterial, Lobes, Local, MaterialCompiler, Materials, Roughness, Shade, Stage,
     albedo::Albedo,
     fresnel::{dielectric, dielectric_average},
-    ggx, ior,
+    ggx, ior, microfacets,
 };
 use crate::{
     declare::{Declare, Kind, Parameter, Parameters, Problem, Range, Textured},
@@ -171,8 +171,8 @@ impl<'a, L: Lanes> PlasticBsdf<'a, L> {
         let mut pdf = (1.0 - chance) * cosine;
         if self.rough.any() {
             let h = (wo + wi).normalized();
-            let density = self.rough.pick(ggx::reflection_pdf(self.alpha, wo, h), zero);
-            let coat = dielectric(wo.dot(h).max(zero), self.ior).0 * density * ggx::g1(self.alpha, wi);
+            let density = self.rough.pick(microfacets::reflection_pdf(self.alpha, wo, h), zero);
+            let coat = dielectric(wo.dot(h).max(zero), self.ior).0 * density * microfacets::g1(self.alpha, wi);
             f = f + V { x: coat, y: coat, z: coat };
             pdf = pdf + chance * density;
         }
@@ -195,7 +195,7 @@ impl<L: Lanes> Bsdf<L> for PlasticBsdf<'_, L> {
         let coat = lobe.lt(chance);
         let mut reflected = V { x: -wo.x, y: -wo.y, z: wo.z };
         if self.rough.any() {
-            reflected = self.rough.pick(ggx::sample_reflection(self.alpha, wo, u), reflected);
+            reflected = self.rough.pick(microfacets::sample_reflection(self.alpha, wo, u), reflected);
         }
         let wi = coat.pick(reflected, Directions::Cosine.sample(u));
         let (f, pdf) = self.eval_with(wo, wi, transmission, chance);

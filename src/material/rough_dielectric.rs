@@ -6,7 +6,7 @@ use super::{
     Bsdf, BsdfSample, ChosenLobe, Lobes, Local, Materials, Shade, Stage,
     dielectric::{DielectricBsdf, DielectricRow},
     fresnel, ggx,
-    microfacets::Microfacets,
+    microfacets::{self, Microfacets},
     missing_energy::{LossTable, MissingEnergy},
     refraction::{FAINT, uncompressed},
 };
@@ -110,10 +110,10 @@ impl<'a, L: Lanes, D: Microfacets<L>> RoughDielectricBsdf<'a, L, D> {
         let (seen, eta) = (swap.pick(opposite, cos), swap.pick(1.0 / self.eta, self.eta));
         let (reflectance, _) = fresnel::dielectric(seen.max(cos.splat(0.0)), eta);
         let chosen = through.pick(1.0 - reflectance, reflectance);
-        let pdf = ggx::visible_normal_pdf(self.facets, wo, m) * chosen * (index * index * opposite / square);
+        let pdf = microfacets::visible_normal_pdf(self.facets, wo, m) * chosen * (index * index * opposite / square);
         let exists = cos.above(0.0) & opposite.above(0.0) & square.above(0.0);
         let pdf = exists.pick(pdf, cos.splat(0.0));
-        (pdf * ggx::g1(self.facets, wi), pdf)
+        (pdf * microfacets::g1(self.facets, wi), pdf)
     }
 
     /// Samples a direction via a visible facet, and tells whether it is on the correct side.

@@ -11,9 +11,10 @@ use super::{
     albedo::Albedo,
     anisotropy::Widths,
     dielectric::SPECULAR_REFLECTANCE,
+    either_facets::EitherFacets,
     fresnel::{dielectric, dielectric_average},
     ggx, ior,
-    microfacets::{Distribution, EitherFacets},
+    microfacets::{self, Distribution},
 };
 use crate::{
     declare::{Declare, Kind, Parameter, Parameters, Problem, Range, Textured},
@@ -34,7 +35,7 @@ pub struct RoughPlastic {
     pub distribution: Distribution,
     /// Factor of the light that the coat reflects.
     pub specular_reflectance: [f64; 3],
-    /// Fraction R of the light from the base that the coat returns; at most that of a smooth coat, 1 − T_avg/η².
+    /// Fraction R of the light from the base that the coat returns; at most 1 − T_avg/η², and that of a smooth coat.
     pub internal_reflectance: f64,
     /// Whether every reflection by the base makes the color more saturated.
     pub nonlinear: bool,
@@ -151,6 +152,8 @@ impl Shade for RoughPlastic {
         let coat = Albedo::at(&materials.tables.rows, table.bits(), alpha);
         let average = if rough.any() { rough.pick(smooth + coat.average(l), smooth) } else { smooth };
         let (nonlinear, ior2) = (nonlinear.above(0.0), ior * ior);
+        // What enters comes out again at most.
+        let returned = returned.min(1.0 - average / ior2);
         let rho = at.colour;
         let base = V {
             x: rho.x / (ior2 * (1.0 - nonlinear.pick(rho.x * returned, returned))),
@@ -210,8 +213,8 @@ impl<L: Lanes> RoughPlasticBsdf<'_, L> {
         let mut pdf = (1.0 - chance) * cosine;
         if self.rough.any() {
             let h = (wo + wi).normalized();
-            let density = self.rough.pick(ggx::reflection_pdf(self.facets, wo, h), zero);
-            let coat = dielectric(wo.dot(h).max(zero), self.ior).0 * density * ggx::g1(self.facets, wi);
+            let density = self.rough.pick(microfacets::reflection_pdf(self.facets, wo, h), zero);
+            let coat = dielectric(wo.dot(h).max(zero), self.ior).0 * density * microfacets::g1(self.facets, wi);
             f = f + self.tint * coat;
             pdf = pdf + chance * density;
         }
@@ -234,7 +237,7 @@ impl<L: Lanes> Bsdf<L> for RoughPlasticBsdf<'_, L> {
         let coat = lobe.lt(chance);
         let mut mirrored = V { x: -wo.x, y: -wo.y, z: wo.z };
         if self.rough.any() {
-            mirrored = self.rough.pick(ggx::sample_reflection(self.facets, wo, u), mirrored);
+            mirrored = self.rough.pick(microfacets::sample_reflection(self.facets, wo, u), mirrored);
         }
         let wi = coat.pick(mirrored, Directions::Cosine.sample(u));
         let (f, pdf) = self.eval_with(wo, wi, transmission, chance);

@@ -8,6 +8,7 @@ mod declared;
 mod denoising;
 mod edited_scenes;
 mod evidence;
+mod faults;
 mod figures;
 mod formats;
 mod imports;

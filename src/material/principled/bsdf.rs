@@ -2,7 +2,7 @@
 use fearless_simd_macros::simd;
 
 use super::{
-    super::{Bsdf, BsdfSample, ChosenLobe, Lobes, fresnel::dielectric, ggx},
+    super::{Bsdf, BsdfSample, ChosenLobe, Lobes, fresnel::dielectric, ggx, microfacets},
     interface::grey,
     point::Point,
     rough_diffuse::{self, rough_diffuse},
@@ -56,9 +56,9 @@ impl<L: Lanes, const CLEAR: bool> PrincipledBsdf<'_, L, CLEAR> {
         let h = (wo + wi).normalized();
         if self.0.has_coat.any() {
             let facets = &self.0.coat;
-            let density = facets.rough.pick(ggx::reflection_pdf(facets.widths, wo, h), zero);
+            let density = facets.rough.pick(microfacets::reflection_pdf(facets.widths, wo, h), zero);
             let reflected = dielectric(wo.dot(h).max(zero), self.0.coat_ior).0;
-            let coat = view.coated * reflected * density * ggx::g1(facets.widths, wi);
+            let coat = view.coated * reflected * density * microfacets::g1(facets.widths, wi);
             f = f + grey(self.0.has_coat.pick(coat, zero));
             pdf = pdf + self.0.has_coat.pick(view.coat_chance * density, zero);
         }
@@ -89,8 +89,8 @@ impl<L: Lanes, const CLEAR: bool> PrincipledBsdf<'_, L, CLEAR> {
     #[inline(always)]
     fn reflecting(&self, wo: V<L>, wi: V<L>, h: V<L>) -> Facet<L> {
         let (facets, zero) = (&self.0.base, wo.z.splat(0.0));
-        let density = (facets.rough & wi.z.above(0.0)).pick(ggx::reflection_pdf(facets.widths, wo, h), zero);
-        Facet { cos: wo.dot(h).max(zero), density, unmasked: ggx::g1(facets.widths, wi) }
+        let density = (facets.rough & wi.z.above(0.0)).pick(microfacets::reflection_pdf(facets.widths, wo, h), zero);
+        Facet { cos: wo.dot(h).max(zero), density, unmasked: microfacets::g1(facets.widths, wi) }
     }
 
     /// The facet that reflects or refracts between two directions: see `rough_dielectric.rs`. Light passes a sheet in the direction
@@ -107,9 +107,9 @@ impl<L: Lanes, const CLEAR: bool> PrincipledBsdf<'_, L, CLEAR> {
         let m = sum * (1.0 / square.sqrt()).copysign(sum.z);
         let (cos, beyond) = (wo.dot(m), wi.dot(m));
         let opposite = bends.pick(-beyond, beyond);
-        let density = ggx::visible_normal_pdf(facets.widths, wo, m) * (index * index * opposite / square);
+        let density = microfacets::visible_normal_pdf(facets.widths, wo, m) * (index * index * opposite / square);
         let exists = facets.rough & cos.above(0.0) & opposite.above(0.0) & square.above(0.0) & !(bends & self.0.faint);
-        Facet { cos: cos.max(zero), density: exists.pick(density, zero), unmasked: ggx::g1(facets.widths, wi) }
+        Facet { cos: cos.max(zero), density: exists.pick(density, zero), unmasked: microfacets::g1(facets.widths, wi) }
     }
 
     /// 1/η², by which radiance shrinks as it enters a denser medium.

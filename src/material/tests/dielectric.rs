@@ -5,7 +5,7 @@ use super::super::{
     bsdf::{Bsdf, Lobes},
     dielectric::DielectricBsdf,
     dielectric_albedo::textured_rows,
-    fresnel, ggx,
+    fresnel, microfacets,
     missing_energy::LossTable,
     rough_dielectric::RoughDielectricBsdf,
     tests::dielectric_fixtures::{COSINES, ETAS, ROUGHNESSES, combine, dot, interfaces, rough, rows_of, view, wide},
@@ -157,7 +157,7 @@ fn weights_are_eval_over_pdf() {
                 assert_eq!(pdf.0, sample.pdf.0);
                 let weight = sample.weight.x.0;
                 assert!(weight == 0.0 || (weight * pdf.0 - f.x.0).abs() <= 1e-6 * f.x.0, "{eta} {alpha} {cos}");
-                let masked = ggx::g1(F(alpha), sample.wi).0;
+                let masked = microfacets::g1(F(alpha), sample.wi).0;
                 let scale = if sample.wi.z.0 < 0.0 { eta * eta } else { 1.0 };
                 assert!(energy.is_some() || weight == 0.0 || (weight * scale - masked).abs() < 1e-5, "{eta} {alpha} {cos}");
             }

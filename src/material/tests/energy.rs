@@ -8,7 +8,7 @@ use crate::{
     declare::Textured,
     material::{
         albedo::{Albedo, LOSS},
-        ggx,
+        microfacets,
     },
     math::{F, M, One, U, V},
     sampling::Directions,
@@ -82,8 +82,8 @@ fn the_table_of_lost_light_is_interpolated_within_four_ten_thousandths() {
         let table = Albedo::at(&LOSS, U(0), alpha).value(One, wo.z);
         let mut loss = 0.0;
         for u in lattice(28_657, 17_711) {
-            let wi = ggx::sample_reflection(alpha, wo, u);
-            loss += 1.0 - if wi.z.0 > 0.0 { f64::from(ggx::g1(alpha, wi).0) } else { 0.0 };
+            let wi = microfacets::sample_reflection(alpha, wo, u);
+            loss += 1.0 - if wi.z.0 > 0.0 { f64::from(microfacets::g1(alpha, wi).0) } else { 0.0 };
         }
         let loss = loss / 28_657.0;
         assert!((f64::from(table.0) - loss).abs() < 4e-4, "{} {}: {} {loss}", alpha.0, wo.z.0, table.0);

@@ -2,9 +2,10 @@
 use crate::{
     material::{
         Distribution,
+        beckmann::Beckmann,
         fresnel::dielectric,
         ggx,
-        microfacets::{Beckmann, Microfacets},
+        microfacets::{self, Microfacets},
     },
     math::{F, One, V},
 };
@@ -46,7 +47,7 @@ fn reflected(facets: impl Microfacets<One>, mu: f32, eta: F<One>) -> f64 {
         let h = facets.sample_visible_normal(wo, (F(x), F(y)));
         let cos = wo.dot(h);
         let wi = h * (cos * 2.0) - wo;
-        if wi.z.0 <= 0.0 { 0.0 } else { f64::from((dielectric(cos.max(F(0.0)), eta).0 * ggx::g1(facets, wi)).0) }
+        if wi.z.0 <= 0.0 { 0.0 } else { f64::from((dielectric(cos.max(F(0.0)), eta).0 * microfacets::g1(facets, wi)).0) }
     };
     (0..count).map(facet).sum::<f64>() / f64::from(count)
 }
