@@ -68,6 +68,13 @@ impl Export<'_> {
 
     /// The irradiance of Mitsuba's is that at a distance of 1, divided by π.
     fn projector(&mut self, lamp: &Projector, place: Element) -> Element {
+        if lamp.tint != [1.0; 3] || lamp.angle < 180.0 || lamp.aspect != 0.0 {
+            self.remark(
+                "the tint, the cone or the aspect of a projector",
+                "none",
+                "its picture has other colors or another outline",
+            );
+        }
         if !lamp.flat {
             self.remark("a projector of even intensity", "one of even irradiance", "its light is brighter towards the edges");
         }

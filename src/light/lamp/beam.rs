@@ -86,7 +86,7 @@ impl<L: Lanes> Beam<L> {
         }
         let is_cone = word.below(PICTURE);
         let (_, _, inside) = self.picture_place(l, d);
-        let picture = inside.pick(self.rise(l, d), l.f(0.0));
+        let picture = inside.pick(self.rise(l, d) * self.dimming(l, d), l.f(0.0));
         even.pick(l.f(1.0), is_cone.pick(self.cone(l, d), picture))
     }
 
@@ -96,6 +96,17 @@ impl<L: Lanes> Beam<L> {
         let length = self.rows[4][3];
         let slant = length / self.form(4, d);
         length.above(0.0).pick(slant * slant * slant, l.f(1.0))
+    }
+
+    /// The falloff of a picture's cone; 1 without one.
+    #[inline(always)]
+    fn dimming(&self, l: L, d: V<L>) -> F<L> {
+        let factor = self.rows[3][3];
+        let [x, y, z, _] = self.rows[4];
+        let axis = V { x, y, z };
+        let place = -turns_of(d.dot(axis), d.cross(axis).length_squared().sqrt());
+        let t = ((place - self.rows[2][3]) * factor).max(l.f(0.0)).min(l.f(1.0));
+        factor.above(0.0).pick(t, l.f(1.0))
     }
 
     /// The falloff of a cone.

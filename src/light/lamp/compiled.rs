@@ -32,14 +32,20 @@ enum Shape {
         inner: f64,
         falloff: Falloff,
     },
-    /// A picture. The axes are linear forms: `x` and `y` of a direction over `z` are its coordinates, from −1 to 1 in the picture,
-    /// and `z` is positive in front of the lamp.
-    Picture {
-        axes: [DVec3; 3],
-        /// Whether the intensity rises by 1/cos³ of the angle to the axis, so that a screen is lit evenly.
-        flat: bool,
-        image: Option<Arc<ImageTexture>>,
-    },
+    Picture(Picture),
+}
+
+/// A picture that a lamp casts.
+pub struct Picture {
+    /// Linear forms: `x` and `y` of a direction over `z` are its coordinates, from −1 to 1 in the picture, and `z` is positive in front
+    /// of the lamp.
+    pub axes: [DVec3; 3],
+    /// Whether the intensity rises by 1/cos³ of the angle to the axis, so that a screen is lit evenly.
+    pub flat: bool,
+    /// `None` for white.
+    pub image: Option<Arc<ImageTexture>>,
+    /// Angles to the axis, radians: where the light begins to fall, linearly, and where it ends.
+    pub cone: Option<[f64; 2]>,
 }
 
 /// The numbers of a lamp.
@@ -48,8 +54,8 @@ enum Shape {
 /// |---|---|
 /// | 0 | homogeneous position; of a directional lamp the direction towards it and 0 |
 /// | 1 | power, and the word of the shape: [`EVEN`], [`BY_COSINE`], [`BY_ANGLE`], or [`PICTURE`] plus the number of the image |
-/// | 2 | cone: axis, edge; picture: x form |
-/// | 3 | cone: coefficients of t, t² and t³, and the factor that makes t; picture: y form |
+/// | 2 | cone: axis, edge; picture: x form, edge of its cone |
+/// | 3 | cone: coefficients of t, t² and t³, and the factor that makes t; picture: y form, the same factor, or 0 without a cone |
 /// | 4 | picture: z form, and its length if the picture is flat |
 pub type LampRows = [[f32; 4]; 5];
 
@@ -91,10 +97,9 @@ impl Lamp {
         Lamp { source: Source::At(position), power: single(intensity), shape }
     }
 
-    /// A lamp that casts a picture. The axes are linear forms of directions; `None` is white.
-    pub fn projector(position: DVec3, intensity: f64, axes: [DVec3; 3], flat: bool, image: Option<Arc<ImageTexture>>) -> Lamp {
-        let shape = Shape::Picture { axes, flat, image };
-        Lamp { source: Source::At(position), power: single([intensity; 3]), shape }
+    /// A lamp that casts a picture.
+    pub fn projector(position: DVec3, intensity: [f64; 3], picture: Picture) -> Lamp {
+        Lamp { source: Source::At(position), power: single(intensity), shape: Shape::Picture(picture) }
     }
 
     /// Checks the position, which a transform may take beyond the numbers of the renderer.
@@ -124,7 +129,7 @@ impl Lamp {
     /// The image that it casts.
     pub(super) fn image(&self) -> Option<&Arc<ImageTexture>> {
         match &self.shape {
-            Shape::Picture { image, .. } => image.as_ref(),
+            Shape::Picture(Picture { image, .. }) => image.as_ref(),
             _ => None,
         }
     }
@@ -156,32 +161,46 @@ impl Lamp {
             Shape::Even => EVEN,
             Shape::Cone { falloff: Falloff::Linear, .. } => BY_ANGLE,
             Shape::Cone { .. } => BY_COSINE,
-            Shape::Picture { .. } => PICTURE + image,
+            Shape::Picture(_) => PICTURE + image,
         };
         let [r, g, b] = self.power;
         rows[1] = [r, g, b, f32::from_bits(word)];
         match &self.shape {
             Shape::Even => {}
             Shape::Cone { axis, edge, inner, falloff } => {
-                // t is 0 at the edge and 1 at the inner angle; angles count as negative turns, so that t grows with them too.
-                let of = |angle: f64| if word == BY_ANGLE { -angle / TAU } else { angle.cos() };
-                let factor = (1.0 / (of(*inner) - of(*edge)).max(0.0)).min(STEEPEST);
-                rows[2] = row(*axis, of(*edge));
+                let (end, factor) = if word == BY_ANGLE { fall([*inner, *edge], turns) } else { fall([*inner, *edge], f64::cos) };
+                rows[2] = row(*axis, end);
                 rows[3] = match falloff {
-                    Falloff::Smooth => [0.0, 3.0, -2.0, factor as f32],
-                    Falloff::Linear => [1.0, 0.0, 0.0, factor as f32],
-                    Falloff::Square => [0.0, 1.0, 0.0, factor as f32],
+                    Falloff::Smooth => [0.0, 3.0, -2.0, factor],
+                    Falloff::Linear => [1.0, 0.0, 0.0, factor],
+                    Falloff::Square => [0.0, 1.0, 0.0, factor],
                 };
             }
-            Shape::Picture { axes, flat, .. } => {
+            Shape::Picture(Picture { axes, flat, cone, .. }) => {
                 for (row_of_axis, axis) in rows[2..].iter_mut().zip(axes) {
                     *row_of_axis = row(*axis, 0.0);
+                }
+                if let Some([inner, edge]) = *cone {
+                    let (end, factor) = fall([inner.min(edge), edge], turns);
+                    rows[2][3] = end as f32;
+                    rows[3][3] = factor;
                 }
                 rows[4][3] = if *flat { axes[2].length() as f32 } else { 0.0 };
             }
         }
         rows
     }
+}
+
+/// Angles as negative turns, which grow towards the axis as cosines do.
+fn turns(angle: f64) -> f64 {
+    -angle / TAU
+}
+
+/// What `of` is at the edge, and the factor of t, which is 0 there and 1 at the inner angle.
+fn fall([inner, edge]: [f64; 2], of: impl Fn(f64) -> f64) -> (f64, f32) {
+    let factor = (1.0 / (of(inner) - of(edge)).max(0.0)).min(STEEPEST);
+    (of(edge), factor as f32)
 }
 
 fn single(colour: [f64; 3]) -> [f32; 3] {

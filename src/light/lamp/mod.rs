@@ -28,7 +28,10 @@ pub(super) use self::{
     beam::Beam,
     compiled::{LampBound, LampRows},
 };
-pub use self::{compiled::Lamp, table::Lamps};
+pub use self::{
+    compiled::{Lamp, Picture},
+    table::Lamps,
+};
 use crate::declare::{Declare, Parameters, Problem, Resources};
 
 /// Largest number of directional lamps of a scene. They have no position, so they are weighted one by one beside the light tree.

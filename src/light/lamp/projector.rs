@@ -1,7 +1,7 @@
 //! An image that is cast from a point.
 use glam::{DAffine3, DVec3};
 
-use super::{Lamp, LampKind, Shine, intensity, spot::axis};
+use super::{Lamp, LampKind, Picture, Shine, intensity, spot::axis};
 use crate::{
     declare::{Declare, Kind, Parameter, Parameters, Problem, Range, Resources, Value},
     image::Encoding,
@@ -23,10 +23,18 @@ pub struct Projector {
     pub encoding: Encoding,
     /// Angle across the width of the image.
     pub fov: f64,
+    /// Width of the image over its height; 0 for that of the file.
+    pub aspect: f64,
     /// Radiant intensity on the axis where the image is 1.
     pub scale: f64,
+    /// Factor of the colors of the image.
+    pub tint: [f64; 3],
     /// Whether a screen that faces it is lit evenly, as by a slide projector; otherwise the intensity is the same in all directions.
     pub flat: bool,
+    /// Angle between the axis and the edge of a cone, where the light ends; 180 for no cone.
+    pub angle: f64,
+    /// Angle up to which a cone does not dim the image; at most `angle`.
+    pub inner: f64,
 }
 
 impl Default for Projector {
@@ -38,8 +46,12 @@ impl Default for Projector {
             image: String::new(),
             encoding: Encoding::Srgb,
             fov: 40.0,
+            aspect: 0.0,
             scale: 1.0,
+            tint: [1.0; 3],
             flat: false,
+            angle: 180.0,
+            inner: 180.0,
         }
     }
 }
@@ -56,6 +68,16 @@ impl Declare for Projector {
         const IMAGE: Parameter = Parameter::new("image", "The image file, relative to the scene; a white square if it is empty.");
         const ENCODING: Parameter = Parameter::new("encoding", "Encoding of the file's numbers; EXR and HDR are always linear.");
         const FOV: Parameter = Parameter::new("fov", "Angle across the width of the image.").unit("degrees");
+        const ASPECT: Parameter = Parameter::new("aspect", "Width of the image over its height; 0 for that of the file.");
+        const TINT: Parameter = Parameter::new("tint", "Factor of the colors of the image.");
+        const ANGLE: Parameter =
+            Parameter::new("angle", "Angle between the axis and the edge of a cone, where the light ends; 180 for no cone.")
+                .unit("degrees");
+        const INNER: Parameter = Parameter::new(
+            "inner",
+            "Angle up to which a cone does not dim the image; between it and `angle`, the light falls linearly.",
+        )
+        .unit("degrees");
         const SCALE: Parameter = Parameter::new("scale", "Radiant intensity on the axis where the image is 1.").unit("W/sr");
         const FLAT: Parameter = Parameter::new(
             "flat",
@@ -67,8 +89,12 @@ impl Declare for Projector {
         p.value(&IMAGE, Value::File(&mut self.image));
         p.word(&ENCODING, &mut self.encoding);
         p.number(&FOV, &mut self.fov, Range::linear(0.01, 179.0));
+        p.number(&ASPECT, &mut self.aspect, Range::linear(0.0, 1e3));
         p.number(&SCALE, &mut self.scale, Range::log(0.0, 1e12));
+        p.colour(&TINT, &mut self.tint, Range::UNIT);
         p.flag(&FLAT, &mut self.flat);
+        p.number(&ANGLE, &mut self.angle, Range::linear(0.01, 180.0));
+        p.number(&INNER, &mut self.inner, Range::linear(0.0, 180.0));
     }
 }
 
@@ -80,13 +106,16 @@ impl Shine for Projector {
             "" => None,
             file => Some(ImageTexture::read(resources, "image", file, self.encoding)?),
         };
-        let aspect = image.as_ref().map_or(1.0, |image| f64::from(image.step_v() / image.step_u()));
+        let own = image.as_ref().map_or(1.0, |image| f64::from(image.step_v() / image.step_u()));
+        let aspect = if self.aspect > 0.0 { self.aspect } else { own };
         let half_width = (0.5 * self.fov).to_radians().tan();
         let forms = [right / half_width, right.cross(forward) * aspect / half_width, forward];
         // A form of directions before the transform becomes one of directions after it: also of mirrored and sheared ones.
         let covector = map.matrix3.inverse().transpose();
         let axes = forms.map(|form| covector * form);
-        Ok(Lamp::projector(map.transform_point3(self.position), self.scale, axes, self.flat, image))
+        let cone = (self.angle < 180.0).then(|| [self.inner, self.angle].map(f64::to_radians));
+        let picture = Picture { axes, flat: self.flat, image, cone };
+        Ok(Lamp::projector(map.transform_point3(self.position), self.tint.map(|x| x * self.scale), picture))
     }
 
     fn position(&self) -> Option<DVec3> {

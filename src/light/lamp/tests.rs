@@ -4,7 +4,7 @@ use std::sync::Arc;
 use glam::{DAffine3, DVec3};
 
 use super::{
-    Lamp, LampKind, Lamps, Shine,
+    Lamp, LampKind, Lamps, Picture as Cast, Shine,
     directional::Directional,
     point::Point,
     projector::Projector,
@@ -130,6 +130,22 @@ fn a_projector_without_an_image_casts_a_square_of_its_angle() {
     }
 }
 
+#[test]
+fn the_cone_of_a_projector_is_that_of_a_linear_spot() {
+    let [position, target, intensity] = [DVec3::Y, DVec3::new(0.2, 0.0, -0.1), DVec3::new(3.0, 1.5, 0.75)];
+    let (angle, inner) = (20.0, 15.0);
+    let falloff = Falloff::Linear;
+    let spot = here(Spot { position, target, intensity: intensity.to_array(), angle, inner, falloff });
+    let tint = [1.0, 0.5, 0.25];
+    let fov = 2.0 * angle;
+    let projector = here(Projector { position, target, fov, scale: 3.0, tint, angle, inner, ..Projector::default() });
+    for i in 0..500 {
+        let p = DVec3::new(random(2 * i) - 0.5, 0.0, random(2 * i + 1) - 0.5);
+        let [found, expected] = [&projector, &spot].map(|lamps| light(lamps, p).1);
+        assert!((0..3).all(|c| (found[c] - expected[c]).abs() < 2e-5), "{p}: {found:?} {expected:?}");
+    }
+}
+
 /// Two texels: red to the left, green to the right.
 fn red_and_green() -> Arc<ImageTexture> {
     let picture = Picture { width: 2, height: 1, radiance: vec![[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]] };
@@ -139,8 +155,8 @@ fn red_and_green() -> Arc<ImageTexture> {
 #[test]
 fn the_image_of_a_projector_is_the_right_way_round_and_does_not_wrap() {
     let axes = [DVec3::X, DVec3::Y * 2.0, DVec3::NEG_Z];
-    let white_then = Lamp::projector(DVec3::ZERO, 1.0, axes, false, None);
-    let lamps = Lamps::new(&[Lamp::projector(DVec3::ZERO, 1.0, axes, false, Some(red_and_green())), white_then]);
+    let cast = |image| Lamp::projector(DVec3::ZERO, [1.0; 3], Cast { axes, flat: false, image, cone: None });
+    let lamps = Lamps::new(&[cast(Some(red_and_green())), cast(None)]);
     // Seen from the projector, x is to the right. Beyond the middles of the texels there is only their colour, up to the edge.
     for (x, y, expected) in
         [(-0.7, 0.3, [1.0, 0.0]), (-0.999, 0.0, [1.0, 0.0]), (0.7, -0.3, [0.0, 1.0]), (0.999, 0.49, [0.0, 1.0])]
@@ -196,7 +212,9 @@ fn every_width_gives_the_same_bits() {
     let kinds: [LampKind; 4] =
         [Point::default().into(), Spot::default().into(), Directional::default().into(), Projector::default().into()];
     let mut all: Vec<Lamp> = kinds.iter().map(|kind| compiled(kind.kind(), &DAffine3::IDENTITY)).collect();
-    all.push(Lamp::projector(DVec3::Y, 1.0, [DVec3::X, DVec3::Z, DVec3::NEG_Y], false, Some(red_and_green())));
+    let axes = [DVec3::X, DVec3::Z, DVec3::NEG_Y];
+    let cast = Cast { axes, flat: false, image: Some(red_and_green()), cone: Some([0.2, 0.7]) };
+    all.push(Lamp::projector(DVec3::Y, [1.0; 3], cast));
     let lamps = Lamps::new(&all);
     for round in 0..100 {
         let points: [[f32; 16]; 3] =

@@ -7,7 +7,7 @@ use crate::{
     geometry::{MISS, Motion, Outline, PrimitiveRef, Shape, Shapes},
     light::{
         Emission, Emitters, Lamp, Lamps, LightCoordinates, Lobe, ReferencePoint, Side,
-        lamp::{MOST_DIRECTIONAL, spot::Falloff},
+        lamp::{MOST_DIRECTIONAL, Picture, spot::Falloff},
     },
     math::{F, Lanes, M, One, Pick, SimdLevel, U, V},
     sampling::hash::hash_one,
@@ -147,7 +147,8 @@ fn any_lamp(r: &mut Random) -> Lamp {
         }
         _ => {
             let right = axis.any_orthonormal_vector();
-            Lamp::projector(position, 1.0, [right, right.cross(axis) * 2.0, axis], false, None)
+            let axes = [right, right.cross(axis) * 2.0, axis];
+            Lamp::projector(position, [1.0; 3], Picture { axes, flat: false, image: None, cone: None })
         }
     }
 }

@@ -20,6 +20,7 @@ use crate::{
         SceneError,
         description::{LampDescription, Textured},
     },
+    texture::image::Image,
 };
 
 pub fn point(import: &mut Import, element: Element) -> Result<(), SceneError> {
@@ -49,7 +50,11 @@ pub fn spot(import: &mut Import, element: Element) -> Result<(), SceneError> {
     let inner = element.number("beam_width", 0.75 * angle)?.clamp(0.0, angle);
     if let Some(texture) = element.property("texture")? {
         if texture.kind() == "bitmap" && angle < 89.0 {
-            return textured_spot(import, element, texture, &map, &picture::Cone { intensity, angle, inner });
+            let image = import.bitmap(texture)?;
+            if image.scale != [1.0; 2] || image.rotate != 0.0 || image.offset != [0.0; 2] {
+                import.remark(texture, "the image without `to_uv`", "the picture lies elsewhere");
+            }
+            return add(import, element, of_picture(&map, image, intensity, [inner, angle]));
         }
         import.remark(texture, "white", "the light has no picture");
     }
@@ -57,23 +62,25 @@ pub fn spot(import: &mut Import, element: Element) -> Result<(), SceneError> {
     add(import, element, Spot { position, target, intensity, angle, inner, falloff: Falloff::Linear })
 }
 
-/// A spot with a picture is a projector whose image holds the falloff too.
-fn textured_spot(
-    import: &mut Import,
-    element: Element,
-    texture: Element,
-    map: &DAffine3,
-    cone: &picture::Cone,
-) -> Result<(), SceneError> {
-    let image = import.bitmap(texture)?;
-    let Some(bytes) = picture::of_spot(import, &image, cone) else {
-        return Err(texture.error("the image of the spot cannot be read", "check the file"));
-    };
-    let path = import.new_files.add_image(element.label(), "exr", bytes);
-    import.remark(texture, "an image of the light and its falloff", "the edge of the cone is interpolated between pixels");
+/// A spot with a picture is a projector with a cone. The picture is a square, with its first row at −y.
+fn of_picture(map: &DAffine3, image: Image, intensity: [f64; 3], [inner, angle]: [f64; 2]) -> Projector {
     let [position, target, up] = axes(map);
-    let fov = 2.0 * cone.angle;
-    add(import, element, Projector { position, target, up, image: path, encoding: Encoding::Linear, fov, scale: 1.0, flat: true })
+    let scale = intensity.into_iter().fold(0.0, f64::max);
+    let tint = if scale > 0.0 { intensity.map(|x| x / scale) } else { [1.0; 3] };
+    Projector {
+        position,
+        target,
+        up: -up,
+        image: image.path,
+        encoding: image.encoding,
+        fov: 2.0 * angle,
+        aspect: 1.0,
+        scale,
+        tint,
+        flat: false,
+        angle,
+        inner,
+    }
 }
 
 pub fn projector(import: &mut Import, element: Element) -> Result<(), SceneError> {
@@ -99,7 +106,11 @@ pub fn projector(import: &mut Import, element: Element) -> Result<(), SceneError
     };
     let fov = fov::across_width(element, aspect)?.clamp(0.01, 179.0);
     let [position, target, up] = axes(&map);
-    add(import, element, Projector { position, target, up, image: path, encoding, fov, scale, flat: true })
+    add(
+        import,
+        element,
+        Projector { position, target, up, image: path, encoding, fov, scale, flat: true, ..Projector::default() },
+    )
 }
 
 /// Position, a point ahead, and the direction upwards.

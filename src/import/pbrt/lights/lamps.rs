@@ -85,7 +85,7 @@ impl Import {
             encoding: Encoding::Srgb,
             fov: fov.clamp(0.01, 179.0),
             scale,
-            flat: false,
+            ..Projector::default()
         };
         // The right of the image is at +x, as left-handed cameras have it.
         let mirrored = *map * DAffine3::from_scale(DVec3::new(-1.0, 1.0, 1.0));
