@@ -6,6 +6,7 @@
 //! | `mitsuba/` | XML of Mitsuba 3 |
 //! | `files.rs`, `new_assets.rs` | meshes and textures beside the scene file |
 //! | `file_names.rs` | names that every system accepts |
+//! | `notes.rs` | remarks by place |
 //! | `geometry.rs` | shapes in world space, and triangles that stand for them |
 //! | `textures.rs` | means and images of textures |
 //!
@@ -15,6 +16,7 @@ mod files;
 mod geometry;
 mod mitsuba;
 mod new_assets;
+mod notes;
 mod textures;
 mod toml;
 
@@ -83,8 +85,8 @@ pub enum ExportError {
         /// The message of the operating system.
         reason: String,
     },
-    /// The text of the scene exceeds the limit of the reader.
-    #[error("{}: the scene would be {size} of text, more than a scene file may have", quote::path(path))]
+    /// The scene exceeds the limit of the format.
+    #[error("{}: the scene would be {size}, more than a scene file may have", quote::path(path))]
     TooLong {
         /// The scene file.
         path: PathBuf,
