@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `toml.rs` | the format of Noisefall |
 //! | `mitsuba/` | XML of Mitsuba 3 |
+//! | `gltf/` | glTF 2.0 |
 //! | `files.rs`, `new_assets.rs` | meshes and textures beside the scene file |
 //! | `file_names.rs` | names that every system accepts |
 //! | `notes.rs` | remarks by place |
@@ -14,6 +15,7 @@
 mod file_names;
 mod files;
 mod geometry;
+mod gltf;
 mod mitsuba;
 mod new_assets;
 mod notes;
@@ -67,7 +69,7 @@ pub struct Exported {
 #[derive(Debug, thiserror::Error)]
 pub enum ExportError {
     /// The extension is not known.
-    #[error("{}: the format is not known; the name must end in .toml or .xml", quote::path(.0))]
+    #[error("{}: the format is not known; the name must end in .toml, .xml, .gltf or .glb", quote::path(.0))]
     UnknownFormat(PathBuf),
     /// A part of the scene is invalid.
     #[error("{place}: {reason}")]
@@ -119,6 +121,8 @@ pub fn check(path: &Path) -> Result<Translator, ExportError> {
     let extension = path.extension().map(std::ffi::OsStr::to_ascii_lowercase);
     match extension.as_deref().and_then(|extension| extension.to_str()) {
         Some("toml") => Ok(toml::prepare),
+        Some("gltf") => Ok(gltf::prepare_text),
+        Some("glb") => Ok(gltf::prepare_binary),
         Some("xml") => Ok(mitsuba::prepare),
         _ => Err(ExportError::UnknownFormat(path.to_owned())),
     }

@@ -16,6 +16,11 @@ impl Notes {
         self.remarks.add(self.place.clone(), found, used, effect);
     }
 
+    /// What is being translated.
+    pub fn place(&self) -> &str {
+        &self.place
+    }
+
     /// Goes to a place, and returns the one before.
     pub fn enter(&mut self, place: String) -> String {
         std::mem::replace(&mut self.place, place)
