@@ -19,6 +19,8 @@ mod gltf;
 mod mitsuba;
 mod new_assets;
 mod notes;
+#[cfg(test)]
+mod round_trip;
 mod textures;
 mod toml;
 
