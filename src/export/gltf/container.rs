@@ -24,8 +24,8 @@ impl Export<'_> {
     /// The JSON file. Binary data and images are files of their own.
     pub fn text(mut self, source: Source, path: &Path) -> Result<Prepared, ExportError> {
         let mut buffer = None;
-        if !self.buffer.bytes.is_empty() {
-            let bytes = std::mem::take(&mut self.buffer.bytes);
+        if !self.document.buffer.bytes.is_empty() {
+            let bytes = std::mem::take(&mut self.document.buffer.bytes);
             let stem = path.file_stem().unwrap_or_default().to_string_lossy();
             let length = bytes.len();
             buffer = Some((self.new.add("meshes", &stem, "bin", bytes), length));
@@ -49,14 +49,14 @@ impl Export<'_> {
                 Some(content) => content,
                 None => bytes(&source.folder.join(&image))?.into(),
             };
-            let start = self.buffer.append(&content)?;
+            let start = self.document.buffer.append(&content)?;
             let view = json!({ "buffer": 0, "byteOffset": start, "byteLength": content.len() });
             let view = self.document.add("bufferViews", view);
             let kind = if content.starts_with(b"\x89PNG") { "image/png" } else { "image/jpeg" };
             let name = image.rsplit('/').next().and_then(|file| file.split('.').next()).unwrap_or_default();
             self.document.add("images", json!({ "bufferView": view, "mimeType": kind, "name": name }));
         }
-        let data = self.buffer.bytes;
+        let data = std::mem::take(&mut self.document.buffer.bytes);
         if !data.is_empty() {
             self.document.add("buffers", json!({ "byteLength": data.len() }));
         }

@@ -6,11 +6,8 @@ use serde_json::{Map, Value, json};
 
 use super::{
     super::{Source, new_assets::NewAssets, notes::Notes, textures::Colors},
-    buffer::Buffer,
     document::Document,
-    materials::Made,
-    shapes::{Columns, MeshKey},
-    textures::Mapped,
+    known::{Columns, Made, Mapped, MeshKey},
 };
 use crate::{declare::Resources, import::Names, scene::description::SceneDescription};
 
@@ -22,7 +19,6 @@ pub struct Export<'a> {
     pub new: NewAssets,
     pub notes: Notes,
     pub document: Document,
-    pub buffer: Buffer,
     /// Names of materials.
     pub names: Names,
     /// Materials by name and emission.
@@ -47,7 +43,6 @@ impl<'a> Export<'a> {
             new: NewAssets::new(source.assets),
             notes: Notes::default(),
             document: Document::default(),
-            buffer: Buffer::default(),
             names: Names::default(),
             materials: HashMap::new(),
             images: Vec::new(),

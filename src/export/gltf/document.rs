@@ -3,9 +3,12 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use serde_json::{Map, Value, json};
 
-/// The lists of a document.
+use super::buffer::Buffer;
+
+/// A document with its binary data.
 #[derive(Default)]
 pub struct Document {
+    pub buffer: Buffer,
     lists: BTreeMap<&'static str, Vec<Value>>,
     extensions: BTreeSet<&'static str>,
     lamps: Vec<Value>,

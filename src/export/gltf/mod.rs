@@ -5,18 +5,20 @@
 //!
 //! | file | holds |
 //! |---|---|
-//! | `context.rs` | the scene so far, names and remarks |
-//! | `document.rs`, `buffer.rs`, `container.rs` | JSON, binary data, and the files of both |
+//! | `context.rs`, `known.rs` | the scene so far, names and remarks |
+//! | `document.rs`, `buffer.rs`, `accessors.rs`, `container.rs` | JSON, binary data, and the files of both |
 //! | `shapes.rs`, `units.rs` | nodes and meshes |
 //! | `materials/` | materials and the light that surfaces emit |
 //! | `textures.rs`, `pixels.rs` | colors, numbers and images |
 //! | `lights.rs` | lamps |
 //! | `camera.rs` | the camera |
+mod accessors;
 mod buffer;
 mod camera;
 mod container;
 mod context;
 mod document;
+mod known;
 mod lights;
 mod materials;
 mod pixels;

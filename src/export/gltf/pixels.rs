@@ -5,7 +5,8 @@ use super::{
         textures::{BAKED, SIDE, luminance},
     },
     context::Export,
-    textures::{Mapped, Part, placement},
+    known::Mapped,
+    textures::{Part, placement},
 };
 use crate::{
     declare::Textured,
@@ -37,37 +38,35 @@ impl Export<'_> {
     /// A new image with the textures of all parts. Constant parts find 1 there.
     pub fn packed(&mut self, parts: &[Part]) -> Result<Option<Mapped>, ExportError> {
         let textured: Vec<(usize, &str)> =
-            parts.iter().enumerate().filter_map(|(at, part)| part.texture.as_deref().map(|name| (at, name))).collect();
+            parts.iter().enumerate().filter_map(|(at, part)| Some((at, part.texture.as_deref()?))).collect();
         let mut sheets = Vec::new();
         for (_, name) in &textured {
             sheets.extend(self.texels(name)?);
         }
         let is_same = |sheet: &Texels| sheet.size == sheets[0].size && sheet.place == sheets[0].place;
         if sheets.len() < textured.len() || !sheets.iter().all(is_same) {
-            sheets = textured.iter().filter_map(|(_, name)| self.baked(name)).collect();
+            let baked: Option<Vec<Texels>> = textured.iter().map(|(_, name)| self.baked(name)).collect();
+            sheets = baked.unwrap_or_default();
         }
-        let Some(Texels { size, place, .. }) = sheets.first() else { return Ok(None) };
-        let mut bytes = vec![[255; 4]; sheets[0].pixels.len()];
-        let mut scales = vec![1.0; parts.len()];
-        let mut worst = 0.0;
+        let Some(Texels { size, place, pixels }) = sheets.first() else { return Ok(None) };
+        let mut bytes = vec![[255; 4]; pixels.len()];
+        let (mut scales, mut worst) = (vec![1.0; parts.len()], 0.0);
         for ((at, _), sheet) in textured.iter().zip(&sheets) {
-            let (scale, error) = fill(&mut bytes, parts[*at].channel, &sheet.pixels);
-            scales[*at] = scale;
+            let error = fill(&mut bytes, parts[*at].channel, &sheet.pixels, &mut scales[*at]);
             worst = f64::max(worst, error);
         }
+        let (at, name) = textured[0];
         if worst > EXACT {
-            let found = format!("the numbers of the texture `{}`", textured[0].1);
-            self.remark(found, "8 bits", "they are rounded");
+            self.remark(format!("the numbers of the texture `{name}`"), "8 bits", "they are rounded");
         }
-        let has_opacity = parts.iter().any(|part| part.channel == Channel::Alpha);
         let [width, height] = *size;
-        let file = match has_opacity {
+        let file = match parts.iter().any(|part| part.channel == Channel::Alpha) {
             true => pictures::png(width, height, &bytes),
             false => pictures::png(width, height, &bytes.iter().map(|[r, g, b, _]| [*r, *g, *b]).collect::<Vec<_>>()),
         };
         let Some(file) = file else { return Ok(None) };
-        let path = self.new.add("textures", textured[0].1, "png", file);
-        let info = self.texture(path, textured[0].1, place);
+        let path = self.new.add("textures", name, "png", file);
+        let info = self.texture(path, parts[at].name(), place);
         Ok(Some(Mapped { info, scales }))
     }
 
@@ -125,17 +124,17 @@ impl Export<'_> {
     }
 }
 
-/// Writes pixels to their channels. Returns the factor that they lack, and the greatest error.
-fn fill(bytes: &mut [[u8; 4]], channel: Channel, pixels: &[[f32; 3]]) -> (f64, f64) {
+/// Writes pixels to their channels, and finds the factor that makes them at most 1. Returns the greatest error.
+fn fill(bytes: &mut [[u8; 4]], channel: Channel, pixels: &[[f32; 3]], scale: &mut f64) -> f64 {
     let is_color = channel == Channel::Rgb;
     let values = |color: &[f32; 3]| {
         let color = color.map(f64::from);
         if is_color { color } else { [luminance(color); 3] }
     };
-    let greatest = pixels.iter().flat_map(values).fold(1.0, f64::max);
+    *scale = pixels.iter().flat_map(values).fold(1.0, f64::max);
     let mut worst: f64 = 0.0;
     for (bytes, pixel) in bytes.iter_mut().zip(pixels) {
-        let color = values(pixel).map(|x| x / greatest);
+        let color = values(pixel).map(|x| x / *scale);
         let shown = color.map(|x| if is_color { srgb_from_linear(x) } else { x });
         let rounded = shown.map(|x| (255.0 * x).round().clamp(0.0, 255.0) as u8);
         let back = rounded.map(|x| f64::from(x) / 255.0).map(|x| if is_color { linear_from_srgb(x) } else { x });
@@ -148,5 +147,5 @@ fn fill(bytes: &mut [[u8; 4]], channel: Channel, pixels: &[[f32; 3]]) -> (f64, f
             Channel::Alpha => bytes[3] = rounded[0],
         }
     }
-    (greatest, worst)
+    worst
 }

@@ -11,7 +11,7 @@ use super::{
         notes,
     },
     context::{Export, table},
-    materials::{Made, VertexColors},
+    known::{Columns, Made, MeshKey, VertexColors},
     units,
 };
 use crate::{
@@ -22,23 +22,6 @@ use crate::{
 
 /// Error of the square of a normal's length that counts as rounding.
 const ROUNDING: f32 = 1e-5;
-
-/// Accessors of a mesh.
-#[derive(Clone)]
-pub struct Columns {
-    attributes: Map<String, Value>,
-    indices: usize,
-}
-
-/// What determines a mesh: its triangles, whether it is reversed, its material, and the colors of its vertices.
-#[derive(Clone, Copy, PartialEq, Eq, Hash)]
-pub struct MeshKey {
-    /// The address of a mesh, or the number of a unit shape.
-    triangles: usize,
-    flip: bool,
-    material: usize,
-    colors: VertexColors,
-}
 
 /// Adds the shapes of an object.
 pub fn object(export: &mut Export, number: usize, object: &ObjectDescription, shapes: &[Shape]) -> Result<(), ExportError> {
@@ -106,19 +89,19 @@ impl Export<'_> {
             return Ok(columns.clone());
         }
         let mut attributes = Map::new();
-        attributes.insert("POSITION".to_owned(), json!(self.positions(&data.vertices)?));
+        attributes.insert("POSITION".to_owned(), json!(self.document.positions(&data.vertices)?));
         if !data.normals.is_empty() {
             let normals: Vec<[f32; 3]> = data.normals.iter().map(|n| normal(*n, key.flip)).collect();
-            attributes.insert("NORMAL".to_owned(), json!(self.attribute(&normals)?));
+            attributes.insert("NORMAL".to_owned(), json!(self.document.attribute(&normals)?));
         }
         if !data.uvs.is_empty() {
             // v of glTF points down.
             let uvs: Vec<[f32; 2]> = data.uvs.iter().map(|[u, v]| [*u, 1.0 - *v]).collect();
-            attributes.insert("TEXCOORD_0".to_owned(), json!(self.attribute(&uvs)?));
+            attributes.insert("TEXCOORD_0".to_owned(), json!(self.document.attribute(&uvs)?));
         }
         let indices = match key.flip {
-            true => self.corners(&data.triangles.iter().map(|[a, b, c]| [*a, *c, *b]).collect::<Vec<_>>())?,
-            false => self.corners(&data.triangles)?,
+            true => self.document.corners(&data.triangles.iter().map(|[a, b, c]| [*a, *c, *b]).collect::<Vec<_>>())?,
+            false => self.document.corners(&data.triangles)?,
         };
         let columns = Columns { attributes, indices };
         self.columns.insert(known, columns.clone());
@@ -132,8 +115,8 @@ impl Export<'_> {
             return Ok(*accessor);
         }
         let accessor = match has_opacity {
-            true => self.attribute(colors)?,
-            false => self.attribute(&colors.iter().map(|[r, g, b, _]| [*r, *g, *b]).collect::<Vec<_>>())?,
+            true => self.document.attribute(colors)?,
+            false => self.document.attribute(&colors.iter().map(|[r, g, b, _]| [*r, *g, *b]).collect::<Vec<_>>())?,
         };
         self.vertex_colors.insert(known, accessor);
         Ok(accessor)

@@ -6,6 +6,7 @@ use serde_json::{Value, json};
 use super::{
     super::{ExportError, textures::DEEPEST},
     context::{Export, table},
+    known::Mapped,
 };
 use crate::{
     declare::{Problem, Textured},
@@ -31,19 +32,16 @@ pub struct Part {
     pub has_vertices: bool,
 }
 
-/// An image that stands for the textures of parts.
-#[derive(Clone)]
-pub struct Mapped {
-    /// The use of the texture.
-    pub info: Value,
-    /// Factors of the parts besides their own: texels are at most 1.
-    pub scales: Vec<f64>,
-}
-
 impl Part {
     /// The factor of a number.
     pub fn number(&self) -> f64 {
         self.factor[0]
+    }
+
+    /// The name of the texture in the file. The reader appends the channel of a number.
+    pub fn name(&self) -> &str {
+        let name = self.texture.as_deref().unwrap_or_default();
+        name.strip_suffix(self.channel.name()).and_then(|name| name.strip_suffix(' ')).unwrap_or(name)
     }
 
     /// Whether the channels of the part may hold anything.
@@ -144,8 +142,7 @@ impl Export<'_> {
             if !is_same || image.channel != part.channel || (image.encoding != expected && part.channel != Channel::Alpha) {
                 return Ok(None);
             }
-            // The texture of the first part, a color, has the name.
-            found = found.or(Some((name, image)));
+            found = found.or(Some((part.name(), image)));
         }
         let Some((name, image)) = found else { return Ok(None) };
         for part in parts.iter().filter(|part| part.texture.is_none() && !part.is_free()) {

@@ -1,13 +1,14 @@
 //! Color, opacity, metal, roughness and interface.
 use serde_json::json;
 
-use super::{Parts, VertexColors};
+use super::Parts;
 use crate::{
     declare::Textured,
     export::{
         ExportError,
         gltf::{
             context::Export,
+            known::VertexColors,
             textures::{Part, grey},
         },
     },

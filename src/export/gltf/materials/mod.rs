@@ -13,7 +13,7 @@ mod light;
 
 use serde_json::{Map, Value, json};
 
-use super::{super::ExportError, context::Export};
+use super::{super::ExportError, context::Export, known::Made};
 use crate::{
     declare::Textured,
     material::{Lambertian, Material},
@@ -22,22 +22,6 @@ use crate::{
 
 /// Blends within blends.
 const DEEPEST: usize = 16;
-
-/// A material of the file.
-#[derive(Clone, Copy)]
-pub struct Made {
-    pub index: usize,
-    pub colors: VertexColors,
-}
-
-/// What a material uses of the colors of vertices.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum VertexColors {
-    None,
-    Rgb,
-    /// With opacity.
-    Rgba,
-}
 
 /// The parts of a material of the file.
 #[derive(Default)]

@@ -18,9 +18,11 @@ use crate::{
             spot::{Falloff, Spot},
         },
     },
-    material::{Conductor, Dielectric, Lambertian, Material, Reflectance, Roughness, mirror::Mirror, principled::Principled},
+    material::{
+        Conductor, Dielectric, Lambertian, Material, Reflectance, Roughness, mirror::Mirror, null::Null, principled::Principled,
+    },
     scene::description::{EmissionDescription, LampDescription, MaterialDescription, SceneDescription, TextureKind},
-    shape::Sphere,
+    shape::{Sphere, cuboid::Cuboid},
     texture::{
         checker::Checker,
         image::{Channel, Image, TexelFilter, Wrap},
@@ -29,7 +31,7 @@ use crate::{
     },
 };
 
-/// A ball of a material that comes back, and the remarks without that of the camera.
+/// A material that comes back, and the remarks.
 fn of(material: MaterialDescription) -> (MaterialDescription, Vec<String>) {
     let (trip, material) = with(material, &SceneDescription::default(), &Assets::default());
     (material, trip.remarks)
@@ -39,7 +41,7 @@ fn of(material: MaterialDescription) -> (MaterialDescription, Vec<String>) {
 fn with(material: MaterialDescription, scene: &SceneDescription, assets: &Assets) -> (RoundTrip, MaterialDescription) {
     let mut scene = scene.clone();
     scene.materials.insert("m".to_owned(), material);
-    scene.add_object("box", crate::shape::cuboid::Cuboid::default()).material = Some("m".to_owned());
+    scene.add_object("box", Cuboid::default()).material = Some("m".to_owned());
     scene.camera.resolution = [1280, 960];
     let trip = round_trip(&scene, assets);
     let material = trip.imported.description.materials["m"].clone();
@@ -145,7 +147,7 @@ fn other_kinds_become_principled() {
     }
     let (found, _) = of(MaterialDescription { two_sided: Some(false), ..plain(Lambertian::default()) });
     assert_eq!(found.two_sided, Some(false));
-    let (found, _) = of(plain(crate::material::null::Null));
+    let (found, _) = of(plain(Null));
     assert_eq!(found.opacity, Some(Textured::Constant(0.0)));
 }
 

@@ -14,8 +14,8 @@ fn remarks(text: &str) -> Vec<String> {
 fn cube(material: &str) -> String {
     format!(
         "[textures.noise]\nnoise = {{ scale = 3.0, octaves = 2, low = 0.1, high = 0.9 }}\n\
-         [textures.squares]\nchecker = {{ even = 0, odd = 1, scale = 4.0 }}\n\
-         [textures.grey]\nchecker = {{ even = 0.21, odd = 1, scale = 4.0 }}\n\
+         [textures.squares]\nchecker = {{ even = 0.0, odd = 1.0, scale = 4.0 }}\n\
+         [textures.grey]\nchecker = {{ even = 0.21, odd = 1.0, scale = 4.0 }}\n\
          [textures.mix]\nmix = {{ a = {{ texture = \"squares\" }}, b = 0.5 }}\n\
          [materials.part]\nlambertian = {{ albedo = 0.5 }}\n\
          [materials.m]\n{material}\n[[objects]]\nshape = {{ cuboid = {{ min = [0, 0, 0], max = [1, 1, 1] }} }}\nmaterial = \"m\"\n"
@@ -31,7 +31,7 @@ fn each_loss_of_a_material_is_a_remark() {
         ("lambertian = { albedo = 0.5 }\nbump = { texture = \"squares\", height = 0.1 }", "the heights `squares`"),
         ("mirror = { reflectance = 0.9 }", "a constant reflectance"),
         ("conductor = { reflectance = 0.9 }", "a constant reflectance"),
-        ("conductor = { eta = 0.2, k = 3 }", "a metal with `eta` and `k`"),
+        ("conductor = { eta = [0.2, 0.5, 1.5], k = [3, 2, 2] }", "a metal with `eta` and `k`"),
         ("conductor = { f0 = 0.8, alpha = { texture = \"squares\" } }", "of `alpha`"),
         ("conductor = { f0 = 0.8, alpha = 0.2, distribution = \"beckmann\" }", "Beckmann facets"),
         ("conductor = { f0 = 0.8, alpha = 0.2, energy_compensation = false }", "single scattering"),
@@ -56,7 +56,7 @@ fn each_loss_of_a_material_is_a_remark() {
 fn each_loss_of_shapes_light_and_camera_is_a_remark() {
     let object = |rest: &str| format!("[materials.m]\nlambertian = {{ albedo = 0.5 }}\n[[objects]]\nmaterial = \"m\"\n{rest}\n");
     let sphere = "shape = { sphere = { center = [0, 0, 0], radius = 1 } }";
-    let square = "shape = { rectangle = { origin = [0, 0, 0], edges = [[1, 0, 0], [0, 1, 0]] } }";
+    let square = "shape = { rectangle = { origin = [0, 0, 0], edge_u = [1, 0, 0], edge_v = [0, 1, 0] } }";
     for (text, expected) in [
         (object(sphere), "a shape `sphere`"),
         (object(&format!("{square}\nmotion = [{{ translate = [1, 0, 0] }}]")), "`motion`"),
