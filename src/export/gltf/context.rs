@@ -7,7 +7,7 @@ use serde_json::{Map, Value, json};
 use super::{
     super::{Source, new_assets::NewAssets, notes::Notes, textures::Colors},
     document::Document,
-    known::{Columns, Made, Mapped, MeshKey},
+    known::{Columns, Made, Mapped, MeshKey, Triangles},
 };
 use crate::{declare::Resources, import::Names, scene::description::SceneDescription};
 
@@ -28,10 +28,14 @@ pub struct Export<'a> {
     /// Textures by what determines them.
     pub maps: HashMap<String, Option<Mapped>>,
     /// Accessors of vertices and triangles.
-    pub columns: HashMap<(usize, bool), Columns>,
+    pub columns: HashMap<(Triangles, bool), Columns>,
     /// Accessors of colors of vertices, and whether they have opacity.
-    pub vertex_colors: HashMap<(usize, bool), usize>,
+    pub vertex_colors: HashMap<(Triangles, bool), usize>,
     pub meshes: HashMap<MeshKey, usize>,
+    /// Number of meshes whose nodes would shear them.
+    pub sheared: usize,
+    /// Whether what is being translated has textures.
+    pub uses_coordinates: bool,
 }
 
 impl<'a> Export<'a> {
@@ -50,6 +54,8 @@ impl<'a> Export<'a> {
             columns: HashMap::new(),
             vertex_colors: HashMap::new(),
             meshes: HashMap::new(),
+            sheared: 0,
+            uses_coordinates: false,
         }
     }
 

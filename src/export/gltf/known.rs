@@ -6,6 +6,8 @@ use serde_json::{Map, Value};
 pub struct Made {
     pub index: usize,
     pub colors: VertexColors,
+    /// Whether it has textures.
+    pub uses_coordinates: bool,
 }
 
 /// What a material uses of the colors of vertices.
@@ -24,11 +26,21 @@ pub struct Columns {
     pub indices: usize,
 }
 
+/// Triangles that nodes share, or that one has for itself.
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Triangles {
+    /// The address of a mesh.
+    Mesh(usize),
+    /// The number of a unit shape.
+    Unit(usize),
+    /// A number of its own.
+    Sheared(usize),
+}
+
 /// What determines a mesh: its triangles, whether it is reversed, its material, and the colors of its vertices.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct MeshKey {
-    /// The address of a mesh, or the number of a unit shape.
-    pub triangles: usize,
+    pub triangles: Triangles,
     pub flip: bool,
     pub material: usize,
     pub colors: VertexColors,

@@ -1,7 +1,7 @@
 //! Objects: meshes, and the nodes that show them.
 use std::sync::Arc;
 
-use glam::{DVec3, Vec3};
+use glam::{DAffine3, DMat3, DVec3, Vec3};
 use serde_json::{Map, Value, json};
 
 use super::{
@@ -11,7 +11,7 @@ use super::{
         notes,
     },
     context::{Export, table},
-    known::{Columns, Made, MeshKey, VertexColors},
+    known::{Columns, Made, MeshKey, Triangles, VertexColors},
     units,
 };
 use crate::{
@@ -20,7 +20,7 @@ use crate::{
     scene::description::ObjectDescription,
 };
 
-/// Error of the square of a normal's length that counts as rounding.
+/// Error of the square of a normal's length, and of the cosine of a right angle, that counts as rounding.
 const ROUNDING: f32 = 1e-5;
 
 /// Adds the shapes of an object.
@@ -40,23 +40,39 @@ pub fn object(export: &mut Export, number: usize, object: &ObjectDescription, sh
 
 impl Export<'_> {
     fn shape(&mut self, object: &ObjectDescription, shape: &Shape, made: Made) -> Result<(), ExportError> {
-        let key = |triangles| MeshKey { triangles, flip: object.flip, material: made.index, colors: made.colors };
-        let (mesh, place) = match (shape, units::unit(shape)) {
-            (Shape::Mesh { data, map, .. }, _) => (self.mesh(key(Arc::as_ptr(data) as usize), data, &object.name)?, *map),
+        let unit = units::unit(shape);
+        let (triangles, name, map) = match (shape, &unit) {
+            (Shape::Mesh { data, map, .. }, _) => {
+                if made.uses_coordinates && data.uvs.is_empty() {
+                    self.remark("textures of a mesh without coordinates", "their factors", "the surface has one color");
+                }
+                (Triangles::Mesh(Arc::as_ptr(data) as usize), object.name.as_str(), map)
+            }
             (_, Some((unit, map))) => {
                 if let Some(used) = fineness(shape) {
                     self.remark(format!("a shape `{}`", shape.name()), used, "its outline is a polygon");
                 }
-                let key = key(units::number(&unit));
-                let mesh = match self.meshes.get(&key) {
-                    Some(mesh) => *mesh,
-                    None => self.mesh(key, &of_model(triangles(&unit, DVec3::ZERO).unwrap_or_default()), unit.name())?,
-                };
-                (mesh, map)
+                (Triangles::Unit(units::number(unit)), unit.name(), map)
             }
             _ => {
                 self.remark("an isosurface", "nothing", "it is missing");
                 return Ok(());
+            }
+        };
+        let data = || match (shape, &unit) {
+            (_, Some((unit, _))) => Arc::new(tessellated(unit)),
+            (Shape::Mesh { data, .. }, _) => data.clone(),
+            _ => Arc::default(),
+        };
+        let key = |triangles| MeshKey { triangles, flip: object.flip, material: made.index, colors: made.colors };
+        let (mesh, place) = match is_sheared(&map.matrix3) {
+            false => (self.mesh(key(triangles), name, data)?, *map),
+            // The format has no such matrices.
+            true => {
+                self.sheared += 1;
+                let linear = DAffine3 { translation: DVec3::ZERO, ..*map };
+                let mesh = self.mesh(key(Triangles::Sheared(self.sheared)), name, || Arc::new(data().transformed(&linear)))?;
+                (mesh, DAffine3::from_translation(map.translation))
             }
         };
         self.node(&object.name, &place, table(json!({ "mesh": mesh })));
@@ -64,11 +80,12 @@ impl Export<'_> {
     }
 
     /// The index of a mesh.
-    fn mesh(&mut self, key: MeshKey, data: &MeshData, name: &str) -> Result<usize, ExportError> {
+    fn mesh(&mut self, key: MeshKey, name: &str, data: impl FnOnce() -> Arc<MeshData>) -> Result<usize, ExportError> {
         if let Some(mesh) = self.meshes.get(&key) {
             return Ok(*mesh);
         }
-        let Columns { mut attributes, indices } = self.columns(key, data)?;
+        let data = data();
+        let Columns { mut attributes, indices } = self.columns(key, &data)?;
         if key.colors != VertexColors::None && !data.colours.is_empty() {
             attributes.insert("COLOR_0".to_owned(), json!(self.vertex_colors(key, &data.colours)?));
         }
@@ -130,7 +147,15 @@ fn normal(n: [f32; 3], flip: bool) -> [f32; 3] {
     if flip { (-unit).to_array() } else { unit.to_array() }
 }
 
-fn of_model(model: Model) -> MeshData {
-    let Model { vertices, triangles, normals, uvs, .. } = model;
-    MeshData { vertices, triangles, normals: normals.unwrap_or_default(), uvs: uvs.unwrap_or_default(), ..MeshData::default() }
+/// Whether a map is more than a scale, a rotation and a mirror.
+fn is_sheared(map: &DMat3) -> bool {
+    let [x, y, z] = [map.x_axis, map.y_axis, map.z_axis].map(|axis| axis.normalize_or_zero());
+    [x.dot(y), y.dot(z), z.dot(x)].iter().any(|cosine| cosine.abs() > f64::from(ROUNDING))
+}
+
+/// The triangles of a unit shape.
+fn tessellated(unit: &Shape) -> MeshData {
+    let Model { vertices, triangles, normals, uvs, .. } = triangles(unit, DVec3::ZERO).unwrap_or_default();
+    let (normals, uvs) = (normals.unwrap_or_default(), uvs.unwrap_or_default());
+    MeshData { vertices, triangles, normals, uvs, ..MeshData::default() }
 }

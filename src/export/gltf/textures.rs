@@ -115,6 +115,7 @@ impl Export<'_> {
             }
         };
         let Some(Mapped { info, scales }) = mapped else { return Ok(None) };
+        self.uses_coordinates = true;
         parts.iter_mut().zip(scales).for_each(|(part, scale)| part.factor = part.factor.map(|x| x * scale));
         Ok(Some(info))
     }

@@ -60,6 +60,7 @@ impl Export<'_> {
             true => self.new.name(path),
             false => self.linear_copy(path, stem)?,
         };
+        self.uses_coordinates = true;
         let info = self.texture(file, stem, &Image::default());
         parts.material.insert("normalTexture".to_owned(), info.clone());
         Ok(Some(info))

@@ -84,10 +84,11 @@ impl Export<'_> {
         sides: Option<bool>,
     ) -> Result<Made, ExportError> {
         let mut parts = Parts::default();
+        self.uses_coordinates = false;
         if self.description.materials.get(name).is_some_and(|material| matches!(material.kind, Material::Blend(_))) {
             self.remark("a `blend`", "the material that is met more often", "the other one is missing");
         }
-        let name = self.names.unique(name, "black");
+        let name = self.names.unique(name, "no material");
         parts.material.insert("name".to_owned(), json!(name));
         let principled = self.principled(&description.kind);
         let colors = self.base(&mut parts, description, &principled)?;
@@ -102,6 +103,7 @@ impl Export<'_> {
         }
         let Parts { mut material, pbr } = parts;
         material.insert("pbrMetallicRoughness".to_owned(), Value::Object(pbr));
-        Ok(Made { index: self.document.add("materials", Value::Object(material)), colors })
+        let index = self.document.add("materials", Value::Object(material));
+        Ok(Made { index, colors, uses_coordinates: self.uses_coordinates })
     }
 }

@@ -69,6 +69,13 @@ fn each_loss_of_shapes_light_and_camera_is_a_remark() {
         ),
         (object(square) + "[[lamps]]\nspot = { position = [0, 3, 0], target = [0, 0, 0] }\n", "the falloff of a spot"),
         (object(square) + "[[lamps]]\nprojector = { position = [0, 3, 0], target = [0, 0, 1] }\n", "a projector"),
+        (
+            "[textures.squares]\nchecker = { even = 0.0, odd = 1.0, scale = 4.0 }\n\
+             [materials.m]\nlambertian = { albedo = { texture = \"squares\" } }\n[[objects]]\nmaterial = \"m\"\n\
+             shape = { mesh = { vertices = [[0, 0, 0], [1, 0, 0], [0, 1, 0]], triangles = [[0, 1, 2]] } }\n"
+                .to_owned(),
+            "textures of a mesh without coordinates",
+        ),
         (object(square) + "[background]\nsky = { sun = [1, 1, 1] }\n", "a background `sky`"),
         (object(square) + "[render]\nmax_bounces = 3\n", "`max_bounces` 3"),
         (object(square) + "[camera.lens]\nradius = 0.1\nfocus = 4\n", "`lens`"),

@@ -58,7 +58,7 @@ fn paths(scene: &SceneDescription) -> Vec<&str> {
 #[test]
 fn meshes_keep_their_bits_and_instances_share_them() {
     let mut assets = Assets::default();
-    let matrix = Transform::Matrix([[0.1, 0.2, 0.0, 1e9], [-0.2, 0.7, 0.1, 0.25], [0.0, 0.3, -2.0, 0.0], [0.0, 0.0, 0.0, 1.0]]);
+    let matrix = Transform::Matrix([[0.0, -3.0, 0.0, 1e9], [2.0, 0.0, 0.0, 0.25], [0.0, 0.0, -0.5, 0.0], [0.0, 0.0, 0.0, 1.0]]);
     let mut ours = scene(&[Vec::new(), vec![matrix.clone()]], &mut assets);
     for (name, channel) in [("colors", Channel::Rgb), ("opacity", Channel::Alpha)] {
         ours.textures.insert(name.to_owned(), VertexColor { channel }.into());
@@ -77,6 +77,20 @@ fn meshes_keep_their_bits_and_instances_share_them() {
     assert_eq!((&theirs.objects[0].transform[..], &theirs.objects[1].transform[..]), (&[][..], &[matrix][..]));
     assert_eq!(*imported.assets.get::<Model>(first).expect("a mesh"), triangle());
     assert!(matches!(theirs.materials["paint"].opacity, Some(Textured::Texture(_))));
+}
+
+#[test]
+fn meshes_that_a_matrix_would_shear_are_moved_themselves() {
+    let mut assets = Assets::default();
+    let shear = Transform::Matrix([[1.0, 0.5, 0.0, 7.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, -1.0, 0.0], [0.0, 0.0, 0.0, 1.0]]);
+    let ours = scene(&[vec![shear]], &mut assets);
+    let RoundTrip { imported, remarks, .. } = round_trip(&ours, &assets);
+    let [Transform::Matrix(matrix)] = imported.description.objects[0].transform[..] else { panic!("a matrix") };
+    assert_eq!(matrix, [[1.0, 0.0, 0.0, 7.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]]);
+    let found = imported.assets.get::<Model>(paths(&imported.description)[0]).expect("a mesh");
+    assert_eq!(found.vertices[2], [0.5, 1.0, -3e8]);
+    assert_eq!(found.triangles, [[0, 2, 1], [2, 0, 1]], "the front stays");
+    assert_eq!(remarks.len(), 1, "the resolution: {remarks:?}");
 }
 
 #[test]
