@@ -13,7 +13,6 @@ use crate::{
     image::Encoding,
     import::mitsuba::pictures,
     math::colour::{linear_from_srgb, srgb_from_linear},
-    quote,
     scene::description::TextureKind,
     texture::{
         ImageTexture,
@@ -56,16 +55,9 @@ impl Export<'_> {
             worst = f64::max(worst, error);
         }
         let (at, name) = textured[0];
-        if worst > EXACT {
-            self.remark(format!("the numbers of the texture `{name}`"), "8 bits", "they are rounded");
-        }
-        let [width, height] = *size;
-        let file = match parts.iter().any(|part| part.channel == Channel::Alpha) {
-            true => pictures::png(width, height, &bytes),
-            false => pictures::png(width, height, &bytes.iter().map(|[r, g, b, _]| [*r, *g, *b]).collect::<Vec<_>>()),
-        };
-        let Some(file) = file else { return Ok(None) };
-        let path = self.new.add("textures", name, "png", file);
+        self.rounding(worst, &format!("the texture `{name}`"));
+        let has_opacity = parts.iter().any(|part| part.channel == Channel::Alpha);
+        let Some(path) = self.png(name, *size, &bytes, has_opacity) else { return Ok(None) };
         let info = self.texture(path, parts[at].name(), place);
         Ok(Some(Mapped { info, scales }))
     }
@@ -107,12 +99,29 @@ impl Export<'_> {
     /// A PNG of a linear image file, and its path.
     pub fn linear_copy(&mut self, path: &str, name: &str) -> Result<String, ExportError> {
         let read = ImageTexture::read(self.resources, "path", path, Encoding::Linear).map_err(|problem| self.invalid(problem))?;
-        let [width, height] = read.size();
-        let byte = |x: f32| (255.0 * x).round().clamp(0.0, 255.0) as u8;
-        let pixels: Vec<[u8; 3]> = read.texels().iter().map(|[r, g, b, _]| [*r, *g, *b].map(byte)).collect();
-        self.remark(format!("the image {}", quote::piece(path)), "a PNG of 8 bits", "its numbers are rounded");
-        let file = pictures::png(width, height, &pixels).unwrap_or_default();
-        Ok(self.new.add("textures", name, "png", file))
+        let mut bytes = vec![[255; 4]; read.texels().len()];
+        let mut worst = 0.0;
+        for (at, channel) in [Channel::Red, Channel::Green, Channel::Blue].into_iter().enumerate() {
+            let pixels: Vec<[f32; 3]> = read.texels().iter().map(|texel| [texel[at]; 3]).collect();
+            worst = f64::max(worst, fill(&mut bytes, channel, &pixels, &mut 1.0));
+        }
+        self.rounding(worst, "the normal map");
+        Ok(self.png(name, read.size(), &bytes, false).unwrap_or_default())
+    }
+
+    /// Adds a PNG, and returns its path.
+    fn png(&mut self, name: &str, [width, height]: [u32; 2], bytes: &[[u8; 4]], has_opacity: bool) -> Option<String> {
+        let file = match has_opacity {
+            true => pictures::png(width, height, bytes),
+            false => pictures::png(width, height, &bytes.iter().map(|[r, g, b, _]| [*r, *g, *b]).collect::<Vec<_>>()),
+        };
+        Some(self.new.add("textures", name, "png", file?))
+    }
+
+    fn rounding(&mut self, worst: f64, what: &str) {
+        if worst > EXACT {
+            self.remark(format!("the numbers of {what}"), "8 bits", "they are rounded");
+        }
     }
 
     /// An image of a texture over the unit square.

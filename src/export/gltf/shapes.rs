@@ -149,7 +149,7 @@ fn normal(n: [f32; 3], flip: bool) -> [f32; 3] {
 
 /// Whether a map is more than a scale, a rotation and a mirror.
 fn is_sheared(map: &DMat3) -> bool {
-    let [x, y, z] = [map.x_axis, map.y_axis, map.z_axis].map(|axis| axis.normalize_or_zero());
+    let [x, y, z] = [map.x_axis, map.y_axis, map.z_axis].map(DVec3::normalize_or_zero);
     [x.dot(y), y.dot(z), z.dot(x)].iter().any(|cosine| cosine.abs() > f64::from(ROUNDING))
 }
 

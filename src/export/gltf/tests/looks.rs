@@ -6,7 +6,7 @@ use glam::DVec3;
 use super::round_trip;
 use crate::{
     declare::{Assets, Textured},
-    export::round_trip::{self, RoundTrip, scenes},
+    export::round_trip::{self as scene_files, RoundTrip, scenes},
     image::Encoding,
     import::mitsuba::pictures,
     light::{
@@ -227,7 +227,7 @@ fn binary_files_hold_the_bytes_of_images() {
     let (mut scene, assets) = textured();
     scene.materials.insert("m".to_owned(), plain(Lambertian { albedo: texture("paint") }));
     scene.add_object("ball", Sphere::default()).material = Some("m".to_owned());
-    let RoundTrip { imported, .. } = round_trip::round_trip(&scene, &assets, &scenes(), "scene.glb");
+    let RoundTrip { imported, .. } = scene_files::round_trip(&scene, &assets, &scenes(), "scene.glb");
     let TextureKind::Image(image) = &imported.description.textures["paint"] else { panic!("an image") };
     assert_eq!(*imported.assets.get::<Vec<u8>>(&image.path).expect("it is within"), picture());
 }

@@ -11,7 +11,7 @@ use crate::{
     declare::Assets,
     export::{
         Source, prepare,
-        round_trip::{self, RoundTrip, names, near, scenes, shipped},
+        round_trip::{self as scene_files, RoundTrip, names, near, scenes, shipped},
     },
     scene::{
         Projection,
@@ -20,7 +20,7 @@ use crate::{
 };
 
 fn round_trip(description: &SceneDescription, assets: &Assets) -> RoundTrip {
-    round_trip::round_trip(description, assets, &scenes(), "scene.gltf")
+    scene_files::round_trip(description, assets, &scenes(), "scene.gltf")
 }
 
 fn json(content: &[u8]) -> Value {
@@ -32,7 +32,7 @@ fn every_shipped_scene_can_be_written_and_read() {
     for name in names() {
         let ours = shipped(&name);
         let [text, binary] =
-            ["scene.gltf", "scene.glb"].map(|file| round_trip::round_trip(&ours, &Assets::default(), &scenes(), file));
+            ["scene.gltf", "scene.glb"].map(|file| scene_files::round_trip(&ours, &Assets::default(), &scenes(), file));
         assert_eq!(text.imported.description.objects, binary.imported.description.objects, "{name}");
         assert_eq!(text.imported.description.materials.len(), binary.imported.description.materials.len(), "{name}");
         assert_eq!(text.remarks, binary.remarks, "{name}");
@@ -70,7 +70,7 @@ fn files_are_the_same_each_time_and_have_no_empty_lists() {
 #[test]
 fn names_with_other_characters_find_their_files() {
     let description = shipped("cornell_box");
-    let trip = round_trip::round_trip(&description, &Assets::default(), &scenes(), "zimmer 100 % grün #1.gltf");
+    let trip = scene_files::round_trip(&description, &Assets::default(), &scenes(), "zimmer 100 % grün #1.gltf");
     assert_eq!(trip.imported.description.objects.len(), description.objects.len());
     let text = String::from_utf8(trip.content).expect("it is text");
     assert!(text.contains("zimmer%20100%20%25%20gr%C3%BCn%20%231.files/meshes/"), "{text}");

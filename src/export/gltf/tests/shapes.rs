@@ -48,11 +48,14 @@ fn scene(places: &[Vec<Transform>], assets: &mut Assets) -> SceneDescription {
 
 /// The paths of the meshes of a scene.
 fn paths(scene: &SceneDescription) -> Vec<&str> {
-    let path = |object: &'_ ObjectDescription| match &object.shape {
-        ShapeKind::Mesh(Mesh { source: MeshSource::File(path), .. }) => path.as_str(),
-        other => panic!("a {}", other.name()),
-    };
     scene.objects.iter().map(path).collect()
+}
+
+fn path(object: &ObjectDescription) -> &str {
+    match &object.shape {
+        ShapeKind::Mesh(Mesh { source: MeshSource::File(path), .. }) => path,
+        other => panic!("a {}", other.name()),
+    }
 }
 
 #[test]

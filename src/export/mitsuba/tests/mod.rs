@@ -8,7 +8,7 @@ use crate::{
     declare::{Assets, Resources},
     export::{
         geometry,
-        round_trip::{self, RoundTrip, names, near, scenes, shipped},
+        round_trip::{self as scene_files, RoundTrip, names, near, scenes, shipped},
     },
     geometry::Shape,
     import::Imported,
@@ -16,7 +16,7 @@ use crate::{
 };
 
 fn round_trip(description: &SceneDescription, folder: &Path) -> RoundTrip {
-    round_trip::round_trip(description, &Assets::default(), folder, "scene.xml")
+    scene_files::round_trip(description, &Assets::default(), folder, "scene.xml")
 }
 
 /// Whether two shapes are the same points with the same coordinates.
