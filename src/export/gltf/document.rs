@@ -47,11 +47,6 @@ impl Document {
         object.entry("extensions").or_insert_with(|| json!({}))[name] = content;
     }
 
-    /// The number of nodes.
-    pub fn nodes(&self) -> usize {
-        self.lists.get("nodes").map_or(0, Vec::len)
-    }
-
     /// The document. Lists without elements are left out, as the format asks.
     pub fn finish(mut self) -> Value {
         let mut all = Map::new();
@@ -63,10 +58,10 @@ impl Document {
         if !self.extensions.is_empty() {
             all.insert("extensionsUsed".to_owned(), self.extensions.iter().copied().collect());
         }
-        let nodes = self.nodes();
-        let scene = if nodes == 0 { json!({}) } else { json!({ "nodes": (0..nodes).collect::<Vec<_>>() }) };
+        // There is a camera at least.
+        let nodes: Vec<usize> = (0..self.lists.get("nodes").map_or(0, Vec::len)).collect();
         all.insert("scene".to_owned(), json!(0));
-        all.insert("scenes".to_owned(), json!([scene]));
+        all.insert("scenes".to_owned(), json!([{ "nodes": nodes }]));
         all.extend(self.lists.into_iter().map(|(name, list)| (name.to_owned(), Value::from(list))));
         Value::Object(all)
     }

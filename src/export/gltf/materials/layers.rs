@@ -115,7 +115,7 @@ impl Export<'_> {
     }
 
     /// The roughness of the format: across the tangent, where facets are the narrowest.
-    pub(super) fn across(&mut self, of: &Principled) -> Textured<f64> {
+    pub(super) fn across(&self, of: &Principled) -> Textured<f64> {
         match (&of.specular_roughness, &of.specular_roughness_anisotropy) {
             (Textured::Constant(roughness), anisotropy) if anisotropy != NONE => {
                 let anisotropy = self.colors.mean_number(anisotropy);

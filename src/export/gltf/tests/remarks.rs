@@ -35,15 +35,15 @@ fn each_loss_of_a_material_is_a_remark() {
         ("conductor = { f0 = 0.8, alpha = { texture = \"squares\" } }", "of `alpha`"),
         ("conductor = { f0 = 0.8, alpha = 0.2, distribution = \"beckmann\" }", "Beckmann facets"),
         ("conductor = { f0 = 0.8, alpha = 0.2, energy_compensation = false }", "single scattering"),
-        ("dielectric = { ior = 1, ior_outside = 1.5 }", "an index of refraction of 0.667"),
+        ("dielectric = { ior = 1.0, ior_outside = 1.5 }", "an index of refraction of 0.667"),
         ("dielectric = { ior = 1.5, specular_reflectance = 0.5 }", "`specular_reflectance` of glass"),
         ("thin_dielectric = { ior = 1.5 }", "a thin pane"),
         ("plastic = { albedo = 0.5, ior = 1.5 }", "a plastic"),
         ("rough_plastic = { albedo = 0.5, ior = 1.5, alpha = 0.4 }", "a plastic"),
         ("diffuse_transmission = { reflectance = 0.3, transmittance = 0.3 }", "`diffuse_transmission`"),
         ("blend = { first = \"part\", second = \"part\", weight = 0.3 }", "a `blend`"),
-        ("principled = { base_color = 0.5, coat_weight = 1 }", "`coat_ior`, `coat_darkening`"),
-        ("principled = { base_color = 0.5, base_diffuse_roughness = 1 }", "`base_diffuse_roughness`"),
+        ("principled = { base_color = 0.5, coat_weight = 1.0 }", "`coat_ior`, `coat_darkening`"),
+        ("principled = { base_color = 0.5, base_diffuse_roughness = 1.0 }", "`base_diffuse_roughness`"),
         ("principled = { base_color = 0.5, transmission_weight = 0.5 }", "`transmission_color`"),
     ] {
         let found = remarks(&cube(material));
