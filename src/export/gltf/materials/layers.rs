@@ -72,8 +72,10 @@ impl Export<'_> {
         self.document.extend(&mut parts.material, "KHR_materials_transmission", content.into());
         let is_tinted = of.transmission_depth == 0.0 || of.thin_walled;
         let is_clear = of.transmission_weight == Textured::Constant(1.0) && of.base_metalness == *NONE;
-        if is_tinted && !is_clear && of.transmission_color != of.base_color {
-            self.remark("`transmission_color`", "`base_color`", "what passes has another tint");
+        let tint = if is_tinted { of.transmission_color.clone() } else { Textured::grey(1.0) };
+        if !is_clear && tint != of.base_color {
+            let found = "a `transmission_color` of the interface besides `base_color`";
+            self.remark(found, "`base_color`", "what passes has another tint");
         }
         if of.thin_walled {
             return Ok(());

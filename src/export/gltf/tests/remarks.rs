@@ -45,6 +45,8 @@ fn each_loss_of_a_material_is_a_remark() {
         ("principled = { base_color = 0.5, coat_weight = 1.0 }", "`coat_ior`, `coat_darkening`"),
         ("principled = { base_color = 0.5, base_diffuse_roughness = 1.0 }", "`base_diffuse_roughness`"),
         ("principled = { base_color = 0.5, transmission_weight = 0.5 }", "`transmission_color`"),
+        ("principled = { base_color = 0.5, transmission_weight = 0.5, transmission_depth = 1.0 }", "`transmission_color`"),
+        ("principled = { base_color = 0.5, base_metalness = 1.0, specular_weight = 0.5 }", "of metal"),
     ] {
         let found = remarks(&cube(material));
         assert!(found.iter().any(|found| found.contains(expected)), "{material}: {found:?}");
