@@ -1,4 +1,4 @@
-//! `noisefall convert`: writes a scene of any format as a scene file of Noisefall or Mitsuba.
+//! `noisefall convert`: writes a scene of any format as a scene file of Noisefall, of Mitsuba, or as glTF.
 use std::{
     path::{Path, PathBuf},
     process::ExitCode,
@@ -17,20 +17,21 @@ use super::{
 };
 
 const NOTES: &str = "\
-Meshes and textures go to the folder OUT.files beside the scene file. Files that lie in the folder of the scene \
+Meshes and textures go to the folder OUT.files beside the scene file, or into OUT.glb. Files that lie in the folder of the scene \
 file stay where they are. Existing files of the same names are replaced. A format may have no word for a part of the scene: warnings \
 list these parts and what stands for them.
 
 Examples:
   noisefall convert room.gltf -o room.toml
-  noisefall convert room.toml -o room.xml";
+  noisefall convert room.toml -o room.xml
+  noisefall convert room.toml -o room.glb";
 
 #[derive(clap::Args)]
 #[command(after_help = NOTES)]
 pub struct Arguments {
     /// Scene file: .toml, .gltf, .glb, .xml (Mitsuba), .pbrt, .obj, .ply, .stl, or an image that carries its scene
     scene: PathBuf,
-    /// Scene file to write: .toml or .xml (Mitsuba)
+    /// Scene file to write: .toml, .xml (Mitsuba), .gltf or .glb
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
     #[command(flatten)]

@@ -85,7 +85,7 @@ impl Files {
             match content {
                 Content::Mesh(model) => replace(&path, &encode_ply(model)?)?,
                 Content::Bytes(bytes) => replace(&path, bytes)?,
-                Content::Disk(from) => copy(from, &path)?,
+                Content::Disk(from) => replace(&path, &bytes(from)?)?,
             }
             counts[usize::from(matches!(content, Content::Disk(_)))] += 1;
         }
@@ -110,14 +110,15 @@ fn content(source: &Source, named: &str) -> Result<Content, ExportError> {
     found.map(Content::Disk).map_err(|error| ExportError::Unreadable { path, reason: error.to_string() })
 }
 
-fn copy(from: &Path, to: &Path) -> Result<(), ExportError> {
+/// The content of a file on disk.
+pub fn bytes(from: &Path) -> Result<Vec<u8>, ExportError> {
     let unreadable = |error: std::io::Error| ExportError::Unreadable { path: from.to_owned(), reason: error.to_string() };
     let mut file = open_regular(from).map_err(unreadable)?;
     let length = file.metadata().map_err(unreadable)?.len();
     let _room = reserve(format_args!("{} of a file", Size(length)), length)?;
     let mut bytes = Vec::with_capacity(length as usize);
     (&mut file).take(length).read_to_end(&mut bytes).map_err(unreadable)?;
-    Ok(replace(to, &bytes)?)
+    Ok(bytes)
 }
 
 #[cfg(test)]

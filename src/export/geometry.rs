@@ -12,9 +12,9 @@ use crate::{
 };
 
 /// Triangles along the edge of a disk, and around a cylinder.
-pub const SECTORS: u32 = 256;
+const SECTORS: u32 = 256;
 /// Bands of a sphere from pole to pole; each has twice as many quads.
-pub const BANDS: u32 = 96;
+const BANDS: u32 = 96;
 
 /// The shapes of an object after its transforms.
 pub fn shapes(object: &ObjectDescription, resources: &Resources) -> Result<Vec<Shape>, Problem> {
@@ -32,6 +32,23 @@ pub fn model_of(data: &MeshData) -> Model {
         uvs: (!data.uvs.is_empty()).then(|| data.uvs.clone()),
         colours: (!data.colours.is_empty()).then(|| data.colours.to_vec()),
     }
+}
+
+/// The mesh that stands for a shape with curves; `None` for a shape that is triangles.
+pub fn fineness(shape: &Shape) -> Option<String> {
+    match shape {
+        Shape::Sphere { .. } | Shape::Ellipsoid { .. } => Some(format!("a mesh of {} × {BANDS} quads", 2 * BANDS)),
+        Shape::Flat { outline: Outline::Ellipse, .. } | Shape::Cylinder { .. } => {
+            Some(format!("a mesh with {SECTORS} edges around"))
+        }
+        _ => None,
+    }
+}
+
+/// A direction that points up in an image, for a view along a unit vector.
+pub fn upwards(forward: DVec3, up: Option<DVec3>) -> DVec3 {
+    up.filter(|up| up.cross(forward).length() > 1e-9 * up.length())
+        .unwrap_or_else(|| if forward.y.abs() < 0.9 { DVec3::Y } else { DVec3::X })
 }
 
 /// Triangles of a shape that is neither a mesh nor an isosurface, relative to a point near it, with its normals and coordinates.

@@ -4,8 +4,10 @@
 //! |---|---|
 //! | `toml.rs` | the format of Noisefall |
 //! | `mitsuba/` | XML of Mitsuba 3 |
+//! | `gltf/` | glTF 2.0 |
 //! | `files.rs`, `new_assets.rs` | meshes and textures beside the scene file |
 //! | `file_names.rs` | names that every system accepts |
+//! | `notes.rs` | remarks by place |
 //! | `geometry.rs` | shapes in world space, and triangles that stand for them |
 //! | `textures.rs` | means and images of textures |
 //!
@@ -13,8 +15,12 @@
 mod file_names;
 mod files;
 mod geometry;
+mod gltf;
 mod mitsuba;
 mod new_assets;
+mod notes;
+#[cfg(test)]
+mod round_trip;
 mod textures;
 mod toml;
 
@@ -65,7 +71,7 @@ pub struct Exported {
 #[derive(Debug, thiserror::Error)]
 pub enum ExportError {
     /// The extension is not known.
-    #[error("{}: the format is not known; the name must end in .toml or .xml", quote::path(.0))]
+    #[error("{}: the format is not known; the name must end in .toml, .xml, .gltf or .glb", quote::path(.0))]
     UnknownFormat(PathBuf),
     /// A part of the scene is invalid.
     #[error("{place}: {reason}")]
@@ -83,8 +89,8 @@ pub enum ExportError {
         /// The message of the operating system.
         reason: String,
     },
-    /// The text of the scene exceeds the limit of the reader.
-    #[error("{}: the scene would be {size} of text, more than a scene file may have", quote::path(path))]
+    /// The scene exceeds the limit of the format.
+    #[error("{}: the scene would be {size}, more than a scene file may have", quote::path(path))]
     TooLong {
         /// The scene file.
         path: PathBuf,
@@ -117,6 +123,8 @@ pub fn check(path: &Path) -> Result<Translator, ExportError> {
     let extension = path.extension().map(std::ffi::OsStr::to_ascii_lowercase);
     match extension.as_deref().and_then(|extension| extension.to_str()) {
         Some("toml") => Ok(toml::prepare),
+        Some("gltf") => Ok(gltf::prepare_text),
+        Some("glb") => Ok(gltf::prepare_binary),
         Some("xml") => Ok(mitsuba::prepare),
         _ => Err(ExportError::UnknownFormat(path.to_owned())),
     }

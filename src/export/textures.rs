@@ -9,8 +9,11 @@ use crate::{
 
 /// Pixels of a side of an image of a texture.
 pub const SIDE: u32 = 1024;
+/// What an image of a texture is, and what it changes.
+pub const BAKED: [&str; 2] =
+    ["an image of 1024 × 1024 pixels", "edges are interpolated between pixels, and it repeats outside the unit square"];
 /// Textures within textures, as far as their kinds are looked at.
-const DEEPEST: usize = 64;
+pub const DEEPEST: usize = 64;
 
 /// The textures of a scene.
 pub struct Colors<'a> {
@@ -75,17 +78,23 @@ impl<'a> Colors<'a> {
         }
     }
 
-    /// An EXR image of a texture over the unit square, after a function of its colors.
-    pub fn exr(&self, name: &str, f: impl Fn([f64; 3]) -> [f64; 3]) -> Option<Vec<u8>> {
+    /// The pixels of an image of a texture over the unit square.
+    pub fn pixels(&self, name: &str) -> Option<Vec<[f32; 3]>> {
         let id = self.id(name)?;
         let at = |i: u32| (i as f32 + 0.5) / SIDE as f32;
         let pixel = |i: u32| {
             let p = V::splat(One, [0.0; 3]);
             let at = TextureCoordinates { u: F(at(i % SIDE)), v: F(at(i / SIDE)), p, vertex: None };
             let color = self.compiler.textures.colour(One, U(id), M(true), &at);
-            f([color.x.0, color.y.0, color.z.0].map(f64::from)).map(|x| x as f32)
+            [color.x.0, color.y.0, color.z.0]
         };
-        let pixels: Vec<[f32; 3]> = (0..SIDE * SIDE).map(pixel).collect();
+        Some((0..SIDE * SIDE).map(pixel).collect())
+    }
+
+    /// An EXR image of a texture over the unit square, after a function of its colors.
+    pub fn exr(&self, name: &str, f: impl Fn([f64; 3]) -> [f64; 3]) -> Option<Vec<u8>> {
+        let mut pixels = self.pixels(name)?;
+        pixels.iter_mut().for_each(|color| *color = f(color.map(f64::from)).map(|x| x as f32));
         pictures::exr(SIDE, SIDE, &pixels)
     }
 }

@@ -2,25 +2,19 @@
 use std::collections::HashMap;
 
 use super::{
-    super::{Source, new_assets::NewAssets, textures::Colors},
+    super::{Source, new_assets::NewAssets, notes::Notes, textures::Colors},
     markup::Element,
 };
-use crate::{
-    declare::Resources,
-    import::{Names, Remarks},
-    scene::description::SceneDescription,
-};
+use crate::{declare::Resources, import::Names, scene::description::SceneDescription};
 
 /// A translation.
 pub struct Export<'a> {
     pub description: &'a SceneDescription,
     pub colors: Colors<'a>,
     pub new: NewAssets,
-    pub remarks: Remarks,
+    pub notes: Notes,
     /// The elements of the scene.
     pub scene: Vec<Element>,
-    /// What is being translated, such as `materials.gold`, for remarks.
-    pub place: String,
     /// Whether what is being translated uses coordinates of the surface.
     pub uses_coordinates: bool,
     /// Ids of textures.
@@ -45,9 +39,8 @@ impl<'a> Export<'a> {
             description: source.description,
             colors: Colors::new(source.description, resources),
             new: NewAssets::new(source.assets),
-            remarks: Remarks::default(),
+            notes: Notes::default(),
             scene: Vec::new(),
-            place: String::new(),
             uses_coordinates: false,
             textures: HashMap::new(),
             materials: HashMap::new(),
@@ -58,7 +51,7 @@ impl<'a> Export<'a> {
 
     /// Adds a remark about what is being translated.
     pub fn remark(&mut self, found: impl Into<String>, used: impl Into<String>, effect: impl Into<String>) {
-        self.remarks.add(self.place.clone(), found, used, effect);
+        self.notes.add(found, used, effect);
     }
 
     /// An id that no other object has. Mitsuba reserves dots and leading underscores, and replaces what follows a `$`.
@@ -69,10 +62,11 @@ impl<'a> Export<'a> {
 
     /// Translates something at a place, and returns whether it uses coordinates.
     pub fn at<T>(&mut self, place: String, translate: impl FnOnce(&mut Export<'a>) -> T) -> (T, bool) {
-        let outer = (std::mem::replace(&mut self.place, place), std::mem::take(&mut self.uses_coordinates));
+        let outer = (self.notes.enter(place), std::mem::take(&mut self.uses_coordinates));
         let made = translate(self);
         let uses = self.uses_coordinates;
-        (self.place, self.uses_coordinates) = (outer.0, outer.1 | uses);
+        self.notes.enter(outer.0);
+        self.uses_coordinates = outer.1 | uses;
         (made, uses)
     }
 }

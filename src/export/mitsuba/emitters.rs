@@ -4,6 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use glam::{DAffine3, DVec3};
 
 use super::{
+    super::{geometry::upwards, notes},
     context::Export,
     markup::{Element, FILE, words},
 };
@@ -25,8 +26,7 @@ use crate::{
 pub fn all(export: &mut Export) {
     let description = export.description;
     for (number, lamp) in description.lamps.iter().enumerate() {
-        let place = if lamp.name.is_empty() { format!("lamps[{number}]") } else { format!("lamp \"{}\"", lamp.name) };
-        let (element, _) = export.at(place, |export| export.lamp(lamp));
+        let (element, _) = export.at(notes::element("lamp", number, &lamp.name), |export| export.lamp(lamp));
         let id = export.id(&lamp.name, "lamp");
         export.scene.push(element.attribute("id", id));
     }
@@ -123,9 +123,7 @@ fn turn(image: &Image) -> DAffine3 {
 /// The transform of what looks at a point along +z.
 pub fn look_at(origin: DVec3, target: DVec3, up: Option<DVec3>) -> Element {
     let forward = (target - origin).normalize_or(DVec3::Z);
-    let up = up
-        .filter(|up| up.cross(forward).length() > 1e-9 * up.length())
-        .unwrap_or_else(|| if forward.y.abs() < 0.9 { DVec3::Y } else { DVec3::X });
+    let up = upwards(forward, up);
     let step = Element::new("lookat").attribute("origin", words(&origin.to_array()));
     let step = step.attribute("target", words(&target.to_array())).attribute("up", words(&up.to_array()));
     Element::new("transform").attribute("name", "to_world").with(step)

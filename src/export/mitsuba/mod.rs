@@ -44,12 +44,12 @@ pub fn prepare(source: Source, path: &Path) -> Result<Prepared, ExportError> {
         shapes::object(&mut export, place, object, &shapes)?;
     }
     emitters::all(&mut export);
-    let Export { scene, new, remarks, .. } = export;
+    let Export { scene, new, notes, .. } = export;
     let mut scene = Element::new("scene").attribute("version", VERSION).with_all(scene);
     let moved = Source { assets: &new.assets, ..source };
     let files = Files::place(&moved, new.named, path)?;
     scene.for_each_file(&mut |file: &mut String| *file = files.path(file));
     let mut text = "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n".to_owned();
     scene.write(&mut text, 0);
-    Ok(Prepared { path: path.to_owned(), content: text.into_bytes(), files, remarks })
+    Ok(Prepared { path: path.to_owned(), content: text.into_bytes(), files, remarks: notes.remarks })
 }

@@ -6,7 +6,8 @@ use glam::{DAffine3, DMat3, DVec3};
 use super::{
     super::{
         ExportError,
-        geometry::{BANDS, SECTORS, model_of, triangles},
+        geometry::{fineness, model_of, triangles},
+        notes,
     },
     context::Export,
     markup::{Element, FILE},
@@ -24,8 +25,7 @@ const ROUNDING: f64 = 1e-9;
 
 /// Adds the shapes of an object.
 pub fn object(export: &mut Export, number: usize, object: &ObjectDescription, shapes: &[Shape]) -> Result<(), ExportError> {
-    let place = if object.name.is_empty() { format!("objects[{number}]") } else { format!("object \"{}\"", object.name) };
-    let (made, _) = export.at(place, |export| {
+    let (made, _) = export.at(notes::element("object", number, &object.name), |export| {
         if !object.motion.is_empty() {
             export.remark("`motion`", "the place at time 0", "the object is sharp");
         }
@@ -126,12 +126,9 @@ impl Export<'_> {
 
     /// Triangles that stand for a shape.
     fn tessellated(&mut self, shape: &Shape, name: &str) -> Result<Option<Geometry>, ExportError> {
-        let is_curved = !matches!(shape, Shape::Cuboid { .. } | Shape::Flat { outline: Outline::Triangle, .. });
-        if is_curved {
-            let used = match shape {
-                Shape::Ellipsoid { .. } => format!("a mesh of {} × {BANDS} quads", 2 * BANDS),
-                _ => format!("a mesh with {SECTORS} edges around"),
-            };
+        let fineness = fineness(shape);
+        let is_curved = fineness.is_some();
+        if let Some(used) = fineness {
             let what = if matches!(shape, Shape::Ellipsoid { .. }) { "" } else { " with coordinates, or stretched" };
             self.remark(format!("a shape `{}`{what}", shape.name()), used, "its outline is a polygon");
         }

@@ -2,7 +2,7 @@
 use glam::{DAffine3, DVec2, DVec3};
 
 use super::{
-    super::textures::luminance,
+    super::textures::{BAKED, luminance},
     context::{Export, Known},
     markup::{Element, FILE},
 };
@@ -81,8 +81,8 @@ impl Export<'_> {
     pub fn baked(&mut self, name: &str, found: &str, f: impl Fn([f64; 3]) -> [f64; 3]) -> Option<Element> {
         let bytes = self.colors.exr(name, f)?;
         let path = self.new.add("textures", name, "exr", bytes);
-        let effect = "edges are interpolated between pixels, and it repeats outside the unit square";
-        self.remark(found, "an image of 1024 × 1024 pixels", effect);
+        let [used, effect] = BAKED;
+        self.remark(found, used, effect);
         self.uses_coordinates = true;
         Some(Element::plugin("texture", "bitmap").text(FILE, &path).flag("raw", true))
     }

@@ -45,8 +45,8 @@ fn usable(x: f64) -> Option<f64> {
     (x.is_finite() && x > 0.0).then_some(x)
 }
 
-/// The resolution of an aspect, width over height.
-fn resolution(aspect: f64) -> [u32; 2] {
+/// The resolution that is taken for an aspect, width over height.
+pub fn resolution(aspect: f64) -> [u32; 2] {
     let side = |length: f64| length.round().clamp(1.0, LONGER) as u32;
     if aspect >= 1.0 { [side(LONGER), side(LONGER / aspect)] } else { [side(LONGER * aspect), side(LONGER)] }
 }

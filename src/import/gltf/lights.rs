@@ -17,7 +17,7 @@ use crate::{
 };
 
 /// Lumens of a watt.
-const EFFICACY: f64 = 683.0;
+pub const EFFICACY: f64 = 683.0;
 
 /// A lamp at a place; `None` if it is dark or of no known type. It shines along −z of its node.
 pub fn lamp(light: &Light, name: &str, world: &DAffine3, remarks: &mut Remarks, place: &str) -> Option<LampDescription> {

@@ -26,6 +26,8 @@ mod vertices;
 
 use std::path::Path;
 
+pub use self::{cameras::resolution, lights::EFFICACY, materials::STEP};
+
 use self::{
     animation::Poses,
     buffers::Buffers,

@@ -60,6 +60,10 @@ impl<'a> Textures<'a> {
 
     /// A factor times a channel of a texture.
     pub fn number(&mut self, to: &mut Imported, factor: f64, of: &Use, channel: Channel) -> Textured<f64> {
+        // Exporters put metal and roughness in one image, with the factor 0 for one that has no texture.
+        if factor == 0.0 {
+            return Textured::Constant(0.0);
+        }
         // The opacity is read from the same file as the color: both share their texels.
         let encoding = if channel == Channel::Alpha { Encoding::Srgb } else { Encoding::Linear };
         match self.image(to, of, channel, encoding) {

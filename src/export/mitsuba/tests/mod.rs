@@ -2,51 +2,21 @@
 mod materials;
 mod remarks;
 
-use std::{fs, path::Path};
-
-use glam::DVec3;
+use std::path::Path;
 
 use crate::{
-    declare::{Assets, Resources, check},
-    export::{Source, geometry, prepare},
+    declare::{Assets, Resources},
+    export::{
+        geometry,
+        round_trip::{self as scene_files, RoundTrip, names, near, scenes, shipped},
+    },
     geometry::Shape,
-    import::{ImportOptions, Imported, read},
-    scene::{describe, description::SceneDescription},
+    import::Imported,
+    scene::description::SceneDescription,
 };
 
-/// What is written for a scene, read again, and the remarks about the writing.
-struct RoundTrip {
-    imported: Imported,
-    remarks: Vec<String>,
-    text: String,
-    /// The files that were written.
-    folder: tempfile::TempDir,
-}
-
 fn round_trip(description: &SceneDescription, folder: &Path) -> RoundTrip {
-    let out = tempfile::tempdir().expect("a folder");
-    let path = out.path().join("scene.xml");
-    let assets = Assets::default();
-    let prepared = prepare(Source { description, assets: &assets, folder }, &path).expect("it can be written");
-    prepared.write().expect("it is written");
-    let imported = read(&path, &ImportOptions::default()).unwrap_or_else(|error| panic!("{}", error.report()));
-    let problems = check(&mut imported.description.clone());
-    assert!(problems.is_empty(), "{problems:?}");
-    let remarks = prepared.remarks.iter().map(|counted| counted.remark.found.clone()).collect();
-    RoundTrip { imported, remarks, text: String::from_utf8(prepared.content().to_vec()).expect("it is text"), folder: out }
-}
-
-fn scenes() -> std::path::PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes")
-}
-
-fn shipped(name: &str) -> SceneDescription {
-    let text = fs::read_to_string(scenes().join(format!("{name}.toml"))).expect("it is shipped");
-    describe(name, text).unwrap_or_else(|error| panic!("{}", error.report()))
-}
-
-fn near(a: DVec3, b: DVec3) -> bool {
-    a.distance(b) <= 1e-7 * (1.0 + a.length().max(b.length()))
+    scene_files::round_trip(description, &Assets::default(), folder, "scene.xml")
 }
 
 /// Whether two shapes are the same points with the same coordinates.
@@ -110,16 +80,10 @@ fn shipped_scenes_come_back() {
 
 #[test]
 fn every_shipped_scene_can_be_written_and_read() {
-    for entry in fs::read_dir(scenes()).expect("they are shipped") {
-        let path = entry.expect("an entry").path();
-        // A million triangles take a second or two without optimisation.
-        if path.extension().is_none_or(|extension| extension != "toml") || path.ends_with("million_triangles.toml") {
-            continue;
-        }
-        let name = path.file_stem().expect("a name").to_string_lossy().into_owned();
+    for name in names() {
         let ours = shipped(&name);
-        let RoundTrip { imported, text, .. } = round_trip(&ours, &scenes());
-        assert!(text.starts_with("<?xml") && !imported.description.objects.is_empty(), "{name}");
+        let RoundTrip { imported, content, .. } = round_trip(&ours, &scenes());
+        assert!(content.starts_with(b"<?xml") && !imported.description.objects.is_empty(), "{name}");
         assert_eq!(ours.lamps.len(), imported.description.lamps.len(), "{name}");
     }
 }

@@ -10,7 +10,7 @@ use crate::{
 };
 
 /// Width of the step of `MASK` in opacity: a texture has no threshold, so a steep ramp stands for it.
-const STEP: f64 = 1e-3;
+pub const STEP: f64 = 1e-3;
 
 impl Work<'_, '_> {
     /// Radiance: factor × texture × strength, W/(m² sr) where the file has no unit. A surface that is not seen from behind does not

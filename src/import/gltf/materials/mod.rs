@@ -5,6 +5,8 @@ mod light;
 
 use std::collections::HashMap;
 
+pub use self::light::STEP;
+
 use super::{
     document::{Document, Index, Material, Primitive, TextureInfo, element},
     extensions::MaterialExtensions,
