@@ -32,9 +32,7 @@ impl Scene {
             "turn roulette off".to_owned()
         };
         let what = settings.roulette.survival_words();
-        Some(format!(
-            "{what}, at surfaces with ρ² E w² = {most:.2}: if light stays between these surfaces, the variance is infinite and noise figures cannot be trusted; {advice}"
-        ))
+        Some(format!("{what} and bright surfaces: if light stays between them, the variance is infinite; {advice}"))
     }
 }
 
