@@ -15,6 +15,7 @@ mod gizmo;
 mod history;
 mod outliner_actions;
 mod outside;
+mod picture_notices;
 mod receive;
 mod recovering;
 mod results;

@@ -7,6 +7,7 @@ use crate::viewer::background::{
     catalogue::{CatalogueEntry, SceneRequest, in_full},
     loader::{BUILT_IN_NAME, OpenedScene},
 };
+use crate::viewer::widgets::quotation::with_quotation_marks;
 
 /// The height of a row of the list: more than its text needs, so that all are alike.
 const ROW: f32 = 26.0;
@@ -37,7 +38,7 @@ pub fn show(ui: &mut egui::Ui, opened: Option<&OpenedScene>, catalogue: &[Catalo
             ui.label(RichText::new(&opened.scene.notes).weak());
         }
         for warning in &opened.warnings {
-            ui.label(RichText::new(format!("Note: {warning}.")).color(ui.visuals().warn_fg_color));
+            ui.label(RichText::new(with_quotation_marks(&format!("Note: {warning}."))).color(ui.visuals().warn_fg_color));
         }
     }
     request

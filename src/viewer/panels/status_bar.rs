@@ -9,7 +9,11 @@ use noisefall::{
 
 use super::pixel_readout::Pixel;
 use crate::viewer::background::{display_image::ReferenceComparison, loader::OpenedScene};
-use crate::viewer::widgets::palette::Palette;
+use crate::viewer::widgets::{
+    palette::Palette,
+    quotation::with_quotation_marks,
+    wording::{capitalised, count},
+};
 
 /// The figures of the line.
 pub struct StatusBar<'a> {
@@ -46,7 +50,7 @@ impl StatusBar<'_> {
             ui.separator();
             if let Err(error) = self.camera.check() {
                 ui.label(RichText::new("Invalid camera. The last image is shown.").color(ui.warning()))
-                    .on_hover_text(error.to_string());
+                    .on_hover_text(with_quotation_marks(&error.to_string()));
                 return;
             }
             let target = self.budget.max_spp.map_or_else(String::new, |most| format!(" / {most}"));
@@ -79,7 +83,7 @@ impl StatusBar<'_> {
     fn remarks_link(&self, ui: &mut egui::Ui) -> bool {
         let Some(opened) = self.opened.filter(|opened| !opened.remarks.is_empty()) else { return false };
         ui.separator();
-        ui.link(remarks_text(opened.remarks.len()))
+        ui.link(count(opened.remarks.len() as u64, "remark"))
             .on_hover_text("Lists what could not be taken over exactly from the file.")
             .clicked()
     }
@@ -93,7 +97,7 @@ impl StatusBar<'_> {
             State::Idle => (Color32::GRAY, "No scene"),
             State::Running => (good, "Running"),
             State::Paused => (warning, "Paused"),
-            State::Done(target) => return (good, sentence(&target.to_string())),
+            State::Done(target) => return (good, capitalised(&target.to_string())),
             State::Failed(_) => (ui.bad(), "Failed"),
         };
         (colour, text.to_owned())
@@ -102,7 +106,7 @@ impl StatusBar<'_> {
     fn noise_label(&self, ui: &mut egui::Ui) {
         if let Some(why) = self.why_black {
             ui.label(RichText::new("no light found yet").color(ui.warning()))
-                .on_hover_text(format!("All samples are black: {why}."));
+                .on_hover_text(with_quotation_marks(&format!("All samples are black: {why}.")));
             return;
         }
         let text = self.status.relative_noise().map_or_else(|| "–".to_owned(), percent);
@@ -117,7 +121,7 @@ impl StatusBar<'_> {
             ui.label(format!("true error {}", percent(rel_mse.sqrt())))
                 .on_hover_text("Root of relMSE, the mean of (x − r)²/(r² + 0.01 · mean r²), against the reference r: that of the scene, or the one that you dropped on the window");
         } else if let Some(mismatch) = &self.mismatch {
-            ui.label(RichText::new("true error unknown").color(ui.warning())).on_hover_text(mismatch);
+            ui.label(RichText::new("true error unknown").color(ui.warning())).on_hover_text(with_quotation_marks(mismatch));
         }
     }
 
@@ -142,16 +146,16 @@ impl StatusBar<'_> {
         let Status { invalid_samples, first_invalid, cut_paths, .. } = *self.status;
         let mut trouble = |text: String, more: String| {
             ui.separator();
-            ui.label(RichText::new(text).color(ui.bad())).on_hover_text(more);
+            ui.label(RichText::new(with_quotation_marks(&text)).color(ui.bad())).on_hover_text(more);
         };
         if let Some(at) = first_invalid {
             let size = self.request.map_or([0; 2], |request| request.camera.resolution);
             let command = self.replay_command(at, size);
-            trouble(format!("{invalid_samples} invalid samples"), format!("Replay the first: {command}"));
+            trouble(count(invalid_samples, "invalid sample"), format!("Replay the first: {command}"));
         }
         if cut_paths > 0 {
             let longest = self.request.map_or(RenderSettings::LONGEST_PATH, |request| request.settings.last_bounce());
-            let text = format!("paths cut after {longest} bounces");
+            let text = format!("paths cut after {}", count(u64::from(longest), "bounce"));
             trouble(text, "Choose a roulette, so that paths end by themselves.".to_owned());
         }
         if let State::Failed(failure) = &self.status.state {
@@ -179,16 +183,6 @@ impl StatusBar<'_> {
             ui.add(text).on_hover_text(format!("{}\n{}", readout.text, readout.doc));
         }
     }
-}
-
-fn remarks_text(count: usize) -> String {
-    if count == 1 { "1 remark".to_owned() } else { format!("{count} remarks") }
-}
-
-/// The text with a capital at its beginning.
-fn sentence(text: &str) -> String {
-    let first = text.chars().next().map_or(0, char::len_utf8);
-    text[..first].to_uppercase() + &text[first..]
 }
 
 fn percent(x: f64) -> String {

@@ -9,3 +9,4 @@ pub mod path_field;
 pub mod quotation;
 pub mod style;
 pub mod typed_number;
+pub mod wording;

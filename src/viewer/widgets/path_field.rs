@@ -10,6 +10,8 @@ use egui::{
     text::{CCursor, CCursorRange},
 };
 
+use super::quotation::with_quotation_marks;
+
 /// A dialog that ends sooner was never shown, because nobody can dismiss it so fast.
 const TOO_SOON: Duration = Duration::from_millis(300);
 const NO_DIALOG: &str = "This system has no file dialog (a desktop portal or zenity). Type the path.";
@@ -91,7 +93,7 @@ impl PathField {
     /// Shows the error message, or else this remark, in a line that keeps its height when it is empty.
     pub fn remark(&self, ui: &mut Ui, remark: &str) {
         match &self.refusal {
-            Some(refusal) => ui.colored_label(ui.visuals().error_fg_color, refusal),
+            Some(refusal) => ui.colored_label(ui.visuals().error_fg_color, with_quotation_marks(refusal)),
             None => ui.label(RichText::new(if remark.is_empty() { " " } else { remark }).color(ui.visuals().warn_fg_color)),
         };
     }
