@@ -11,6 +11,7 @@ pub mod exposure_meter;
 pub mod feature_finder;
 pub mod file_state;
 pub mod file_watcher;
+pub mod folder;
 pub mod loader;
 pub mod outline;
 pub mod preferences;

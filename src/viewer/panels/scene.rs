@@ -20,7 +20,7 @@ pub fn show(ui: &mut egui::Ui, opened: Option<&OpenedScene>, catalogue: &[Catalo
         let label = ui.label("Scene");
         // From the right, so that the button has its place and a long title is cut by what is left.
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            if ui.button("Open…").on_hover_text("Opens a scene file.").clicked() {
+            if ui.button("Open…").on_hover_text("Opens a scene file. (Ctrl+O)").clicked() {
                 request = Some(SceneRequest::Browse);
             }
             if ui.button("Gallery").on_hover_text("Shows all scenes as thumbnails. (F6)").clicked() {

@@ -19,6 +19,7 @@ mod manners;
 mod messages;
 mod minified;
 mod mouse;
+mod open_dialog;
 mod opening;
 mod painted;
 mod path;
