@@ -181,7 +181,7 @@ impl App {
             return;
         }
         // Escape gives the edit of a field up, and nothing else.
-        if self.window.had_focus {
+        if self.window.had_focus || self.cancel_loading() {
             return;
         }
         if self.background.adviser.take().is_some() || self.end_tour() {

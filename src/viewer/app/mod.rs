@@ -13,6 +13,7 @@ mod file_tasks;
 mod frame;
 mod gizmo;
 mod history;
+mod loading;
 mod outliner_actions;
 mod outside;
 mod picture_notices;

@@ -6,6 +6,7 @@ pub mod conflict;
 pub mod connect_tev;
 pub mod gallery;
 pub mod help;
+pub mod loading;
 pub mod notices;
 pub mod open;
 mod question;
