@@ -62,8 +62,9 @@ impl App {
         if description.render.settings != before.render.settings {
             session.settings = scene.settings;
         }
-        if description.render.exposure != before.render.exposure {
-            session.look.display.exposure = scene.exposure;
+        let exposure = &mut session.look.display.exposure;
+        if *exposure == before.render.exposure {
+            *exposure = scene.exposure;
         }
         if description.render.spp != before.render.spp {
             session.budget.max_spp = scene.spp;

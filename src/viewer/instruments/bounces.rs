@@ -1,5 +1,5 @@
 //! The bounces instrument: the picture as a series, term by term.
-use egui::{Color32, RichText, Sense, Slider, Ui, vec2};
+use egui::{Color32, Label, RichText, Sense, Slider, Ui, vec2};
 use noisefall::{
     integrator::TERMS,
     render::{Frame, Series, view::View},
@@ -48,7 +48,7 @@ pub fn show(ui: &mut Ui, bounces: &mut Bounces, frame: Option<&Frame>, view: Vie
         ui.separator();
         let label = ui.label("k").on_hover_text("Number of bounces, reflections and refractions alike");
         ui.add(Slider::new(&mut bounces.k, 0..=LAST)).labelled_by(label.id);
-        ui.label(RichText::new(meaning(*bounces)).weak());
+        ui.add(Label::new(RichText::new(meaning(*bounces)).weak()).truncate());
     });
     // While the camera moves there are no figures. Bars and lines keep their places.
     let known = frame.and_then(|frame| Some((frame, frame.series.as_ref()?)));
@@ -56,20 +56,22 @@ pub fn show(ui: &mut Ui, bounces: &mut Bounces, frame: Option<&Frame>, view: Vie
     bars(ui, known.map(|(_, series)| series), bounces);
     ui.add_space(4.0);
     let text = known.map_or_else(|| " ".to_owned(), |(_, series)| shares(series, *bounces));
-    ui.label(RichText::new(text).color(ui.accent()));
+    // One line each, however narrow the window is: they must not move when the figures come.
+    ui.add(Label::new(RichText::new(text).color(ui.accent())).truncate());
     if !view.shows_light() {
         let view = view.title();
         ui.label(
             RichText::new(format!("The view {view} shows the whole image. Choose Radiance to see bounces.")).color(ui.warning()),
         );
     }
-    ui.weak(match known {
+    let remark = match known {
         Some((frame, _)) => {
             let samples = count(u64::from(frame.spp), "sample");
             format!("After {samples} per pixel without path sharing. Shares are fractions of the luminance of the image.")
         }
         None => "Available after one sample per pixel.".to_owned(),
-    });
+    };
+    ui.add(Label::new(RichText::new(remark).weak()).truncate());
 }
 
 /// The share of the chosen term, and of all light that a cap there would lose.
@@ -88,17 +90,19 @@ fn shares(series: &Series, Bounces { k, up_to }: Bounces) -> String {
 /// Draws a bar for the share of each number of bounces; a click chooses the term.
 fn bars(ui: &mut Ui, series: Option<&Series>, bounces: &mut Bounces) {
     const HEIGHT: f32 = 64.0;
-    const WIDTH: f32 = 40.0;
+    const MOST_WIDTH: f32 = 40.0;
+    const GAP: f32 = 3.0;
     let of_term = |k: usize| {
         let shares = &series?.shares;
         Some(if k < BARS { shares[k] } else { shares.iter().skip(BARS).sum() })
     };
     let most = series.map_or(1.0, |series| series.shares.iter().copied().fold(1e-12, f64::max));
     ui.horizontal(|ui| {
-        ui.spacing_mut().item_spacing.x = 3.0;
+        ui.spacing_mut().item_spacing.x = GAP;
+        let width = ((ui.available_width() - GAP * BARS as f32) / (BARS + 1) as f32).min(MOST_WIDTH);
         for k in 0..=BARS {
             let share = of_term(k);
-            let (rect, response) = ui.allocate_exact_size(vec2(WIDTH, HEIGHT + 32.0), Sense::click());
+            let (rect, response) = ui.allocate_exact_size(vec2(width, HEIGHT + 32.0), Sense::click());
             let part = (share.unwrap_or(0.0) / most) as f32;
             let term = k.min(LAST);
             let chosen = term == bounces.k || (bounces.up_to && term < bounces.k);

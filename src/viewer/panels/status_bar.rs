@@ -15,6 +15,9 @@ use crate::viewer::widgets::{
     wording::{capitalised, count},
 };
 
+/// Width of a window that has room for all figures, points.
+const WIDE: f32 = 1000.0;
+
 /// The figures of the line.
 pub struct StatusBar<'a> {
     pub opened: Option<&'a OpenedScene>,
@@ -38,7 +41,7 @@ pub struct StatusBar<'a> {
 impl StatusBar<'_> {
     /// Shows the line. Returns whether the list of remarks is asked for.
     pub fn show(&self, ui: &mut egui::Ui) -> bool {
-        let (status, mut asks) = (self.status, false);
+        let mut asks = false;
         ui.horizontal(|ui| {
             let (colour, state) = self.state_text(ui);
             let (dot, _) = ui.allocate_exact_size(egui::vec2(10.0, 10.0), egui::Sense::hover());
@@ -53,15 +56,7 @@ impl StatusBar<'_> {
                     .on_hover_text(with_quotation_marks(&error.to_string()));
                 return;
             }
-            let target = self.budget.max_spp.map_or_else(String::new, |most| format!(" / {most}"));
-            let region = status.region_spp.map_or_else(String::new, |spp| format!(", {spp} in the region"));
-            ui.label(format!("{}{target} spp{region}", status.spp)).on_hover_text("Samples per pixel N so far, and the target");
-            ui.separator();
-            ui.label(format!("{:.1} M samples/s", status.samples_per_second() / 1e6))
-                .on_hover_text("Millions of camera samples per second of render time");
-            ui.separator();
-            ui.label(clock(status.elapsed)).on_hover_text("Render time of this image");
-            ui.separator();
+            self.progress_labels(ui);
             self.noise_label(ui);
             self.truth_label(ui);
             ui.separator();
@@ -77,6 +72,26 @@ impl StatusBar<'_> {
             });
         });
         asks
+    }
+
+    /// Samples, speed and time. A narrow window has room for the samples only.
+    fn progress_labels(&self, ui: &mut egui::Ui) {
+        let status = self.status;
+        let target = self.budget.max_spp.map_or_else(String::new, |most| format!(" / {most}"));
+        let region = status.region_spp.map_or_else(String::new, |spp| format!(", {spp} in the region"));
+        let (samples, speed) = (format!("{}{target} spp", status.spp), status.samples_per_second() / 1e6);
+        let (speed, time) = (format!("{speed:.1} M samples/s"), clock(status.elapsed));
+        const SAMPLES: &str = "Samples per pixel N so far, and the target";
+        if ui.ctx().content_rect().width() < WIDE {
+            ui.label(samples).on_hover_text(format!("{SAMPLES}{region}\n{speed}\n{time}"));
+        } else {
+            ui.label(samples + &region).on_hover_text(SAMPLES);
+            ui.separator();
+            ui.label(speed).on_hover_text("Millions of camera samples per second of render time");
+            ui.separator();
+            ui.label(time).on_hover_text("Render time of this image");
+        }
+        ui.separator();
     }
 
     /// The number of things that were not taken over exactly. Returns whether it was clicked.
@@ -146,7 +161,8 @@ impl StatusBar<'_> {
         let Status { invalid_samples, first_invalid, cut_paths, .. } = *self.status;
         let mut trouble = |text: String, more: String| {
             ui.separator();
-            ui.label(RichText::new(with_quotation_marks(&text)).color(ui.bad())).on_hover_text(more);
+            let text = RichText::new(with_quotation_marks(&text)).color(ui.bad());
+            ui.add(Label::new(text).truncate()).on_hover_text(more);
         };
         if let Some(at) = first_invalid {
             let size = self.request.map_or([0; 2], |request| request.camera.resolution);
