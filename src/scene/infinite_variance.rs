@@ -32,7 +32,7 @@ impl Scene {
             "turn roulette off".to_owned()
         };
         let what = settings.roulette.survival_words();
-        Some(format!("{what} and bright surfaces: if light stays between them, the variance is infinite; {advice}"))
+        Some(format!("{what}: the variance is infinite if light stays between bright surfaces; {advice}"))
     }
 }
 

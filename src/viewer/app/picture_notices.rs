@@ -55,7 +55,7 @@ impl App {
         let is_due = self.results.awaits_meter && frame.generation == self.background.worker.generation() && !frame.is_coarse();
         if is_due && !self.results.black {
             self.results.awaits_meter = false;
-            self.results.misfit = misfit(&frame.radiance, self.session.look.display.exposure);
+            self.results.misfit = misfit(&frame.radiance, frame.width as usize, self.session.look.display.exposure);
         }
     }
 }
