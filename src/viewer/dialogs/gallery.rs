@@ -38,6 +38,12 @@ impl Gallery {
         self.pictures.len()
     }
 
+    /// Whether all pictures that exist have been read.
+    #[cfg(test)]
+    pub fn is_complete(&self) -> bool {
+        self.is_complete
+    }
+
     /// Has the pictures read, once, and takes in those that are there.
     fn receive(&mut self, ctx: &egui::Context, scenes: impl Iterator<Item = PathBuf>) {
         let arriving = self.arriving.get_or_insert_with(|| {
