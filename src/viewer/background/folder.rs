@@ -20,20 +20,23 @@ pub struct FolderReader {
     folder: Option<PathBuf>,
     entries: Vec<FolderEntry>,
     pending: Option<BackgroundTask<Vec<FolderEntry>>>,
+    /// Counts the lists.
+    revision: u64,
 }
 
 impl FolderReader {
-    /// The entries of a folder with the files that have one of these extensions. None while the folder is read, or if it cannot be read.
-    pub fn of(&mut self, ctx: &egui::Context, folder: &Path, extensions: &'static [&str]) -> &[FolderEntry] {
+    /// The entries of a folder with the files that have one of these extensions, and the number of this list. There are none while the
+    /// folder is read, or if it cannot be read.
+    pub fn of(&mut self, ctx: &egui::Context, folder: &Path, extensions: &'static [&str]) -> (&[FolderEntry], u64) {
         if self.folder.as_deref() != Some(folder) {
             let of = folder.to_owned();
-            (self.folder, self.entries) = (Some(of.clone()), Vec::new());
+            (self.folder, self.entries, self.revision) = (Some(of.clone()), Vec::new(), self.revision + 1);
             self.pending = Some(BackgroundTask::start(ctx, move |_| entries(&of, extensions)));
         }
         if let Some(Ok(entries)) = BackgroundTask::take(&mut self.pending) {
-            self.entries = entries;
+            (self.entries, self.revision) = (entries, self.revision + 1);
         }
-        &self.entries
+        (&self.entries, self.revision)
     }
 }
 

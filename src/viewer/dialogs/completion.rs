@@ -1,5 +1,5 @@
 //! Completes a path by the entries of its folder.
-use std::path::{PathBuf, is_separator};
+use std::path::{Path, is_separator};
 
 use egui::{Button, Key, Modifiers, RichText, ScrollArea, Ui, vec2};
 
@@ -19,24 +19,19 @@ pub struct Completion {
     pub matches: Vec<FolderEntry>,
     /// The row that was chosen by arrows.
     chosen: Option<usize>,
-    /// The text that the rows are of.
-    of: String,
+    /// The text and the list of the folder that the rows are of.
+    of: (String, u64),
 }
 
 impl Completion {
     /// Follows the field, and the keys in it: arrows choose a row, Tab completes the text. Precedes the field.
     pub fn follow(&mut self, ui: &Ui, field: &mut PathField, extensions: &'static [&str]) {
         let (folder, name) = split(&field.path);
-        let entries = self.reader.of(ui.ctx(), &PathBuf::from(folder), extensions);
-        let is_match = |entry: &&FolderEntry| {
-            let is_shown = name.starts_with('.') || !entry.name.starts_with('.');
-            is_shown && entry.name.to_lowercase().starts_with(&name.to_lowercase())
-        };
-        self.matches = entries.iter().filter(is_match).cloned().collect();
-        if self.of != field.path {
-            (self.of, self.chosen) = (field.path.clone(), None);
+        let (entries, revision) = self.reader.of(ui.ctx(), Path::new(folder), extensions);
+        if self.of != (field.path.clone(), revision) {
+            self.matches = entries.iter().filter(|entry| is_match(entry, name)).cloned().collect();
+            (self.of, self.chosen) = ((field.path.clone(), revision), None);
         }
-        self.chosen = self.chosen.filter(|chosen| *chosen < self.rows());
         if field.has_keyboard(ui) {
             let pressed = |key| ui.input_mut(|input| input.consume_key(Modifiers::NONE, key));
             let (down, up, tab) = (pressed(Key::ArrowDown), pressed(Key::ArrowUp), pressed(Key::Tab));
@@ -126,6 +121,12 @@ impl Completion {
         });
         clicked
     }
+}
+
+/// Whether an entry begins as a typed name does. Hidden ones are asked for by their point.
+fn is_match(entry: &FolderEntry, name: &str) -> bool {
+    let is_shown = name.starts_with('.') || !entry.name.starts_with('.');
+    is_shown && entry.name.to_lowercase().starts_with(&name.to_lowercase())
 }
 
 /// The folder of a typed path, with the separator, and what follows it.
