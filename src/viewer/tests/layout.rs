@@ -106,10 +106,10 @@ fn a_comparison_and_the_samples_of_a_pixel_fit_a_small_window() {
 fn figures_of_the_line_below_end_in_the_window() {
     for (size, scale) in SIZES {
         let mut window = sized(size, scale);
-        window.state_mut().session.budget.region = Some(noisefall::render::Region::between([4, 4], [40, 40]));
         window.state_mut().session.settings.max_bounces = Some(3);
         wait(&mut window, "figures", |app| app.results.status.spp >= 4);
-        window.run_steps(2);
+        window.state_mut().session.budget.region = Some(noisefall::render::Region::between([4, 4], [40, 40]));
+        window.run_steps(5);
         let labels = window.query_all_by_role(Role::Label);
         let line: Vec<Rect> = labels.map(|label| label.rect()).filter(|rect| rect.top() > size.y - 30.0).collect();
         assert!(line.len() >= 4 && line.iter().all(|rect| rect.right() <= size.x), "{line:?}");
