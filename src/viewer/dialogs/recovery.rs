@@ -6,7 +6,7 @@ use egui::Ui;
 use super::question::{Choice, ask};
 use crate::viewer::{
     background::{catalogue, recovery_files::FoundRecovery},
-    widgets::wording::count,
+    widgets::counted::counted,
 };
 
 /// An answer.
@@ -54,7 +54,7 @@ fn in_words(time: Duration) -> String {
         60..1440 => (minutes / 60, "hour"),
         _ => (minutes / 1440, "day"),
     };
-    count(number, unit)
+    counted(number, unit)
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ use noisefall::{
     render::{Frame, Series, view::View},
 };
 
-use crate::viewer::widgets::{palette::Palette, wording::count};
+use crate::viewer::widgets::{counted::counted, palette::Palette};
 
 /// The part of the series that is displayed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -66,7 +66,7 @@ pub fn show(ui: &mut Ui, bounces: &mut Bounces, frame: Option<&Frame>, view: Vie
     }
     let remark = match known {
         Some((frame, _)) => {
-            let samples = count(u64::from(frame.spp), "sample");
+            let samples = counted(frame.spp, "sample");
             format!("After {samples} per pixel without path sharing. Shares are fractions of the luminance of the image.")
         }
         None => "Available after one sample per pixel.".to_owned(),
@@ -136,7 +136,7 @@ fn bars(ui: &mut Ui, series: Option<&Series>, bounces: &mut Bounces) {
 
 /// The number of bounces of a bar.
 fn number(k: usize) -> String {
-    if k < BARS { count(k as u64, "bounce") } else { format!("{BARS} and more bounces") }
+    if k < BARS { counted(k, "bounce") } else { format!("{BARS} and more bounces") }
 }
 
 /// The displayed part in words.

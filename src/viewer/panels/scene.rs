@@ -38,7 +38,7 @@ pub fn show(ui: &mut egui::Ui, opened: Option<&OpenedScene>, catalogue: &[Catalo
             ui.label(RichText::new(&opened.scene.notes).weak());
         }
         for warning in &opened.warnings {
-            ui.label(RichText::new(with_quotation_marks(&format!("Note: {warning}."))).color(ui.visuals().warn_fg_color));
+            ui.label(RichText::new(format!("Note: {}.", with_quotation_marks(warning))).color(ui.visuals().warn_fg_color));
         }
     }
     request

@@ -9,11 +9,7 @@ use noisefall::{
 
 use super::pixel_readout::Pixel;
 use crate::viewer::background::{display_image::ReferenceComparison, loader::OpenedScene};
-use crate::viewer::widgets::{
-    palette::Palette,
-    quotation::with_quotation_marks,
-    wording::{capitalised, count},
-};
+use crate::viewer::widgets::{counted::counted, palette::Palette, quotation::with_quotation_marks, wording::capitalised};
 
 /// Width of a window that has room for all figures, points.
 const WIDE: f32 = 1000.0;
@@ -98,7 +94,7 @@ impl StatusBar<'_> {
     fn remarks_link(&self, ui: &mut egui::Ui) -> bool {
         let Some(opened) = self.opened.filter(|opened| !opened.remarks.is_empty()) else { return false };
         ui.separator();
-        ui.link(count(opened.remarks.len() as u64, "remark"))
+        ui.link(counted(opened.remarks.len(), "remark"))
             .on_hover_text("Lists what could not be taken over exactly from the file.")
             .clicked()
     }
@@ -121,7 +117,7 @@ impl StatusBar<'_> {
     fn noise_label(&self, ui: &mut egui::Ui) {
         if let Some(why) = self.why_black {
             ui.label(RichText::new("no light found yet").color(ui.warning()))
-                .on_hover_text(with_quotation_marks(&format!("All samples are black: {why}.")));
+                .on_hover_text(format!("All samples are black: {}.", with_quotation_marks(why)));
             return;
         }
         let text = self.status.relative_noise().map_or_else(|| "–".to_owned(), percent);
@@ -161,17 +157,17 @@ impl StatusBar<'_> {
         let Status { invalid_samples, first_invalid, cut_paths, .. } = *self.status;
         let mut trouble = |text: String, more: String| {
             ui.separator();
-            let text = RichText::new(with_quotation_marks(&text)).color(ui.bad());
+            let text = RichText::new(text).color(ui.bad());
             ui.add(Label::new(text).truncate()).on_hover_text(more);
         };
         if let Some(at) = first_invalid {
             let size = self.request.map_or([0; 2], |request| request.camera.resolution);
             let command = self.replay_command(at, size);
-            trouble(count(invalid_samples, "invalid sample"), format!("Replay the first: {command}"));
+            trouble(counted(invalid_samples, "invalid sample"), format!("Replay the first: {command}"));
         }
         if cut_paths > 0 {
             let longest = self.request.map_or(RenderSettings::LONGEST_PATH, |request| request.settings.last_bounce());
-            let text = format!("paths cut after {}", count(u64::from(longest), "bounce"));
+            let text = format!("paths cut after {}", counted(longest, "bounce"));
             trouble(text, "Choose a roulette, so that paths end by themselves.".to_owned());
         }
         if let State::Failed(failure) = &self.status.state {
@@ -181,7 +177,7 @@ impl StatusBar<'_> {
             } else {
                 ("the tile at", "None of its samples fails alone.".to_owned())
             };
-            trouble(format!("{place} {x},{y}, sample {}: {}", failure.at.sample, failure.message), advice);
+            trouble(format!("{place} {x},{y}, sample {}: {}", failure.at.sample, with_quotation_marks(&failure.message)), advice);
         }
     }
 

@@ -1,6 +1,7 @@
 //! Widgets, layout and colours that panels, dialogs and instruments share.
 pub mod colour_edit;
 pub mod committed_text;
+pub mod counted;
 pub mod hex;
 pub mod kinds;
 pub mod number;
