@@ -61,7 +61,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let machine = Machine::here(&threads);
     let stop = stop_signal("interrupted: measurements so far are kept (interrupt again to stop at once)")?;
     let stopped = || stop.load(Ordering::Relaxed);
-    let plan = EvidencePlan { time: arguments.time, display: arguments.display.display() };
+    let plan = EvidencePlan { time: arguments.time, display: arguments.display.display(0.0) };
     let bar = progress_bar();
     let mut told = String::new();
     let mut observe = |what: &str, share: f64| {

@@ -13,9 +13,9 @@ use super::replay::Which;
 /// Display transform of a PNG.
 #[derive(clap::Args)]
 pub struct DisplayOptions {
-    /// Exposure of a PNG in stops; each stop doubles the brightness
-    #[arg(long, value_name = "STOPS", value_parser = exposure, allow_negative_numbers = true, default_value_t = 0.0)]
-    exposure: f32,
+    /// Exposure of a PNG in stops; each stop doubles the brightness [default: that of the scene]
+    #[arg(long, value_name = "STOPS", value_parser = exposure, allow_negative_numbers = true)]
+    exposure: Option<f32>,
     /// White balance of a PNG: the colour temperature of the light that appears white, in kelvin, and optionally its tint, positive
     /// for green light, such as 2700 or 4000,10 [default: 6504, no change]
     #[arg(long, value_name = "KELVIN[,TINT]", value_parser = white_balance, allow_negative_numbers = true)]
@@ -26,8 +26,13 @@ pub struct DisplayOptions {
 }
 
 impl DisplayOptions {
-    pub fn display(&self) -> Display {
-        Display { exposure: self.exposure, white_balance: self.white_balance.unwrap_or_default(), tone_map: self.tone }
+    /// The display of a scene that has this exposure.
+    pub fn display(&self, of_scene: f32) -> Display {
+        Display {
+            exposure: self.exposure.unwrap_or(of_scene),
+            white_balance: self.white_balance.unwrap_or_default(),
+            tone_map: self.tone,
+        }
     }
 }
 

@@ -158,7 +158,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let job = Job {
         scene_path: &arguments.scene,
         settings,
-        display: arguments.display.display(),
+        display: arguments.display.display(scene.exposure),
         layers: &layers,
         denoises: arguments.denoise,
         reference,
@@ -213,7 +213,7 @@ impl Arguments {
             }
             return Layers::default();
         }
-        if self.display.display() != Display::default() {
+        if self.display.display(0.0) != Display::default() {
             tell("note: an EXR stores the radiance unchanged; --exposure, --white-balance and --tone affect a PNG only");
         }
         layers

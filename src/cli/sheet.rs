@@ -112,7 +112,7 @@ fn cells(arguments: &Arguments, bench: &Bench, combinations: &[RenderSettings], 
                 tell(&format!("warning: {label}: {} paths were cut: the image is biased; use roulette", count.cut_paths));
             }
             let mut pixels = Vec::new();
-            to_srgb(&bench.frame(&film).radiance, arguments.display.display(), &mut pixels);
+            to_srgb(&bench.frame(&film).radiance, arguments.display.display(bench.scene.exposure), &mut pixels);
             let figures = format!("{spp} spp, {:.2} s", elapsed.as_secs_f64());
             let lines = [label.clone(), figures].into_iter().filter(|line| !line.is_empty()).collect();
             cells.push(Cell { lines, pixels });

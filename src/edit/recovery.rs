@@ -12,9 +12,11 @@ use crate::{
     scene::{SceneError, describe},
 };
 
-/// The first line of a recovery file: the path of the scene file as a JSON string, or `{"from": …}` with the file of another program.
-/// The text of the scene follows.
+/// The start of the first line of a recovery file. The path of the scene file follows as a JSON string, or `{"from": …}` with the file of
+/// another program. Then follows the text of the scene.
 const FIRST_LINE: &str = "# Unsaved changes of the scene ";
+/// The first line for a scene without a file.
+const WITHOUT_FILE: &str = "# Unsaved changes of a scene without a file";
 
 /// A scene with changes that are not saved.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -41,11 +43,12 @@ impl Recovery {
 
     /// Writes a recovery file, whole or not at all. It is a scene file itself, with one line of comment before its text.
     pub fn write(&self, file: &FilePath) -> Result<(), WriteError> {
-        let source = match (&self.path, &self.origin) {
-            (None, Some(origin)) => json!({ "from": origin.to_string_lossy() }),
-            (path, _) => json!(path.as_ref().map(|path| path.to_string_lossy())),
+        let first = match (&self.path, &self.origin) {
+            (Some(path), _) => format!("{FIRST_LINE}{}", json!(path.to_string_lossy())),
+            (None, Some(origin)) => format!("{FIRST_LINE}{}", json!({ "from": origin.to_string_lossy() })),
+            (None, None) => WITHOUT_FILE.to_owned(),
         };
-        replace(file, format!("{FIRST_LINE}{source}\n{}", self.text).as_bytes())
+        replace(file, format!("{first}\n{}", self.text).as_bytes())
     }
 
     /// Reads a recovery file; `None` if there is none.
@@ -55,7 +58,8 @@ impl Recovery {
             read => read?,
         };
         let (first, text) = text.split_once('\n').unwrap_or((&text, ""));
-        let source = first.strip_prefix(FIRST_LINE).and_then(|source| serde_json::from_str::<Value>(source).ok());
+        let named = first.strip_prefix(FIRST_LINE).and_then(|source| serde_json::from_str::<Value>(source).ok());
+        let source = if first == WITHOUT_FILE { Some(Value::Null) } else { named };
         let wrong = || io::Error::new(io::ErrorKind::InvalidData, "it is not a recovery file");
         let source = source.ok_or_else(wrong)?;
         let [path, origin] = [&source, &source["from"]].map(|path| path.as_str().map(PathBuf::from));

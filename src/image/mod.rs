@@ -218,15 +218,24 @@ pub const PNG: &str = "a PNG image";
 
 /// Guesses the format of a file from its first bytes, among formats that are often confused.
 pub fn looks_like(start: &[u8]) -> Option<&'static str> {
-    const KINDS: [(&[u8], &str); 8] = [
+    const KINDS: [(&[u8], &str); 17] = [
         (b"\x89PNG", PNG),
         (b"\x76\x2f\x31\x01", "an OpenEXR image"),
         (b"#?RADIANCE", "a Radiance HDR image"),
         (b"#?RGBE", "a Radiance HDR image"),
         (b"\xff\xd8\xff", "a JPEG image"),
+        (b"GIF8", "a GIF image"),
+        (b"RIFF", "a WebP image, a sound or a film"),
+        (b"%PDF", "a PDF document"),
         (b"PK\x03\x04", "a ZIP archive"),
         (b"\x1f\x8b", "a gzip archive"),
+        (b"7z\xbc\xaf", "a 7z archive"),
+        (b"BLENDER", "a Blender file"),
+        (b"glTF", "a binary glTF scene whose name does not end in .glb"),
         (b"\x7fELF", "a program"),
+        (b"MZ\x90\0", "a program"),
+        (b"\xcf\xfa\xed\xfe", "a program"),
+        (b"#!", "a script"),
     ];
     KINDS.iter().find(|(magic, _)| start.starts_with(magic)).map(|(_, kind)| *kind)
 }

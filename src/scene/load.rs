@@ -7,10 +7,17 @@ use super::{
     diagnostic::{SceneError, SourceText},
     parse::parse,
 };
-use crate::{file::open_regular, image::looks_like};
+use crate::{
+    file::open_regular,
+    image::{PNG, looks_like},
+};
 
 /// Maximum size of a scene file, bytes. Larger files are rejected before they are read.
 pub const LARGEST_FILE: u64 = 64 << 20;
+
+/// What can be opened in place of a scene file.
+const OPENABLE: &str = "scenes are TOML, glTF, GLB, Mitsuba XML or PBRT files; meshes (OBJ, PLY, STL) and images that Noisefall has \
+                        saved (PNG, EXR) open too";
 
 /// Reads and compiles a scene file, or the scene in an image file.
 pub fn load(path: &Path) -> Result<Scene, SceneError> {
@@ -23,13 +30,8 @@ pub fn load(path: &Path) -> Result<Scene, SceneError> {
 /// The text of a scene file, which is not parsed.
 pub fn read_text(path: &Path) -> Result<String, SceneError> {
     let bytes = read(path)?;
-    if let Some(kind) = not_text(&bytes) {
-        let message = format!("this is not a text file{kind}");
-        return Err(SceneError::of_file(
-            path,
-            message,
-            "a scene is one TOML file, saved as UTF-8 text, or a PNG or EXR that Noisefall has written with its scene",
-        ));
+    if let Some(what) = no_scene(path, &bytes) {
+        return Err(SceneError::of_file(path, what, OPENABLE));
     }
     String::from_utf8(bytes).map_err(|error| {
         let valid = error.utf8_error().valid_up_to();
@@ -39,17 +41,26 @@ pub fn read_text(path: &Path) -> Result<String, SceneError> {
     })
 }
 
-/// Description of a binary file, as the end of a sentence; `None` for text. Binary files are not quoted.
-fn not_text(bytes: &[u8]) -> Option<String> {
+/// Says that a file is no scene file, and what it looks like; `None` if it could be one.
+fn no_scene(path: &Path, bytes: &[u8]) -> Option<String> {
     let start = &bytes[..bytes.len().min(4096)];
     let is_control = |byte: &u8| *byte < 0x20 && !b"\t\n\r\x0c".contains(byte);
-    match looks_like(start) {
-        Some(kind) => Some(format!(": it looks like {kind}")),
-        None if start.starts_with(b"\xff\xfe") || start.starts_with(b"\xfe\xff") => {
-            Some(" in UTF-8: it looks like UTF-16".to_owned())
-        }
-        None => start.iter().any(is_control).then(String::new),
+    if let Some(kind) = looks_like(start) {
+        let and = if kind == PNG { " without a scene in it" } else { "" };
+        return Some(format!("this looks like {kind}{and}, not like a scene"));
     }
+    if start.starts_with(b"\xff\xfe") || start.starts_with(b"\xfe\xff") {
+        return Some("this is not UTF-8 text: it looks like UTF-16; save the scene as UTF-8".to_owned());
+    }
+    let is_named = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml"));
+    let is_text = !start.iter().any(is_control);
+    (!is_text || (!is_named && !begins_as_scene(bytes))).then(|| "this is not a scene".to_owned())
+}
+
+/// Whether a line gives the format of a scene file, or begins its camera.
+fn begins_as_scene(bytes: &[u8]) -> bool {
+    let begins = |line: &[u8]| [&b"format"[..], b"[camera", b"camera"].iter().any(|key| line.trim_ascii_start().starts_with(key));
+    bytes.split(|byte| *byte == b'\n').any(begins)
 }
 
 fn read(path: &Path) -> Result<Vec<u8>, SceneError> {
@@ -57,7 +68,7 @@ fn read(path: &Path) -> Result<Vec<u8>, SceneError> {
         let help = match error.kind() {
             std::io::ErrorKind::NotFound => "check the path; scenes that come with Noisefall are in `scenes/`",
             std::io::ErrorKind::PermissionDenied => "check the permissions of the file",
-            _ => "a scene is one TOML file",
+            _ => OPENABLE,
         };
         let reason = match error.kind() {
             std::io::ErrorKind::NotFound => "there is no such file".to_owned(),

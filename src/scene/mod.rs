@@ -119,6 +119,8 @@ pub struct Scene {
     pub sharing_pays: OnceLock<bool>,
     /// Samples per pixel to stop at.
     pub spp: Option<u32>,
+    /// Exposure that the scene is displayed with, stops.
+    pub exposure: f32,
     /// What the image converges to, if that is known.
     pub truth: Option<Truth>,
     /// Largest number of media around the middle of a dielectric.

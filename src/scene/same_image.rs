@@ -1,4 +1,4 @@
-//! Scenes that differ only in title, notes, truth and names of objects, and therefore have the same image.
+//! Scenes that differ only in title, notes, truth, exposure and names of objects, and therefore have the same image.
 use std::sync::Arc;
 
 use super::{
@@ -10,12 +10,14 @@ use super::{
 const HARMLESS: [&str; 2] = ["surfaces", "references"];
 
 impl SceneDescription {
-    /// Whether title, notes, truth or names of objects differ, and nothing else does.
+    /// Whether title, notes, truth, exposure or names of objects differ, and nothing else does.
     pub fn differs_in_texts(&self, other: &SceneDescription) -> bool {
-        let SceneDescription { title, notes, truth, camera, background, textures, materials, objects, lamps, render } = self;
+        let SceneDescription { camera, background, textures, materials, objects, lamps, render, .. } = self;
         let names = |objects: &[ObjectDescription]| objects.iter().map(|object| object.name.clone()).collect::<Vec<_>>();
-        ((title, notes, truth) != (&other.title, &other.notes, &other.truth) || names(objects) != names(&other.objects))
-            && (camera, background, render) == (&other.camera, &other.background, &other.render)
+        let texts = |of: &SceneDescription| (of.title.clone(), of.notes.clone(), of.truth.clone(), of.render.exposure);
+        (texts(self) != texts(other) || names(objects) != names(&other.objects))
+            && (camera, background) == (&other.camera, &other.background)
+            && render.renders_like(&other.render)
             && (textures, materials) == (&other.textures, &other.materials)
             && lamps == &other.lamps
             && objects.len() == other.objects.len()
@@ -71,6 +73,7 @@ mod tests {
         assert!(changed(|scene| scene.title = "Room".to_owned()));
         assert!(changed(|scene| scene.notes = "Bright.".to_owned()));
         assert!(changed(|scene| scene.truth = Some(Default::default())));
+        assert!(changed(|scene| scene.render.exposure = 1.5));
         assert!(!changed(|scene| (scene.title, scene.camera.fov) = ("Room".to_owned(), Some(20.0))));
         assert!(changed(|scene| scene.objects[0].name = "wall".to_owned()));
         assert!(!changed(|scene| (scene.objects[0].name, scene.objects[0].flip) = ("wall".to_owned(), true)));

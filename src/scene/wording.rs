@@ -4,13 +4,15 @@ use std::ops::Range;
 use toml::de::DeValue;
 
 use super::diagnostic::{SceneError, SourceText};
-use crate::declare::{Entry, Looks, Parameter, Word, nearest};
+use crate::{
+    declare::{Entry, Looks, Parameter, Word, nearest},
+    quote,
+};
 
 /// Longest text of a file that a message quotes.
 const LONGEST_FOUND: usize = 40;
 /// Syntax errors of the TOML parser, by the start of their text, and our wording.
-const SYNTAX: [(&str, &str); 13] = [
-    ("string values must be quoted", "text must stand in quotes"),
+const SYNTAX: [(&str, &str); 12] = [
     ("extra `=`", "there is one `=` too many"),
     ("floating-point number overflowed", "the number is too large"),
     ("invalid basic string", "the text in quotes does not end"),
@@ -36,6 +38,10 @@ pub fn in_plain_words(source: &SourceText, error: &toml::de::Error) -> SceneErro
     }
     if message.starts_with("string values must be quoted") && text_at(source, &span).trim().is_empty() {
         return source.error(span, "a value is missing", "after the `=`");
+    }
+    if message.starts_with("string values must be quoted") {
+        let value = quote::piece(text_at(source, &span).trim());
+        return source.error(span, format!("`{value}` is no number, and text must stand in quotes"), "expected a value");
     }
     let words = SYNTAX.iter().find(|(theirs, _)| message.starts_with(theirs)).map(|(_, ours)| (*ours).to_owned());
     source.error(span, words.unwrap_or(message), "this cannot be understood")

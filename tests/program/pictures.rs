@@ -208,8 +208,8 @@ fn pictures_whose_scene_cannot_be_used_are_reported() {
     let off = || serde_json::json!("off");
     let with_texture = scene.source.replacen("[[objects]]", "[textures.a]\nimage = { path = \"b.png\" }\n[[objects]]", 1);
     for (text, says) in [
-        ("{}".to_owned(), "not a text file: it looks like"),
-        ("no JSON".to_owned(), "not a text file: it looks like"),
+        ("{}".to_owned(), "this looks like"),
+        ("no JSON".to_owned(), "this looks like"),
         (carried("format = 1\ncamera = 3", camera(), off()), "the image carries this scene"),
         (carried(&with_texture, camera(), off()), "b.png"),
         (carried(&scene.source, blind, off()), "the camera of the image cannot be used"),

@@ -154,6 +154,7 @@ const RANGES: &[Range] = &[
     range("render.roulette.throughput.start", "VIEW\nrender.roulette.throughput.start = X", COUNT, NO_COUNT, "expected a whole number, 0 or more"),
     range("render.spp", "VIEW\nrender.spp = X", &["1", "4294967295"], &["0"], "expected a whole number from 1 to 4294967295"),
     range("render.spp", "VIEW\nrender.spp = X", &["1"], &["-1", "4294967296", "1.5"], "expected a whole number, 0 or more"),
+    range("render.exposure", "VIEW\nrender.exposure = X", &["-100.0", "0", "1.5", "100"], &["-100.1", "101", "nan"], "expected a number from -100 to 100"),
     range("render.seed", "VIEW\nrender.seed = X", COUNT, NO_COUNT, "expected a whole number, 0 or more"),
     range("truth.radiance", "VIEW\ntruth.radiance = X", LIGHT, NO_LIGHT, "radiance"),
 ];

@@ -44,7 +44,7 @@ fn messages_name_the_probable_meaning() {
 }
 
 /// A change of `GOOD`, and the message about it.
-const MEANT: [(&str, &str, &str); 38] = [
+const MEANT: [(&str, &str, &str); 39] = [
     ("spp = 64", "samples = 64", "did you mean `spp`?"),
     ("max_bounces = 5", "depth = 5", "did you mean `max_bounces`?"),
     ("sampler = \"stratified\"", "integrator = \"mis\"", "did you mean `estimator`?"),
@@ -82,6 +82,7 @@ const MEANT: [(&str, &str, &str); 38] = [
     ("[[objects]]", "[[objects]", "`]` is missing"),
     ("\"ball\"", "\"ball", "the text in quotes does not end"),
     ("\"white\"", "white", "text must stand in quotes"),
+    ("radius = 1.0", "radius = oops", "`oops` is no number"),
     ("radiance = 2.0", "radiance = 2,0", "a value must end on its line"),
 ];
 
@@ -182,7 +183,11 @@ fn a_colon_between_key_and_value_is_a_slip_and_one_in_a_time_is_not() {
 fn files_that_are_no_scenes_are_refused_in_one_message() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = |name: &str| folder.path().join(name);
-    let report = |path: &Path| load(path).err().expect("it is no scene").report();
+    // Lines are wrapped behind a bar.
+    let report = |path: &Path| {
+        let report = load(path).err().expect("it is no scene").report();
+        report.split_whitespace().filter(|word| *word != "│").collect::<Vec<_>>().join(" ")
+    };
 
     assert!(report(&file("nowhere.toml")).contains("there is no such file"));
     assert!(report(folder.path()).contains("not a regular file but a folder"));
@@ -193,9 +198,25 @@ fn files_that_are_no_scenes_are_refused_in_one_message() {
 
     fs::write(file("picture.toml"), b"\x89PNG\r\n\x1a\n\xff\xfe").expect("it is written");
     let picture = report(&file("picture.toml"));
-    assert!(picture.contains("not a text file: it looks like a PNG image") && !picture.contains('\u{fffd}'));
+    assert!(picture.contains("looks like a PNG image without a scene in it") && !picture.contains('\u{fffd}'));
     fs::write(file("bytes.toml"), b"format = 1\0\x01").expect("it is written");
-    assert!(report(&file("bytes.toml")).contains("not a text file"));
+    assert!(report(&file("bytes.toml")).contains("this is not a scene"));
+    for (name, content, what) in [
+        ("paper.pdf", &b"%PDF-1.7\n%\xe2\xe3\xcf\xd3\n1 0 obj\n"[..], "a PDF document, not like a scene"),
+        ("paper.toml", b"%PDF-1.7\n", "a PDF document"),
+        ("tool", b"\x7fELF\x02\x01\x01", "a program, not like a scene"),
+        ("run.sh", b"#!/bin/sh\necho format\n", "a script"),
+        ("room.blend", b"BLENDER-v300", "a Blender file"),
+        ("README.md", b"# A room\n\nWith two lamps.\n", "this is not a scene"),
+        ("letter.txt", b"Sehr geehrte Damen, \xe4\xf6\xfc\n", "this is not a scene"),
+    ] {
+        fs::write(file(name), content).expect("it is written");
+        let said = report(&file(name));
+        assert!(said.contains(what) && said.contains("scenes are TOML, glTF") && !said.contains("quotes"), "{name}: {said}");
+    }
+    // A scene may have any name.
+    fs::write(file("room.txt"), GOOD).expect("it is written");
+    assert!(load(&file("room.txt")).is_ok());
 
     // A sparse file of 200 MB.
     fs::File::create(file("huge.toml")).and_then(|huge| huge.set_len(200 << 20)).expect("it is made");

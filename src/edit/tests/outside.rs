@@ -100,6 +100,8 @@ fn a_scene_without_a_file_is_recovered_too() {
     Recovery::of(&document).write(&file).expect("it is written");
     let recovered = Recovery::read(&file).expect("it is readable").expect("it is there").open().expect("it is valid");
     assert_eq!((recovered.path(), recovered.text().as_str(), recovered.has_changes()), (None, ROOM, true));
+    let text = std::fs::read_to_string(&file).expect("it is written");
+    assert!(text.starts_with("# Unsaved changes of a scene without a file\n# A room."), "{text}");
 }
 
 #[test]

@@ -77,6 +77,7 @@ struct Parts {
     lamps: Vec<(LampInstance, Lamp)>,
     settings: RenderSettings,
     spp: Option<u32>,
+    exposure: f32,
     truth: Option<Truth>,
 }
 
@@ -104,7 +105,7 @@ impl Parts {
         let mut objects = objects(&description.objects, &numbers, &textures, resources, problems);
         objects.iter_mut().for_each(|object| light::see_through(object, &materials));
         let lamps = lamps(&description.lamps, resources, problems);
-        let RenderDescription { settings, spp } = description.render;
+        let RenderDescription { settings, spp, exposure } = description.render;
         let truth = description.truth.as_ref().map(|described| problems.keep(&at("truth"), || truth(described, resources)));
         Some(Parts {
             camera: camera?,
@@ -117,6 +118,7 @@ impl Parts {
             lamps,
             settings,
             spp,
+            exposure,
             truth: truth.flatten(),
         })
     }
@@ -129,7 +131,8 @@ impl Parts {
         resources: Resources,
         before: Option<Before>,
     ) -> Result<Scene, Problem> {
-        let Parts { camera, camera_motion, background, textures, materials, tables, objects, lamps, settings, spp, truth } = self;
+        let Parts { camera, camera_motion, background, textures, materials, tables, objects, lamps, .. } = self;
+        let Parts { settings, spp, exposure, truth, .. } = self;
         let (lamp_instances, lamps): (Vec<_>, Vec<_>) = lamps.into_iter().unzip();
         reserve_tables(&resources, &objects, lamps.len())?;
         let owners = objects.iter().enumerate().flat_map(|(i, o)| vec![i as u32; o.shape.piece_count()]).collect();
@@ -159,6 +162,7 @@ impl Parts {
             settings,
             sharing_pays: Default::default(),
             spp,
+            exposure,
             truth,
             deepest_media: 0,
             identity: Arc::new(()),

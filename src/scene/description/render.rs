@@ -1,6 +1,6 @@
 //! The settings of a scene file.
 use crate::{
-    declare::{CountRange, Declare, Parameter, Parameters},
+    declare::{CountRange, Declare, Parameter, Parameters, Range},
     scene::RenderSettings,
 };
 
@@ -11,6 +11,15 @@ pub struct RenderDescription {
     pub settings: RenderSettings,
     /// Samples per pixel at which the render stops; `None` is no limit.
     pub spp: Option<u32>,
+    /// Exposure of the displayed image, stops. No sample depends on it.
+    pub exposure: f32,
+}
+
+impl RenderDescription {
+    /// Whether the renders are the same, with the same target. Their displays may differ.
+    pub fn renders_like(&self, other: &RenderDescription) -> bool {
+        (self.settings, self.spp) == (other.settings, other.spp)
+    }
 }
 
 impl Declare for RenderDescription {
@@ -18,7 +27,14 @@ impl Declare for RenderDescription {
         const SPP: Parameter = Parameter::new("spp", "Samples per pixel at which the render stops. Default: no limit.")
             .symbol("N")
             .aliases("samples samples_per_pixel sample_count num_samples n");
+        const EXPOSURE: Parameter = Parameter::new(
+            "exposure",
+            "Exposure of the displayed image. One stop doubles the brightness; samples do not change.",
+        )
+        .unit("stops")
+        .aliases("ev");
         self.settings.parameters(p);
         p.optional(&SPP, &mut self.spp, || 64, |p, spp| p.count(&SPP, spp, CountRange::new(1, u32::MAX)));
+        p.single(&EXPOSURE, &mut self.exposure, Range::linear(-100.0, 100.0));
     }
 }

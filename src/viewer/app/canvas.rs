@@ -1,12 +1,11 @@
 //! Joins the canvas and its overlays with the state of the window.
 use egui::{TextureHandle, Ui};
-use noisefall::{render::view::View, scene::Camera};
 
 use super::state::App;
 use crate::viewer::canvas::{
-    black_notice, drawing::Pictures, drawing::Split, interaction, interaction::Tool, overlay, picture_area::PictureArea,
+    drawing::Pictures, drawing::Split, interaction, interaction::Tool, overlay, picture_area::PictureArea,
 };
-use crate::viewer::instruments::{compare::comparison::CompareLayout, path::drawing, tabs::InstrumentTab};
+use crate::viewer::instruments::{path::drawing, tabs::InstrumentTab};
 
 impl App {
     pub fn canvas(&mut self, ui: &mut Ui) {
@@ -67,15 +66,6 @@ impl App {
             let of_path = second.filter(|_| self.instruments.path.of_second).unwrap_or(area);
             drawing::draw(ui, of_path, &self.instruments.path, &session.camera, size);
         }
-        let is_full = results.shown.as_ref().is_some_and(|frame| !frame.is_coarse());
-        // A notice would hide the other picture of a wipe.
-        let is_alone = self.comparison().is_none_or(|comparison| comparison.layout == CompareLayout::SideBySide);
-        let shows_radiance = session.look.view == View::Radiance;
-        let Some(why) = results.why_black().filter(|_| is_full && shows_radiance && is_alone) else { return };
-        let back = results.last_seeing.map(|last| Camera { resolution: session.camera.resolution, ..last });
-        let back = back.filter(|back| *back != session.camera);
-        if black_notice::show(ui, area, why, back.is_some()) {
-            self.session.camera = back.unwrap_or(self.session.camera);
-        }
+        self.notices(ui, area);
     }
 }

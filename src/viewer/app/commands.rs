@@ -2,6 +2,7 @@
 use egui::{Context, InputState, Key, KeyboardShortcut, Modifiers, Ui, ViewportCommand};
 
 use super::state::App;
+use crate::viewer::background::catalogue::SceneRequest;
 use crate::viewer::canvas::interaction::Tool;
 use crate::viewer::dialogs::save_target::SaveTarget;
 use crate::viewer::instruments::tabs::InstrumentTab;
@@ -11,7 +12,8 @@ use crate::viewer::panels::{
     views,
 };
 
-const SAVE_KEYS: [(KeyboardShortcut, Command); 2] = [
+const FILE_KEYS: [(KeyboardShortcut, Command); 3] = [
+    (KeyboardShortcut::new(Modifiers::COMMAND, Key::O), Command::Open),
     (KeyboardShortcut::new(Modifiers::COMMAND, Key::S), Command::SaveScene),
     (KeyboardShortcut::new(Modifiers::COMMAND, Key::E), Command::SavePicture),
 ];
@@ -78,6 +80,7 @@ impl App {
             Command::ActualSize => self.window.view.actual_size(),
             Command::Compare(other) => self.start_comparison(other),
             Command::EndComparison => self.session.comparison = None,
+            Command::Open => self.open_scene(SceneRequest::Browse),
             Command::SaveScene => self.save_scene(),
             Command::SavePicture => self.open_save_dialog(SaveTarget::Picture),
             Command::Help => self.dialogs.help = !self.dialogs.help,
@@ -93,8 +96,8 @@ impl App {
             saves || (input.key_down(Key::D) && (self.window.holds_chord || (can_duplicate && input.modifiers.shift)))
         };
         self.window.holds_chord = ctx.input(holds);
-        for (shortcut, command) in SAVE_KEYS {
-            let can = command == Command::SaveScene || self.can_save();
+        for (shortcut, command) in FILE_KEYS {
+            let can = command != Command::SavePicture || self.can_save();
             if ctx.input_mut(|input| input.consume_shortcut(&shortcut)) && can && !self.dialogs.wait() {
                 self.perform(command);
             }
@@ -178,7 +181,7 @@ impl App {
             return;
         }
         // Escape gives the edit of a field up, and nothing else.
-        if self.window.had_focus {
+        if self.window.had_focus || self.cancel_loading() {
             return;
         }
         if self.background.adviser.take().is_some() || self.end_tour() {

@@ -28,6 +28,7 @@ impl App {
         opened.into_iter().for_each(|path| self.ask_to_leave(Leaving::Open(Some(path))));
         let file = choose_file::show(ctx, &mut self.dialogs.file);
         file.into_iter().for_each(|(purpose, path)| self.use_file(&purpose, &path));
+        self.show_loading();
         self.show_unsaved();
         self.show_conflict();
         self.show_recovery();

@@ -1,7 +1,7 @@
 //! Joins the instruments below the picture with the state of the window. At most one is open.
 use std::sync::Arc;
 
-use egui::{Align, Layout, Panel, Ui};
+use egui::{Align, Layout, Panel, ScrollArea, Ui};
 use noisefall::{
     render::{Frame, RenderRequest, RenderTask},
     scene::RenderSettings,
@@ -16,15 +16,23 @@ use crate::viewer::instruments::{
 use crate::viewer::panels::views;
 
 const HEIGHT: f32 = 250.0;
+/// Width that the tabs and the choice of a view need beside each other, points.
+const TABS: f32 = 500.0;
 
 impl App {
     /// Shows the row of tabs and the open instrument.
     pub fn dock(&mut self, ui: &mut Ui) {
         Panel::bottom("tabs").show(ui, |ui| {
+            let is_narrow = ui.available_width() < TABS;
             ui.horizontal(|ui| {
                 tabs::show(ui, self.window.tab).into_iter().for_each(|tab| self.toggle_tab(tab));
-                ui.with_layout(Layout::right_to_left(Align::Center), |ui| views::choice(ui, &mut self.session.look.view));
+                if !is_narrow {
+                    ui.with_layout(Layout::right_to_left(Align::Center), |ui| views::choice(ui, &mut self.session.look.view));
+                }
             });
+            if is_narrow {
+                ui.horizontal(|ui| views::choice(ui, &mut self.session.look.view));
+            }
         });
         let Some(tab) = self.window.tab else { return };
         let most = (ui.available_height() - 160.0).max(120.0);
@@ -40,10 +48,11 @@ impl App {
         let resolution = self.session.camera.resolution;
         match tab {
             InstrumentTab::Convergence => self.convergence_tab(ui),
-            InstrumentTab::Compare => self.compare_tab(ui),
+            InstrumentTab::Compare => _ = ScrollArea::vertical().auto_shrink(false).show(ui, |ui| self.compare_tab(ui)),
             InstrumentTab::Bounces => {
                 let (frame, view) = (self.results.second_frame.as_deref(), self.session.look.view);
-                bounces::show(ui, &mut self.session.bounces, frame, view, resolution);
+                let show = |ui: &mut Ui| bounces::show(ui, &mut self.session.bounces, frame, view, resolution);
+                ScrollArea::vertical().auto_shrink(false).show(ui, show);
             }
             InstrumentTab::Path => {
                 let (request, frame) = (self.inspected_request(), self.inspected_frame());

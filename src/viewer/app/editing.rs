@@ -59,8 +59,12 @@ impl App {
             session.camera =
                 Camera { resolution: if keeps_resolution { session.camera.resolution } else { new.resolution }, ..new };
         }
-        if description.render != before.render {
+        if description.render.settings != before.render.settings {
             session.settings = scene.settings;
+        }
+        let exposure = &mut session.look.display.exposure;
+        if *exposure == before.render.exposure {
+            *exposure = scene.exposure;
         }
         if description.render.spp != before.render.spp {
             session.budget.max_spp = scene.spp;

@@ -57,6 +57,7 @@ impl App {
     pub fn take_image(&mut self, image: DisplayImage) {
         self.results.black = self.shows_nothing(image.lit);
         self.note_blackness(image.frame.generation);
+        self.meter(&image.frame);
         let (worker, history) = (&self.background.worker, &mut self.instruments.history);
         if let Some(request) = worker.request() {
             history.look_at(&request.scene, &request.camera, image.reference.as_ref());
@@ -90,7 +91,7 @@ impl App {
         if session.opened.as_ref().is_none_or(|before| before.path != opened.path) {
             // What suited another scene's light says nothing about this one's.
             let display = &mut session.look.display;
-            (display.exposure, display.white_balance) = (0.0, WhiteBalance::NEUTRAL);
+            (display.exposure, display.white_balance) = (scene.exposure, WhiteBalance::NEUTRAL);
         }
         if let Some(path) = &opened.path {
             catalogue::remember(&mut self.catalogue, &opened.name, path);
@@ -109,6 +110,7 @@ impl App {
         // What was found of the scene before would keep it in memory.
         (self.instruments.path, self.background.features) = (PathInspector::new(&self.ctx), FeatureFinder::new(&self.ctx));
         (results.last_seeing, results.black_reason) = (None, None);
+        (results.awaits_meter, results.misfit) = (true, None);
         self.dialogs.scene_error = None;
         self.history = History::default();
         self.selection = Selection::new(&self.ctx);

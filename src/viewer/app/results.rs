@@ -11,7 +11,10 @@ use noisefall::{
     scene::Camera,
 };
 
-use crate::viewer::background::display_image::{DisplayImage, PixelValues, ReferenceComparison};
+use crate::viewer::background::{
+    display_image::{DisplayImage, PixelValues, ReferenceComparison},
+    exposure_meter::Misfit,
+};
 
 #[derive(Default)]
 pub struct Results {
@@ -35,6 +38,10 @@ pub struct Results {
     pub black_reason: Option<(u64, String)>,
     /// The last camera whose picture was not black.
     pub last_seeing: Option<Camera>,
+    /// The first image of the open scene is not measured yet.
+    pub awaits_meter: bool,
+    /// The exposure with which the scene opened does not suit it.
+    pub misfit: Option<Misfit>,
     pub textures: [Option<TextureHandle>; 2],
 }
 

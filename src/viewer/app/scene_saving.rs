@@ -2,7 +2,10 @@
 use std::path::{Path, PathBuf};
 
 use crossbeam_channel::TryRecvError;
-use noisefall::edit::{Version, Written};
+use noisefall::{
+    declare::{OwnedValue, Path as ParameterPath},
+    edit::{Edit, Version, Written},
+};
 
 use super::{file_tasks::PendingSave, state::App};
 use crate::viewer::background::{
@@ -38,6 +41,7 @@ impl App {
 
     /// Saves the scene when the last save has ended.
     pub fn request_save(&mut self, request: SaveRequest) {
+        self.keep_exposure();
         if let Some(saving) = &mut self.saving {
             let earlier = saving.next.take().unwrap_or_default();
             saving.next = Some(request.after(earlier));
@@ -50,6 +54,15 @@ impl App {
         let (to, replaces) = (path.clone(), request.replaces);
         let result = self.background.saver.run(move || save(&document, opened.as_deref(), &assets, &to, replaces));
         self.saving = Some(PendingSave { request, path, result, next: None });
+    }
+
+    /// Gives the scene the exposure of the window: it is saved with the scene.
+    fn keep_exposure(&mut self) {
+        let exposure = self.session.look.display.exposure;
+        let Some(editor) = &self.editor else { return };
+        if editor.document.description().render.exposure != exposure {
+            self.edit(&Edit::set(ParameterPath::of("render.exposure"), OwnedValue::Number(f64::from(exposure))));
+        }
     }
 
     /// Receives the result of a save. Then what waited for it goes on.

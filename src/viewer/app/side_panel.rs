@@ -9,7 +9,7 @@ use crate::viewer::panels::{
     camera, display, panel_tabs, panel_tabs::PanelTab, pixel_readout::Pixel, sampling, scene, status_bar::StatusBar, stop, views,
     views::ReferenceSource, window,
 };
-use crate::viewer::widgets::style::section;
+use crate::viewer::widgets::{style::section, wording::capitalised};
 
 impl App {
     pub fn side_panel(&mut self, ui: &mut Ui) {
@@ -59,7 +59,12 @@ impl App {
         let edits_second = self.session.comparison.is_some_and(|comparison| comparison.edits_other);
         let status = if edits_second { &self.results.second_status } else { &self.results.status };
         let edited = *self.session.edited();
-        let caution = self.session.opened.as_ref().and_then(|opened| opened.scene.infinite_variance(&edited));
+        let caution = self
+            .session
+            .opened
+            .as_ref()
+            .and_then(|opened| opened.scene.infinite_variance(&edited))
+            .map(|caution| format!("{}.", capitalised(&caution)));
         if sampling::show(ui, self.session.edited(), status, caution.as_deref()) {
             self.ask_for_advice();
         }

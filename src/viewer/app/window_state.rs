@@ -41,6 +41,8 @@ pub struct WindowState {
     /// The window closes, whatever is unsaved.
     pub quits: bool,
     pub title: String,
+    /// The time of the window's clock at which it began to wait for a file.
+    pub reading_since: Option<f64>,
     /// A file whose scene is shown as the one before it, with its camera and settings, when it is opened.
     pub kept_view: Option<(PathBuf, Camera, RenderSettings)>,
 }

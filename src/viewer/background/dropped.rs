@@ -68,6 +68,12 @@ impl DropReader {
         Some((file, pixel))
     }
 
+    /// The name of the file that is being read.
+    pub fn reading(&self) -> Option<String> {
+        let Pending { path, .. } = self.pending.front().filter(|_| self.task.is_some())?;
+        Some(path.file_name().unwrap_or_default().to_string_lossy().into_owned())
+    }
+
     /// Forgets the files: they were dropped on another scene.
     pub fn forget(&mut self) {
         self.pending.clear();

@@ -1,4 +1,7 @@
 //! Reading and compiling scenes off the UI thread. The latest request wins.
+#[cfg(test)]
+mod tests;
+
 use std::{
     path::{Path, PathBuf, absolute},
     sync::Arc,
@@ -87,6 +90,8 @@ pub type ReferenceResult = Result<DroppedReference, String>;
 pub struct Loader {
     ctx: egui::Context,
     pending: Option<BackgroundTask<OpenResult>>,
+    /// Name of what is being read.
+    name: String,
     reference: Option<BackgroundTask<ReferenceResult>>,
     /// The scene of the command line.
     given: GivenScene,
@@ -94,7 +99,7 @@ pub struct Loader {
 
 impl Loader {
     pub fn new(ctx: &egui::Context) -> Loader {
-        Loader { ctx: ctx.clone(), pending: None, reference: None, given: GivenScene::default() }
+        Loader { ctx: ctx.clone(), pending: None, name: String::new(), reference: None, given: GivenScene::default() }
     }
 
     /// Opens the scene of the command line.
@@ -106,6 +111,7 @@ impl Loader {
     /// Opens a scene file, or the built-in scene.
     pub fn open(&mut self, path: Option<PathBuf>) {
         let scene = if self.is_given(path.as_deref()) { GivenScene { path, ..self.given.clone() } } else { path.into() };
+        self.name = scene.path.as_deref().map_or_else(|| BUILT_IN_NAME.to_owned(), file_name);
         self.pending = Some(BackgroundTask::start(&self.ctx, |_| open(scene)));
     }
 
@@ -117,12 +123,14 @@ impl Loader {
 
     /// Begins a new scene.
     pub fn begin(&mut self, template: Template) {
+        template.title.clone_into(&mut self.name);
         self.pending = Some(BackgroundTask::start(&self.ctx, move |_| begin(template)));
     }
 
     /// Opens a scene with the changes that were not saved.
     pub fn restore(&mut self, recovery: Recovery) {
         let is_given = self.is_given(recovery.origin.as_deref());
+        self.name = recovery.file().map_or_else(|| "unsaved changes".to_owned(), file_name);
         let options = if is_given { self.given.options.clone() } else { ImportOptions::default() };
         self.pending = Some(BackgroundTask::start(&self.ctx, move |_| restore(&recovery, &options)));
     }
@@ -130,7 +138,7 @@ impl Loader {
     /// Reads a reference for images by this camera.
     pub fn read_reference(&mut self, path: PathBuf, camera: Camera) {
         self.reference = Some(BackgroundTask::start(&self.ctx, move |_| {
-            let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+            let name = file_name(&path);
             let read = Reference::read(&path);
             let read = read.map(|reference| DroppedReference { name, reference: Arc::new(reference), camera });
             read.map_err(|error| format!("Not a reference: {error}"))
@@ -146,6 +154,29 @@ impl Loader {
         self.pending.is_some()
     }
 
+    /// The name of the scene that is being read.
+    pub fn reading(&self) -> Option<&str> {
+        self.pending.is_some().then_some(&self.name)
+    }
+
+    /// Abandons the scene that is being read. Returns whether there was one.
+    pub fn cancel(&mut self) -> bool {
+        self.pending.take().is_some()
+    }
+
+    /// Reads a scene that is never there, until it is cancelled. `ended` is set then.
+    #[cfg(test)]
+    pub fn read_for_ever(&mut self, name: &str, ended: Arc<std::sync::atomic::AtomicBool>) {
+        name.clone_into(&mut self.name);
+        self.pending = Some(BackgroundTask::start(&self.ctx, move |cancelled| {
+            while !cancelled() {
+                std::thread::yield_now();
+            }
+            ended.store(true, std::sync::atomic::Ordering::Relaxed);
+            Err("cancelled".to_owned())
+        }));
+    }
+
     /// Takes the result of the latest request, if it is finished.
     pub fn take(&mut self) -> Option<OpenResult> {
         let failed = |_| Err("reading the scene failed unexpectedly".to_owned());
@@ -157,6 +188,10 @@ impl Loader {
         let failed = |_| Err("Reading the reference failed unexpectedly".to_owned());
         Some(BackgroundTask::take(&mut self.reference)?.unwrap_or_else(failed))
     }
+}
+
+fn file_name(path: &Path) -> String {
+    path.file_name().unwrap_or_default().to_string_lossy().into_owned()
 }
 
 fn open(scene: GivenScene) -> OpenResult {
@@ -209,51 +244,4 @@ fn opened(scene: Scene, name: String, document: Document, path: Option<PathBuf>)
         OpenedScene { scene: Arc::new(scene), name, path, truth, description, materials, warnings, remarks: Arc::default() },
         document,
     )
-}
-
-#[cfg(test)]
-mod tests {
-    use std::time::{Duration, Instant};
-
-    use super::*;
-
-    fn wait<T>(mut take: impl FnMut() -> Option<T>) -> T {
-        let start = Instant::now();
-        loop {
-            if let Some(found) = take() {
-                return found;
-            }
-            assert!(start.elapsed() < Duration::from_secs(60), "it never came");
-            std::thread::sleep(Duration::from_millis(1));
-        }
-    }
-
-    #[test]
-    fn the_latest_request_wins_and_an_error_names_its_file() {
-        let mut loader = Loader::new(&egui::Context::default());
-        loader.open(Some("no/such/scene.toml".into()));
-        loader.open(None);
-        assert!(loader.is_busy());
-        let (opened, _) = wait(|| loader.take()).unwrap_or_else(|error| panic!("{error}"));
-        assert_eq!((opened.name.as_str(), opened.path, opened.truth.is_none()), (BUILT_IN_NAME, None, true));
-        assert_eq!(opened.materials.len(), opened.scene.legend().names.len());
-        assert!(!loader.is_busy() && loader.take().is_none());
-        loader.open(Some("no/such/scene.toml".into()));
-        assert!(wait(|| loader.take()).is_err_and(|error| error.contains("scene.toml")));
-        let furnace = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/furnace.toml");
-        loader.open(Some(furnace.clone()));
-        let (opened, _) = wait(|| loader.take()).unwrap_or_else(|error| panic!("{error}"));
-        assert_eq!((opened.name.as_str(), opened.path, opened.truth.is_some()), ("Furnace", Some(furnace), true));
-    }
-
-    #[test]
-    fn a_reference_that_is_read_for_another_scene_is_forgotten() {
-        let mut loader = Loader::new(&egui::Context::default());
-        let camera = built_in().camera;
-        loader.read_reference("no/such/picture.exr".into(), camera);
-        assert!(wait(|| loader.take_reference()).is_err_and(|error| error.contains("Not a reference")));
-        loader.read_reference("no/such/picture.exr".into(), camera);
-        loader.forget_reference();
-        assert!(loader.reference.is_none() && loader.take_reference().is_none());
-    }
 }

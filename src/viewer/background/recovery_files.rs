@@ -55,10 +55,32 @@ pub fn remove(file: &Path) {
 
 /// The latest changes of a scene, or of any, that no window has open.
 pub fn find(folder: &Path, scene: Option<&Path>) -> Option<FoundRecovery> {
-    let files = fs::read_dir(folder).ok()?.flatten().map(|entry| entry.path());
-    let left = files.filter(|file| file.extension().is_some_and(|extension| extension == "toml") && !is_in_use(file));
-    let found = left.filter_map(|file| read(file).filter(|found| is_of(&found.recovery, scene)));
+    let found =
+        files(folder).filter(|file| !is_in_use(file)).filter_map(|file| read(file).filter(|found| is_of(&found.recovery, scene)));
     found.min_by_key(|found| found.age)
+}
+
+/// The latest changes, also of a window that is about to end. A program that was killed holds its lock until its memory is freed, so the
+/// search goes on while a lock is held. `wait` waits for a moment and returns whether to look again.
+pub fn find_patiently(folder: &Path, scene: Option<&Path>, mut wait: impl FnMut() -> bool) -> Option<FoundRecovery> {
+    loop {
+        let found = find(folder, scene);
+        if found.is_some() || !is_any_in_use(folder, scene) || !wait() {
+            return found;
+        }
+    }
+}
+
+/// Whether a window has changes of a scene, or of any.
+fn is_any_in_use(folder: &Path, scene: Option<&Path>) -> bool {
+    let is_of_scene = |file: &Path| matches!(Recovery::read(file), Ok(Some(recovery)) if is_of(&recovery, scene));
+    files(folder).any(|file| is_in_use(&file) && is_of_scene(&file))
+}
+
+/// The recovery files of a folder.
+fn files(folder: &Path) -> impl Iterator<Item = PathBuf> {
+    let files = fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
+    files.filter(|file| file.extension().is_some_and(|extension| extension == "toml"))
 }
 
 /// Reads a recovery file. Removes it if the scene file has the same content.
@@ -106,7 +128,7 @@ pub mod tests {
     }
 
     /// How many files a folder has.
-    pub fn files(folder: &Path) -> usize {
+    pub fn count_files(folder: &Path) -> usize {
         fs::read_dir(folder).map_or(0, Iterator::count)
     }
 
@@ -127,7 +149,31 @@ pub mod tests {
         // What was saved after all is nothing to restore.
         fs::write(&scene, document.text()).expect("it is written");
         assert!(find(&kept, Some(&scene)).is_none());
-        assert_eq!(files(&kept), 0);
+        assert_eq!(count_files(&kept), 0);
+    }
+
+    #[test]
+    fn changes_are_found_when_a_dying_program_gives_its_lock_back() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let kept = folder.path().join("recovery");
+        let document = changed(&folder.path().join("mine.toml"), 20.0);
+        assert!(find_patiently(&kept, None, || panic!("there is nothing to wait for")).is_none());
+        let mut own = None;
+        assert!(keep(&kept, &mut own, &document));
+        let other = folder.path().join("other.toml");
+        assert!(find_patiently(&kept, Some(&other), || panic!("it is of another scene")).is_none());
+        let mut looks = 0;
+        let found = find_patiently(&kept, None, || {
+            looks += 1;
+            if looks == 3 {
+                own = None;
+            }
+            true
+        });
+        assert_eq!((found.map(|found| found.recovery), looks), (Some(Recovery::of(&document)), 3));
+        let mut own = None;
+        assert!(keep(&folder.path().join("open"), &mut own, &document));
+        assert!(find_patiently(&folder.path().join("open"), None, || false).is_none(), "its window stays open");
     }
 
     #[test]

@@ -2,6 +2,7 @@
 use std::{
     path::{Path, PathBuf},
     thread::JoinHandle,
+    time::Duration,
 };
 
 use crossbeam_channel::{Receiver, Sender, unbounded};
@@ -9,8 +10,12 @@ use noisefall::edit::{Document, Version};
 
 use super::{
     background_task::BackgroundTask,
-    recovery_files::{FoundRecovery, find, keep, remove},
+    recovery_files::{FoundRecovery, find_patiently, keep, remove},
 };
+
+/// Time between two looks at the lock of another window, and the number of looks. After that the window is taken to stay open.
+const PAUSE: Duration = Duration::from_millis(100);
+const MOST_LOOKS: usize = 100;
 
 /// Keeps the recovery file of this window. A folder that cannot be read or written is not reported.
 #[derive(Default)]
@@ -75,7 +80,7 @@ impl RecoveryKeeper {
             .folder
             .clone()
             .filter(|_| searches)
-            .map(|folder| BackgroundTask::start(ctx, move |_| find(&folder, scene.as_deref())));
+            .map(|folder| BackgroundTask::start(ctx, move |cancelled| search(&folder, scene.as_deref(), cancelled)));
     }
 
     /// Forgets the changes of the open scene.
@@ -112,6 +117,16 @@ impl Drop for Thread {
     }
 }
 
+/// Looks for changes that a window has left behind, again and again while one is about to end.
+fn search(folder: &Path, scene: Option<&Path>, cancelled: &dyn Fn() -> bool) -> Option<FoundRecovery> {
+    let mut looks = 0;
+    find_patiently(folder, scene, || {
+        std::thread::sleep(PAUSE);
+        looks += 1;
+        looks < MOST_LOOKS && !cancelled()
+    })
+}
+
 fn work(folder: &Path, commands: &Receiver<Command>) {
     let (mut own, mut superseded) = (None, Vec::new());
     while let Ok(first) = commands.recv() {
@@ -142,7 +157,10 @@ fn work(folder: &Path, commands: &Receiver<Command>) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::viewer::background::recovery_files::tests::{changed, files};
+    use crate::viewer::background::recovery_files::{
+        find,
+        tests::{changed, count_files},
+    };
 
     #[test]
     fn the_file_goes_when_changes_are_saved_or_discarded_and_stays_when_the_window_is_lost() {
@@ -154,7 +172,7 @@ mod tests {
         keeper.keep(Some(&document));
         keeper.keep(None);
         drop(keeper);
-        assert_eq!(files(&kept), 0);
+        assert_eq!(count_files(&kept), 0);
         let mut keeper = RecoveryKeeper::in_folder(&kept);
         keeper.keep(Some(&document));
         drop(keeper);
@@ -172,6 +190,6 @@ mod tests {
         let mut keeper = RecoveryKeeper::in_folder(&kept);
         keeper.discard(found);
         drop(keeper);
-        assert_eq!(files(&kept), 0);
+        assert_eq!(count_files(&kept), 0);
     }
 }

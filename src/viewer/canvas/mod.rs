@@ -1,11 +1,11 @@
 //! The picture: zoom, camera moves, overlays.
-pub mod black_notice;
 pub mod drawing;
 mod flight;
 pub mod framing;
 pub mod gizmo;
 pub mod interaction;
 pub mod navigation;
+pub mod notice;
 pub mod overlay;
 pub mod picking;
 pub mod picture_area;

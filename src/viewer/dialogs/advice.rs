@@ -6,7 +6,7 @@ use noisefall::{
 };
 
 use crate::viewer::background::adviser::Adviser;
-use crate::viewer::widgets::{palette::Palette, style::over_the_picture};
+use crate::viewer::widgets::{palette::Palette, quotation::with_quotation_marks, style::over_the_picture};
 
 /// The completed fraction; 0 while the total is unknown.
 fn part_of(done: usize, whole: usize) -> f32 {
@@ -32,7 +32,7 @@ pub fn show(ctx: &egui::Context, adviser: &mut Option<Adviser>) -> Option<Render
                     let part = part_of(done, total);
                     ui.add(ProgressBar::new(part).text(format!("{:.0} %", 100.0 * part)));
                 }
-                Some(Err(error)) => drop(ui.label(RichText::new(error).color(ui.bad()))),
+                Some(Err(error)) => drop(ui.label(RichText::new(with_quotation_marks(error)).color(ui.bad()))),
                 Some(Ok(advice)) => chosen = candidates(ui, advice),
             }
         });

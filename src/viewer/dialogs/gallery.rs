@@ -4,7 +4,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use crossbeam_channel::{Receiver, unbounded};
+use crossbeam_channel::{Receiver, TryRecvError, unbounded};
 use egui::{Align2, ColorImage, RichText, ScrollArea, Sense, TextureHandle, TextureOptions, Ui, Vec2, vec2};
 use noisefall::render::{Display, image_file, tone::to_srgb};
 
@@ -18,6 +18,8 @@ const PICTURE: Vec2 = Vec2 { x: 164.0, y: 112.0 };
 const TEXT: f32 = 36.0;
 /// Between two cards of a row.
 const GAP: f32 = 12.0;
+/// Stands in the place of a picture.
+const NO_PICTURE: &str = "no picture";
 
 /// Pictures of scenes, read off the UI thread when they are first looked at.
 #[derive(Default)]
@@ -25,6 +27,8 @@ pub struct Gallery {
     pub open: bool,
     pictures: HashMap<PathBuf, TextureHandle>,
     arriving: Option<Receiver<(PathBuf, ColorImage)>>,
+    /// All pictures that exist have arrived.
+    is_complete: bool,
 }
 
 impl Gallery {
@@ -32,6 +36,12 @@ impl Gallery {
     #[cfg(test)]
     pub fn count(&self) -> usize {
         self.pictures.len()
+    }
+
+    /// Whether all pictures that exist have been read.
+    #[cfg(test)]
+    pub fn is_complete(&self) -> bool {
+        self.is_complete
     }
 
     /// Has the pictures read, once, and takes in those that are there.
@@ -46,12 +56,20 @@ impl Gallery {
                         ctx.request_repaint();
                     }
                 }
+                drop(sender);
+                ctx.request_repaint();
             });
             receiver
         });
-        for (scene, picture) in arriving.try_iter() {
-            let texture = ctx.load_texture(scene.display().to_string(), picture, TextureOptions::LINEAR);
-            self.pictures.insert(scene, texture);
+        while !self.is_complete {
+            match arriving.try_recv() {
+                Ok((scene, picture)) => {
+                    let texture = ctx.load_texture(scene.display().to_string(), picture, TextureOptions::LINEAR);
+                    self.pictures.insert(scene, texture);
+                }
+                Err(TryRecvError::Disconnected) => self.is_complete = true,
+                Err(TryRecvError::Empty) => break,
+            }
         }
     }
 
@@ -85,7 +103,7 @@ impl Gallery {
     /// Returns the scene that was chosen; `Some(None)` is the built-in one.
     fn cards(&self, ui: &mut Ui, catalogue: &[CatalogueEntry], columns: usize) -> Option<Option<PathBuf>> {
         let mut chosen = None;
-        if !catalogue.iter().any(is_built_in) && card(ui, BUILT_IN_NAME, None) {
+        if !catalogue.iter().any(is_built_in) && self.card(ui, BUILT_IN_NAME, None) {
             chosen = Some(None);
         }
         for chapter in catalogue.chunk_by(|a, b| a.chapter == b.chapter) {
@@ -94,7 +112,7 @@ impl Gallery {
             egui::Grid::new(title).spacing([GAP, 8.0]).show(ui, |ui| {
                 let cards = chapter.iter().map(|entry| (entry.name.as_str(), Some(entry.path.clone()), &entry.path));
                 for (number, (name, path, picture)) in built_in(chapter).into_iter().chain(cards).enumerate() {
-                    if card(ui, name, self.pictures.get(picture)) {
+                    if self.card(ui, name, self.pictures.get(picture)) {
                         chosen = Some(path);
                     }
                     if (number + 1) % columns == 0 {
@@ -105,6 +123,30 @@ impl Gallery {
             ui.add_space(6.0);
         }
         chosen
+    }
+
+    /// A picture with a name. Returns whether it was clicked.
+    fn card(&self, ui: &mut Ui, name: &str, picture: Option<&TextureHandle>) -> bool {
+        let (rect, response) = ui.allocate_exact_size(PICTURE + vec2(0.0, TEXT), Sense::click());
+        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, name));
+        let frame = egui::Rect::from_min_size(rect.min, PICTURE);
+        match picture {
+            Some(texture) => drop(ui.painter().image(texture.id(), frame, covering(texture.size_vec2()), egui::Color32::WHITE)),
+            None if !self.is_complete => {}
+            None => {
+                ui.painter().rect_filled(frame, 3.0, ui.visuals().extreme_bg_color);
+                let font = egui::FontId::proportional(13.0);
+                ui.painter().text(frame.center(), Align2::CENTER_CENTER, NO_PICTURE, font, ui.visuals().weak_text_color());
+            }
+        }
+        ui.painter().rect_stroke(frame, 0.0, ui.visuals().widgets.noninteractive.bg_stroke, egui::StrokeKind::Inside);
+        if response.hovered() || response.has_focus() {
+            ui.painter().rect_stroke(frame, 3.0, ui.visuals().widgets.hovered.fg_stroke, egui::StrokeKind::Outside);
+        }
+        let text = egui::Rect::from_min_max(frame.left_bottom() + vec2(0.0, 3.0), rect.max);
+        let mut below = ui.new_child(egui::UiBuilder::new().max_rect(text));
+        below.add(egui::Label::new(RichText::new(name).size(12.0)).selectable(false).wrap());
+        response.on_hover_text(name).clicked()
     }
 }
 
@@ -137,25 +179,6 @@ fn picture(scene: &Path) -> Option<ColorImage> {
 fn covering(size: Vec2) -> egui::Rect {
     let part = PICTURE / size / (PICTURE / size).max_elem();
     egui::Rect::from_center_size(egui::pos2(0.5, 0.5), part)
-}
-
-/// A picture with a name. Returns whether it was clicked.
-fn card(ui: &mut Ui, name: &str, picture: Option<&TextureHandle>) -> bool {
-    let (rect, response) = ui.allocate_exact_size(PICTURE + vec2(0.0, TEXT), Sense::click());
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, name));
-    let frame = egui::Rect::from_min_size(rect.min, PICTURE);
-    match picture {
-        Some(texture) => drop(ui.painter().image(texture.id(), frame, covering(texture.size_vec2()), egui::Color32::WHITE)),
-        None => drop(ui.painter().rect_filled(frame, 3.0, ui.visuals().widgets.inactive.weak_bg_fill)),
-    }
-    ui.painter().rect_stroke(frame, 0.0, ui.visuals().widgets.noninteractive.bg_stroke, egui::StrokeKind::Inside);
-    if response.hovered() || response.has_focus() {
-        ui.painter().rect_stroke(frame, 3.0, ui.visuals().widgets.hovered.fg_stroke, egui::StrokeKind::Outside);
-    }
-    let text = egui::Rect::from_min_max(frame.left_bottom() + vec2(0.0, 3.0), rect.max);
-    let mut below = ui.new_child(egui::UiBuilder::new().max_rect(text));
-    below.add(egui::Label::new(RichText::new(name).size(12.0)).selectable(false).wrap());
-    response.on_hover_text(name).clicked()
 }
 
 #[cfg(test)]

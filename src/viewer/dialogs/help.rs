@@ -49,6 +49,7 @@ const KEYS: [(&str, &[(&str, &str)]); 5] = [
         "Window",
         &[
             ("Ctrl+Z, Ctrl+Shift+Z", "undo, redo: scene, camera, settings, view"),
+            ("Ctrl+O", "open a scene"),
             ("Ctrl+S", "save the scene"),
             ("Ctrl+E", "save the image"),
             ("Ctrl+C", "copy the image, or the error message that is open"),

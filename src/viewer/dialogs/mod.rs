@@ -1,10 +1,12 @@
 //! Windows over the picture: dialogs, messages, help, the gallery and the tour.
 pub mod advice;
 pub mod choose_file;
+mod completion;
 pub mod conflict;
 pub mod connect_tev;
 pub mod gallery;
 pub mod help;
+pub mod loading;
 pub mod notices;
 pub mod open;
 mod question;

@@ -4,7 +4,10 @@ use std::time::Duration;
 use egui::Ui;
 
 use super::question::{Choice, ask};
-use crate::viewer::background::{catalogue, recovery_files::FoundRecovery};
+use crate::viewer::{
+    background::{catalogue, recovery_files::FoundRecovery},
+    widgets::counted::counted,
+};
 
 /// An answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -45,13 +48,13 @@ fn name(found: &FoundRecovery) -> String {
 /// A time in its largest unit.
 fn in_words(time: Duration) -> String {
     let minutes = time.as_secs() / 60;
-    let (count, unit) = match minutes {
+    let (number, unit) = match minutes {
         0 => return "less than a minute".to_owned(),
         1..60 => (minutes, "minute"),
         60..1440 => (minutes / 60, "hour"),
         _ => (minutes / 1440, "day"),
     };
-    format!("{count} {unit}{}", if count == 1 { "" } else { "s" })
+    counted(number, unit)
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! The windows that say why a scene cannot be opened, or cannot be reloaded.
 use egui::{Align2, RichText, ScrollArea};
 
-use crate::viewer::widgets::style::over_the_picture;
+use crate::viewer::widgets::{quotation::with_quotation_marks, style::over_the_picture};
 
 /// Shows the report, until it is closed. Returns whether the built-in scene is to be opened, which is offered if nothing is open.
 pub fn show(ctx: &egui::Context, error: &mut Option<String>, is_open: bool) -> bool {
@@ -48,7 +48,7 @@ pub fn show_of_file(ctx: &egui::Context, error: &mut Option<String>) {
 
 fn show_report(ui: &mut egui::Ui, report: &str, height: f32) {
     ScrollArea::both().max_height(height).show(ui, |ui| {
-        ui.add(egui::Label::new(RichText::new(report).monospace()).extend());
+        ui.add(egui::Label::new(RichText::new(with_quotation_marks(report)).monospace()).extend());
     });
 }
 

@@ -1,5 +1,5 @@
 //! The tour on first run: noise, bounces and roulette, shown on the picture itself.
-use egui::{Align2, Button, RichText, ScrollArea, Window};
+use egui::{Align2, Button, RichText, ScrollArea, TextStyle, TextWrapMode, Ui, WidgetText, Window};
 
 use crate::viewer::{instruments::tabs::InstrumentTab, widgets::palette::Palette};
 
@@ -61,6 +61,8 @@ const PAGES: [Page; 4] = [
 const WIDTH: f32 = 380.0;
 const MARGIN: f32 = 14.0;
 const TOP: f32 = 48.0;
+/// Between title and text.
+const GAP: f32 = 4.0;
 /// Height of the buttons below the text, with the frame of the window.
 const BUTTONS: f32 = 96.0;
 
@@ -73,6 +75,17 @@ pub fn tab_of(page: usize) -> Option<InstrumentTab> {
     PAGES[page].shows
 }
 
+fn heading(ui: &Ui, page: &Page) -> RichText {
+    RichText::new(page.title).heading().color(ui.accent())
+}
+
+/// The height of the text of a page of this width.
+fn height(ui: &Ui, page: &Page, width: f32) -> f32 {
+    let layout = |text: WidgetText| text.into_galley(ui, Some(TextWrapMode::Wrap), width, TextStyle::Body).size().y;
+    let lines = layout(heading(ui, page).into()) + layout(page.text.into());
+    (lines + GAP + ui.spacing().item_spacing.y).ceil()
+}
+
 /// Shows a page.
 pub fn show(ctx: &egui::Context, number: usize) -> Option<TourRequest> {
     let page = &PAGES[number];
@@ -83,9 +96,11 @@ pub fn show(ctx: &egui::Context, number: usize) -> Option<TourRequest> {
     let place = Window::new("Tour").title_bar(false).collapsible(false).resizable(false).anchor(Align2::LEFT_TOP, [MARGIN, TOP]);
     place.show(ctx, |ui| {
         ui.set_width(width);
-        ScrollArea::vertical().max_height(most_height).show(ui, |ui| {
-            ui.label(RichText::new(page.title).heading().color(ui.accent()));
-            ui.add_space(4.0);
+        // The buttons stay where they are from page to page: a second click on Next must not hit the picture.
+        let height = PAGES.iter().map(|page| height(ui, page, width)).fold(0.0, f32::max).min(most_height);
+        ScrollArea::vertical().max_height(height).min_scrolled_height(height).auto_shrink([true, false]).show(ui, |ui| {
+            ui.label(heading(ui, page));
+            ui.add_space(GAP);
             ui.label(page.text);
         });
         ui.add_space(6.0);

@@ -1,11 +1,11 @@
 //! The bounces instrument: the picture as a series, term by term.
-use egui::{Color32, RichText, Sense, Slider, Ui, vec2};
+use egui::{Color32, Label, RichText, Sense, Slider, Ui, vec2};
 use noisefall::{
     integrator::TERMS,
     render::{Frame, Series, view::View},
 };
 
-use crate::viewer::widgets::palette::Palette;
+use crate::viewer::widgets::{counted::counted, palette::Palette};
 
 /// The part of the series that is displayed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -48,52 +48,62 @@ pub fn show(ui: &mut Ui, bounces: &mut Bounces, frame: Option<&Frame>, view: Vie
         ui.separator();
         let label = ui.label("k").on_hover_text("Number of bounces, reflections and refractions alike");
         ui.add(Slider::new(&mut bounces.k, 0..=LAST)).labelled_by(label.id);
-        ui.label(RichText::new(meaning(*bounces)).weak());
+        ui.add(Label::new(RichText::new(meaning(*bounces)).weak()).truncate());
     });
-    let Some((frame, series)) = frame.and_then(|frame| Some((frame, frame.series.as_ref()?))) else {
-        ui.add_space(6.0);
-        ui.weak("Available after one sample per pixel.");
-        return;
-    };
+    // While the camera moves there are no figures. Bars and lines keep their places.
+    let known = frame.and_then(|frame| Some((frame, frame.series.as_ref()?)));
     ui.add_space(6.0);
-    bars(ui, series, bounces);
+    bars(ui, known.map(|(_, series)| series), bounces);
     ui.add_space(4.0);
-    let k = bounces.k;
-    let lost = series.lost_by_cap(k);
-    let text = if k == LAST && bounces.up_to {
-        "This is all of the light.".to_owned()
-    } else if k == LAST {
-        format!("{LAST} or more bounces contribute {} of the light.", percent(series.shares.iter().skip(LAST).sum()))
-    } else {
-        format!(
-            "k = {k} contributes {} of the light; up to k it is {}. A cap of {k} would lose {}.",
-            percent(series.shares[k]),
-            percent(1.0 - lost),
-            percent(lost)
-        )
-    };
-    ui.label(RichText::new(text).color(ui.accent()));
+    let text = known.map_or_else(|| " ".to_owned(), |(_, series)| shares(series, *bounces));
+    // One line each, however narrow the window is: they must not move when the figures come.
+    ui.add(Label::new(RichText::new(text).color(ui.accent())).truncate());
     if !view.shows_light() {
         let view = view.title();
         ui.label(
             RichText::new(format!("The view {view} shows the whole image. Choose Radiance to see bounces.")).color(ui.warning()),
         );
     }
-    let spp = frame.spp;
-    ui.weak(format!("After {spp} samples per pixel without path sharing. Shares are fractions of the luminance of the image."));
+    let remark = match known {
+        Some((frame, _)) => {
+            let samples = counted(frame.spp, "sample");
+            format!("After {samples} per pixel without path sharing. Shares are fractions of the luminance of the image.")
+        }
+        None => "Available after one sample per pixel.".to_owned(),
+    };
+    ui.add(Label::new(RichText::new(remark).weak()).truncate());
+}
+
+/// The share of the chosen term, and of all light that a cap there would lose.
+fn shares(series: &Series, Bounces { k, up_to }: Bounces) -> String {
+    let lost = series.lost_by_cap(k);
+    if k == LAST && up_to {
+        return "This is all of the light.".to_owned();
+    }
+    if k == LAST {
+        return format!("{LAST} or more bounces contribute {} of the light.", percent(series.shares.iter().skip(LAST).sum()));
+    }
+    let [own, up_to, lost] = [series.shares[k], 1.0 - lost, lost].map(percent);
+    format!("k = {k} contributes {own} of the light; up to k it is {up_to}. A cap of {k} would lose {lost}.")
 }
 
 /// Draws a bar for the share of each number of bounces; a click chooses the term.
-fn bars(ui: &mut Ui, series: &Series, bounces: &mut Bounces) {
+fn bars(ui: &mut Ui, series: Option<&Series>, bounces: &mut Bounces) {
     const HEIGHT: f32 = 64.0;
-    const WIDTH: f32 = 40.0;
-    let most = series.shares.iter().copied().fold(1e-12, f64::max);
+    const MOST_WIDTH: f32 = 40.0;
+    const GAP: f32 = 3.0;
+    let of_term = |k: usize| {
+        let shares = &series?.shares;
+        Some(if k < BARS { shares[k] } else { shares.iter().skip(BARS).sum() })
+    };
+    let most = series.map_or(1.0, |series| series.shares.iter().copied().fold(1e-12, f64::max));
     ui.horizontal(|ui| {
-        ui.spacing_mut().item_spacing.x = 3.0;
+        ui.spacing_mut().item_spacing.x = GAP;
+        let width = ((ui.available_width() - GAP * BARS as f32) / (BARS + 1) as f32).min(MOST_WIDTH);
         for k in 0..=BARS {
-            let share = if k < BARS { series.shares[k] } else { series.shares.iter().skip(BARS).sum() };
-            let (rect, response) = ui.allocate_exact_size(vec2(WIDTH, HEIGHT + 32.0), Sense::click());
-            let part = (share / most) as f32;
+            let share = of_term(k);
+            let (rect, response) = ui.allocate_exact_size(vec2(width, HEIGHT + 32.0), Sense::click());
+            let part = (share.unwrap_or(0.0) / most) as f32;
             let term = k.min(LAST);
             let chosen = term == bounces.k || (bounces.up_to && term < bounces.k);
             let colour = if chosen { ui.accent() } else { Color32::GRAY };
@@ -108,15 +118,25 @@ fn bars(ui: &mut Ui, series: &Series, bounces: &mut Bounces) {
             let name = if k < BARS { k.to_string() } else { format!("≥ {BARS}") };
             let below = |dy: f32| egui::pos2(middle, base + dy);
             ui.painter().text(below(2.0), egui::Align2::CENTER_TOP, name, font.clone(), ink);
-            ui.painter().text(below(16.0), egui::Align2::CENTER_TOP, short(share), font, ui.visuals().weak_text_color());
-            let doc =
-                format!("{} bounces: {}", if k < BARS { k.to_string() } else { format!("{BARS} and more") }, percent(share));
+            ui.painter().text(
+                below(16.0),
+                egui::Align2::CENTER_TOP,
+                share.map_or_else(|| "–".to_owned(), short),
+                font,
+                ui.visuals().weak_text_color(),
+            );
+            let doc = format!("{}: {}", number(k), share.map_or_else(|| "not known yet".to_owned(), percent));
             response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &doc));
             if response.on_hover_text(&doc).clicked() {
                 bounces.k = term;
             }
         }
     });
+}
+
+/// The number of bounces of a bar.
+fn number(k: usize) -> String {
+    if k < BARS { counted(k, "bounce") } else { format!("{BARS} and more bounces") }
 }
 
 /// The displayed part in words.

@@ -6,6 +6,7 @@ use noisefall::scene::{Camera, Lens, Scene};
 use crate::viewer::widgets::{
     kinds::{kinds, number_rows},
     number,
+    quotation::with_quotation_marks,
     style::{controls, elided, row},
 };
 
@@ -39,7 +40,7 @@ pub fn show(ui: &mut egui::Ui, camera: &mut Camera, scene: Option<&Scene>) -> bo
         });
     });
     // A line of its own, whether or not there is an error.
-    let error = camera.check().err().map_or_else(|| " ".to_owned(), |error| error.to_string());
+    let error = camera.check().err().map_or_else(|| " ".to_owned(), |error| with_quotation_marks(&error.to_string()));
     let width = ui.available_width();
     elided(ui, width, RichText::new(&error).color(ui.visuals().error_fg_color)).on_hover_text(&error);
     let moved = scene.is_some_and(|scene| scene.camera != *camera);

@@ -7,7 +7,7 @@ use crate::viewer::widgets::style::{controls, row};
 pub fn show(ui: &mut Ui, display: &mut Display) {
     controls(ui, "display", |ui| {
         row(ui, "Exposure", "Exposure in stops. One more doubles the brightness. ([ and ])", |ui, label| {
-            let slider = Slider::new(&mut display.exposure, -10.0..=10.0).step_by(0.1).fixed_decimals(1).suffix(" EV");
+            let slider = Slider::new(&mut display.exposure, -20.0..=20.0).step_by(0.1).fixed_decimals(1).suffix(" EV");
             ui.add(slider).labelled_by(label);
         });
         white_balance(ui, &mut display.white_balance);

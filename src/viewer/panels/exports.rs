@@ -16,7 +16,7 @@ pub enum ExportCommand {
 /// Shows the line. `spp` are the samples of a whole frame.
 pub fn show(ui: &mut Ui, tev: &TevLink, sequence: Option<(SequenceProgress, u32)>) -> Option<ExportCommand> {
     let mut command = None;
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
         if let Some((progress, spp)) = sequence {
             let SequenceProgress { frame, frames, spp: done } = progress;
             let text = if frames == 0 { "Preparing frames".to_owned() } else { format!("Rendering frame {frame} of {frames}") };

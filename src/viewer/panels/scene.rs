@@ -7,6 +7,7 @@ use crate::viewer::background::{
     catalogue::{CatalogueEntry, SceneRequest, in_full},
     loader::{BUILT_IN_NAME, OpenedScene},
 };
+use crate::viewer::widgets::quotation::with_quotation_marks;
 
 /// The height of a row of the list: more than its text needs, so that all are alike.
 const ROW: f32 = 26.0;
@@ -19,7 +20,7 @@ pub fn show(ui: &mut egui::Ui, opened: Option<&OpenedScene>, catalogue: &[Catalo
         let label = ui.label("Scene");
         // From the right, so that the button has its place and a long title is cut by what is left.
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            if ui.button("Open…").on_hover_text("Opens a scene file.").clicked() {
+            if ui.button("Open…").on_hover_text("Opens a scene file. (Ctrl+O)").clicked() {
                 request = Some(SceneRequest::Browse);
             }
             if ui.button("Gallery").on_hover_text("Shows all scenes as thumbnails. (F6)").clicked() {
@@ -37,7 +38,7 @@ pub fn show(ui: &mut egui::Ui, opened: Option<&OpenedScene>, catalogue: &[Catalo
             ui.label(RichText::new(&opened.scene.notes).weak());
         }
         for warning in &opened.warnings {
-            ui.label(RichText::new(format!("Note: {warning}.")).color(ui.visuals().warn_fg_color));
+            ui.label(RichText::new(format!("Note: {}.", with_quotation_marks(warning))).color(ui.visuals().warn_fg_color));
         }
     }
     request

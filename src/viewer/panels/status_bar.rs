@@ -9,7 +9,10 @@ use noisefall::{
 
 use super::pixel_readout::Pixel;
 use crate::viewer::background::{display_image::ReferenceComparison, loader::OpenedScene};
-use crate::viewer::widgets::palette::Palette;
+use crate::viewer::widgets::{counted::counted, palette::Palette, quotation::with_quotation_marks, wording::capitalised};
+
+/// Width of a window that has room for all figures, points.
+const WIDE: f32 = 1000.0;
 
 /// The figures of the line.
 pub struct StatusBar<'a> {
@@ -34,7 +37,7 @@ pub struct StatusBar<'a> {
 impl StatusBar<'_> {
     /// Shows the line. Returns whether the list of remarks is asked for.
     pub fn show(&self, ui: &mut egui::Ui) -> bool {
-        let (status, mut asks) = (self.status, false);
+        let mut asks = false;
         ui.horizontal(|ui| {
             let (colour, state) = self.state_text(ui);
             let (dot, _) = ui.allocate_exact_size(egui::vec2(10.0, 10.0), egui::Sense::hover());
@@ -46,18 +49,10 @@ impl StatusBar<'_> {
             ui.separator();
             if let Err(error) = self.camera.check() {
                 ui.label(RichText::new("Invalid camera. The last image is shown.").color(ui.warning()))
-                    .on_hover_text(error.to_string());
+                    .on_hover_text(with_quotation_marks(&error.to_string()));
                 return;
             }
-            let target = self.budget.max_spp.map_or_else(String::new, |most| format!(" / {most}"));
-            let region = status.region_spp.map_or_else(String::new, |spp| format!(", {spp} in the region"));
-            ui.label(format!("{}{target} spp{region}", status.spp)).on_hover_text("Samples per pixel N so far, and the target");
-            ui.separator();
-            ui.label(format!("{:.1} M samples/s", status.samples_per_second() / 1e6))
-                .on_hover_text("Millions of camera samples per second of render time");
-            ui.separator();
-            ui.label(clock(status.elapsed)).on_hover_text("Render time of this image");
-            ui.separator();
+            self.progress_labels(ui);
             self.noise_label(ui);
             self.truth_label(ui);
             ui.separator();
@@ -75,11 +70,31 @@ impl StatusBar<'_> {
         asks
     }
 
+    /// Samples, speed and time. A narrow window has room for the samples only.
+    fn progress_labels(&self, ui: &mut egui::Ui) {
+        let status = self.status;
+        let target = self.budget.max_spp.map_or_else(String::new, |most| format!(" / {most}"));
+        let region = status.region_spp.map_or_else(String::new, |spp| format!(", {spp} in the region"));
+        let (samples, speed) = (format!("{}{target} spp", status.spp), status.samples_per_second() / 1e6);
+        let (speed, time) = (format!("{speed:.1} M samples/s"), clock(status.elapsed));
+        const SAMPLES: &str = "Samples per pixel N so far, and the target";
+        if ui.ctx().content_rect().width() < WIDE {
+            ui.label(samples).on_hover_text(format!("{SAMPLES}{region}\n{speed}\n{time}"));
+        } else {
+            ui.label(samples + &region).on_hover_text(SAMPLES);
+            ui.separator();
+            ui.label(speed).on_hover_text("Millions of camera samples per second of render time");
+            ui.separator();
+            ui.label(time).on_hover_text("Render time of this image");
+        }
+        ui.separator();
+    }
+
     /// The number of things that were not taken over exactly. Returns whether it was clicked.
     fn remarks_link(&self, ui: &mut egui::Ui) -> bool {
         let Some(opened) = self.opened.filter(|opened| !opened.remarks.is_empty()) else { return false };
         ui.separator();
-        ui.link(remarks_text(opened.remarks.len()))
+        ui.link(counted(opened.remarks.len(), "remark"))
             .on_hover_text("Lists what could not be taken over exactly from the file.")
             .clicked()
     }
@@ -93,7 +108,7 @@ impl StatusBar<'_> {
             State::Idle => (Color32::GRAY, "No scene"),
             State::Running => (good, "Running"),
             State::Paused => (warning, "Paused"),
-            State::Done(target) => return (good, sentence(&target.to_string())),
+            State::Done(target) => return (good, capitalised(&target.to_string())),
             State::Failed(_) => (ui.bad(), "Failed"),
         };
         (colour, text.to_owned())
@@ -102,7 +117,7 @@ impl StatusBar<'_> {
     fn noise_label(&self, ui: &mut egui::Ui) {
         if let Some(why) = self.why_black {
             ui.label(RichText::new("no light found yet").color(ui.warning()))
-                .on_hover_text(format!("All samples are black: {why}."));
+                .on_hover_text(format!("All samples are black: {}.", with_quotation_marks(why)));
             return;
         }
         let text = self.status.relative_noise().map_or_else(|| "–".to_owned(), percent);
@@ -117,7 +132,7 @@ impl StatusBar<'_> {
             ui.label(format!("true error {}", percent(rel_mse.sqrt())))
                 .on_hover_text("Root of relMSE, the mean of (x − r)²/(r² + 0.01 · mean r²), against the reference r: that of the scene, or the one that you dropped on the window");
         } else if let Some(mismatch) = &self.mismatch {
-            ui.label(RichText::new("true error unknown").color(ui.warning())).on_hover_text(mismatch);
+            ui.label(RichText::new("true error unknown").color(ui.warning())).on_hover_text(with_quotation_marks(mismatch));
         }
     }
 
@@ -142,16 +157,17 @@ impl StatusBar<'_> {
         let Status { invalid_samples, first_invalid, cut_paths, .. } = *self.status;
         let mut trouble = |text: String, more: String| {
             ui.separator();
-            ui.label(RichText::new(text).color(ui.bad())).on_hover_text(more);
+            let text = RichText::new(text).color(ui.bad());
+            ui.add(Label::new(text).truncate()).on_hover_text(more);
         };
         if let Some(at) = first_invalid {
             let size = self.request.map_or([0; 2], |request| request.camera.resolution);
             let command = self.replay_command(at, size);
-            trouble(format!("{invalid_samples} invalid samples"), format!("Replay the first: {command}"));
+            trouble(counted(invalid_samples, "invalid sample"), format!("Replay the first: {command}"));
         }
         if cut_paths > 0 {
             let longest = self.request.map_or(RenderSettings::LONGEST_PATH, |request| request.settings.last_bounce());
-            let text = format!("paths cut after {longest} bounces");
+            let text = format!("paths cut after {}", counted(longest, "bounce"));
             trouble(text, "Choose a roulette, so that paths end by themselves.".to_owned());
         }
         if let State::Failed(failure) = &self.status.state {
@@ -161,7 +177,7 @@ impl StatusBar<'_> {
             } else {
                 ("the tile at", "None of its samples fails alone.".to_owned())
             };
-            trouble(format!("{place} {x},{y}, sample {}: {}", failure.at.sample, failure.message), advice);
+            trouble(format!("{place} {x},{y}, sample {}: {}", failure.at.sample, with_quotation_marks(&failure.message)), advice);
         }
     }
 
@@ -179,16 +195,6 @@ impl StatusBar<'_> {
             ui.add(text).on_hover_text(format!("{}\n{}", readout.text, readout.doc));
         }
     }
-}
-
-fn remarks_text(count: usize) -> String {
-    if count == 1 { "1 remark".to_owned() } else { format!("{count} remarks") }
-}
-
-/// The text with a capital at its beginning.
-fn sentence(text: &str) -> String {
-    let first = text.chars().next().map_or(0, char::len_utf8);
-    text[..first].to_uppercase() + &text[first..]
 }
 
 fn percent(x: f64) -> String {

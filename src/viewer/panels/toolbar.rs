@@ -19,6 +19,7 @@ pub enum Command {
     ActualSize,
     Compare(RenderSettings),
     EndComparison,
+    Open,
     SaveScene,
     SavePicture,
     Help,

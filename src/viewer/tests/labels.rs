@@ -113,12 +113,29 @@ fn every_bar_is_named_by_its_bounces_and_the_last_has_the_rest() {
     let harness = Harness::builder().with_size(SIZE).build_ui(|ui| app.instrument(ui, InstrumentTab::Bounces));
     let buttons = harness.root().children_recursive().filter(|node| node.accesskit_node().role() == Role::Button);
     let bars: Vec<String> =
-        buttons.filter_map(|button| button.accesskit_node().label()).filter(|name| name.contains(" bounces: ")).collect();
+        buttons.filter_map(|button| button.accesskit_node().label()).filter(|name| name.contains(" bounce")).collect();
     assert_eq!(bars.len(), 17);
     for (k, bar) in bars[..16].iter().enumerate() {
-        assert_eq!(*bar, format!("{k} bounces: 5.00 %"));
+        assert_eq!(*bar, format!("{k} bounce{}: 5.00 %", if k == 1 { "" } else { "s" }));
     }
     assert_eq!(bars[16], "16 and more bounces: 20.00 %");
+}
+
+#[test]
+fn bars_and_lines_of_the_bounces_stay_while_there_are_no_figures() {
+    let mut app = app();
+    let rects = |app: &mut App| {
+        let harness = Harness::builder().with_size(SIZE).build_ui(|ui| app.instrument(ui, InstrumentTab::Bounces));
+        let nodes = harness.root().children_recursive().filter(|node| node.accesskit_node().role() == Role::Button);
+        let bars: Vec<egui::Rect> = nodes.map(|node| node.rect()).collect();
+        let line = ["Available after one", "After 1 sample per pixel"]
+            .map(|text| harness.query_by_label_contains(text).map(|label| label.rect().left_top()));
+        (bars, line[0].or(line[1]).expect("it says how many samples there are"))
+    };
+    let before = rects(&mut app);
+    let series = Some(Series { terms: Vec::new(), shares: vec![0.05; 20] });
+    app.results.second_frame = Some(Arc::new(Frame { spp: 1, series, ..Frame::default() }));
+    assert_eq!(rects(&mut app), before);
 }
 
 #[test]
@@ -134,7 +151,7 @@ fn each_side_of_a_comparison_has_its_own_figures_in_their_columns() {
     app.start_comparison(RenderSettings { max_bounces: Some(2), ..app.session.settings });
     let texts = said(&mut app, |app, ui| app.instrument(ui, InstrumentTab::Compare));
     for row in [
-        ["A", "as the scene opens, no sharing", "7", "2.5 s", "4.00 %", "5.00 %", "160", "the solution"],
+        ["A", "MIS, Sobol (Owen), no sharing", "7", "2.5 s", "4.00 %", "5.00 %", "160", "the solution"],
         ["B", "max-bounces 2, no sharing", "9", "3.5 s", "2.00 %", "10.00 %", "28.6", "biased: cap at 2"],
     ] {
         assert!(texts.windows(row.len()).any(|cells| cells == row), "{row:?} is not in {texts:?}");

@@ -116,6 +116,7 @@ fn the_tour_shows_noise_bounces_and_roulette_and_is_not_shown_again() {
     window.key_press(Key::F1);
     window.run_steps(3);
     click(&mut window, "Take the tour");
+    let mut bottom = None;
     for (title, tab) in [
         ("This image is an estimate", InstrumentTab::Convergence),
         ("Light bounces", InstrumentTab::Bounces),
@@ -132,7 +133,10 @@ fn the_tour_shows_noise_bounces_and_roulette_and_is_not_shown_again() {
             assert_eq!(app.session.comparison.map(|compare| compare.other), Some(capped));
             assert_eq!(app.session.settings.roulette, Roulette::BY_THROUGHPUT);
         }
-        click(&mut window, if title == "Now you" { "Done" } else { "Next" });
+        let next = if title == "Now you" { "Done" } else { "Next" };
+        let place = window.get_by_label(next).rect();
+        assert!((place.bottom() - *bottom.get_or_insert(place.bottom())).abs() < 0.5, "{title}: {place:?}");
+        click(&mut window, next);
     }
     assert!(window.state().dialogs.tour.is_none());
     wait(&mut window, "the note of it", |_| Preferences::in_folder(folder.path()).now.toured);

@@ -1,4 +1,9 @@
 //! Scenes and dropped files replace what was open.
+use std::sync::{
+    Arc,
+    atomic::{AtomicBool, Ordering},
+};
+
 use noisefall::scene::RenderSettings;
 
 use super::*;
@@ -66,4 +71,31 @@ fn a_dropped_file_is_a_scene_a_picture_with_its_scene_or_a_reference() {
     });
     let of_picture = window.state().session.opened.as_ref().map(|opened| opened.scene.objects.len());
     assert_eq!(of_picture, noisefall::scene::load(&shipped("cornell_spheres")).ok().map(|scene| scene.objects.len()));
+}
+
+#[test]
+fn a_file_that_takes_long_is_named_and_can_be_cancelled() {
+    let mut window = window("furnace");
+    for by_key in [false, true] {
+        let ended = Arc::new(AtomicBool::new(false));
+        window.state_mut().background.loader.read_for_ever("cathedral.glb", ended.clone());
+        window.run_steps(2);
+        let says = |window: &Window| window.query_by_label_contains("Reading “cathedral.glb”").is_some();
+        assert!(!says(&window), "not at once");
+        let start = window.ctx.input(|input| input.time);
+        while window.ctx.input(|input| input.time) < start + 0.5 {
+            window.step();
+        }
+        window.run_steps(2);
+        assert!(says(&window));
+        assert!(window.state().session.opened.as_ref().is_some_and(|opened| opened.name == "Furnace"), "the old scene stays");
+        if by_key {
+            press(&mut window, Key::Escape);
+        } else {
+            click(&mut window, "Cancel");
+        }
+        assert!(!says(&window) && !window.state().background.loader.is_busy());
+        wait(&mut window, "the end of reading", |_| ended.load(Ordering::Relaxed));
+        assert!(window.state().session.opened.as_ref().is_some_and(|opened| opened.name == "Furnace"));
+    }
 }

@@ -48,7 +48,7 @@ fn both_sides_of_a_comparison_name_their_sharing() {
     window.state_mut().start_comparison(other);
     wait(&mut window, "both", |app| app.results.status.spp >= 2 && app.results.second_status.spp >= 2);
     window.run_steps(3);
-    assert!(window.query_by_label("as the scene opens, shared paths").is_some());
+    assert!(window.query_by_label("MIS, Sobol (Owen), shared paths").is_some());
     assert!(window.get_all_by_label("no sharing").next().is_some());
 }
 

@@ -245,6 +245,16 @@ fn the_gallery_is_in_an_order_that_teaches_and_its_pictures_cover_their_cards() 
 }
 
 #[test]
+fn a_scene_without_a_picture_says_so_in_its_card() {
+    let mut window = window("furnace");
+    window.key_press(Key::F6);
+    wait(&mut window, "all pictures", |app| app.dialogs.gallery.is_complete());
+    window.run_steps(3);
+    let says = |shape: &egui::Shape| matches!(shape, egui::Shape::Text(text) if text.galley.text() == "no picture");
+    assert!(window.output().shapes.iter().any(|clipped| says(&clipped.shape)));
+}
+
+#[test]
 fn the_smallest_window_has_as_much_room_for_the_picture_as_for_the_panel() {
     let size = |options: &eframe::NativeOptions| [options.viewport.min_inner_size, options.viewport.inner_size];
     let [least, first] = size(&options(WindowSystem::Default)).map(|size| size.expect("a size"));

@@ -1,6 +1,7 @@
 //! Widgets, layout and colours that panels, dialogs and instruments share.
 pub mod colour_edit;
 pub mod committed_text;
+pub mod counted;
 pub mod hex;
 pub mod kinds;
 pub mod number;
@@ -9,3 +10,4 @@ pub mod path_field;
 pub mod quotation;
 pub mod style;
 pub mod typed_number;
+pub mod wording;

@@ -10,6 +10,8 @@ use egui::{
     text::{CCursor, CCursorRange},
 };
 
+use super::quotation::with_quotation_marks;
+
 /// A dialog that ends sooner was never shown, because nobody can dismiss it so fast.
 const TOO_SOON: Duration = Duration::from_millis(300);
 const NO_DIALOG: &str = "This system has no file dialog (a desktop portal or zenity). Type the path.";
@@ -23,6 +25,10 @@ pub struct PathField {
     picked: (Sender<Option<PathBuf>>, Receiver<Option<PathBuf>>),
     focus: bool,
     keyboard: Keyboard,
+    /// Tab is a key of the field, and does not leave it.
+    takes_tab: bool,
+    /// The text field of the last frame.
+    id: Option<Id>,
 }
 
 /// How a field takes the keyboard.
@@ -38,13 +44,39 @@ enum Keyboard {
 
 impl PathField {
     pub fn new(path: String, hint: &'static str) -> PathField {
-        PathField { path, hint, refusal: None, picked: unbounded(), focus: true, keyboard: Keyboard::Once }
+        PathField {
+            path,
+            hint,
+            refusal: None,
+            picked: unbounded(),
+            focus: true,
+            keyboard: Keyboard::Once,
+            takes_tab: false,
+            id: None,
+        }
     }
 
     /// A field for a new file. The name of the file is selected, so that typing replaces it. After a click elsewhere the field has the
     /// keyboard again, so that Enter still counts.
     pub fn of_new_file(path: String, hint: &'static str) -> PathField {
         PathField { keyboard: Keyboard::SelectsName, ..PathField::new(path, hint) }
+    }
+
+    /// A field whose text Tab completes.
+    pub fn with_completion(self) -> PathField {
+        PathField { takes_tab: true, ..self }
+    }
+
+    /// Whether keys go to the field.
+    pub fn has_keyboard(&self, ui: &Ui) -> bool {
+        self.id.is_some_and(|id| ui.memory(|memory| memory.has_focus(id)))
+    }
+
+    /// Replaces the text. The cursor goes to its end.
+    pub fn set(&mut self, ui: &Ui, path: String) {
+        (self.path, self.refusal, self.focus) = (path, None, true);
+        let end = CCursor::new(self.path.chars().count());
+        self.id.into_iter().for_each(|id| select(ui, id, CCursorRange::one(end)));
     }
 
     /// The trimmed path; `None` if it is empty.
@@ -60,7 +92,10 @@ impl PathField {
             Ok(None) => self.refusal = Some(NO_DIALOG.to_owned()),
             Err(_) => {}
         }
-        let field = ui.add(TextEdit::singleline(&mut self.path).hint_text(self.hint).desired_width(f32::INFINITY));
+        let field = ui.add(
+            TextEdit::singleline(&mut self.path).hint_text(self.hint).desired_width(f32::INFINITY).lock_focus(self.takes_tab),
+        );
+        self.id = Some(field.id);
         // Before the field takes the keyboard back.
         let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
         let is_idle = self.keyboard != Keyboard::Once && ui.memory(|memory| memory.focused().is_none());
@@ -83,15 +118,13 @@ impl PathField {
     fn select_name(&self, ui: &Ui, id: Id) {
         let end = self.path.chars().count();
         let start = end - self.path.chars().rev().take_while(|letter| !is_separator(*letter)).count();
-        let mut state = TextEdit::load_state(ui.ctx(), id).unwrap_or_default();
-        state.cursor.set_char_range(Some(CCursorRange::two(CCursor::new(start), CCursor::new(end))));
-        TextEdit::store_state(ui.ctx(), id, state);
+        select(ui, id, CCursorRange::two(CCursor::new(start), CCursor::new(end)));
     }
 
     /// Shows the error message, or else this remark, in a line that keeps its height when it is empty.
     pub fn remark(&self, ui: &mut Ui, remark: &str) {
         match &self.refusal {
-            Some(refusal) => ui.colored_label(ui.visuals().error_fg_color, refusal),
+            Some(refusal) => ui.colored_label(ui.visuals().error_fg_color, with_quotation_marks(refusal)),
             None => ui.label(RichText::new(if remark.is_empty() { " " } else { remark }).color(ui.visuals().warn_fg_color)),
         };
     }
@@ -111,4 +144,10 @@ impl PathField {
             }
         });
     }
+}
+
+fn select(ui: &Ui, id: Id, range: CCursorRange) {
+    let mut state = TextEdit::load_state(ui.ctx(), id).unwrap_or_default();
+    state.cursor.set_char_range(Some(range));
+    TextEdit::store_state(ui.ctx(), id, state);
 }

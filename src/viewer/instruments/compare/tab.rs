@@ -1,5 +1,5 @@
 //! The tab of the comparison: its layout, its two settings and their figures.
-use egui::Ui;
+use egui::{ScrollArea, Ui};
 use noisefall::{measure::LogRatio, scene::RenderSettings};
 
 use super::{comparison::CompareLayout, comparison::Comparison, figures, figures::SideStatus, menu};
@@ -23,14 +23,14 @@ pub fn show(
     ratio: Option<LogRatio>,
 ) -> Option<RenderSettings> {
     let Some(mut compare) = *comparison else {
-        let row = ui.horizontal(|ui| {
+        let row = ui.horizontal_wrapped(|ui| {
             ui.label("Choose settings to compare with. From then on both get the same time.");
             menu::show(ui, settings)
         });
         return row.inner;
     };
     let (mut ends, mut chosen) = (false, None);
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
         choices(ui, &mut compare.layout, &LAYOUTS);
         ui.separator();
         if ui.button("Swap").on_hover_text("Exchanges A and B.").clicked() {
@@ -50,6 +50,6 @@ pub fn show(
     });
     *comparison = (!ends).then_some(compare);
     ui.add_space(6.0);
-    figures::show(ui, [settings, &compare.other], of_scene, sides, ratio);
+    ScrollArea::horizontal().show(ui, |ui| figures::show(ui, [settings, &compare.other], of_scene, sides, ratio));
     chosen
 }

@@ -106,8 +106,8 @@ mod tests {
             lines,
             [
                 "settings,sharing,spp,seconds,estimated_relative_error,true_relative_error,bias_in_standard_errors",
-                "\"as the scene opens, no sharing\",off,1,0.5,,2.5e-1,",
-                "\"as the scene opens, no sharing\",off,16,2,1.25e-1,6.25e-2,-1.5e0",
+                "\"MIS, Sobol (Owen), no sharing\",off,1,0.5,,2.5e-1,",
+                "\"MIS, Sobol (Owen), no sharing\",off,16,2,1.25e-1,6.25e-2,-1.5e0",
                 "\"sampler independent, shared paths\",on,4,0.75,5e-1,,",
                 "\"sampler independent, shared paths\",on,64,12,7.8125e-3,,2.25e0",
             ]

@@ -94,7 +94,7 @@ impl History {
         self.curves[at].record(generation, moment);
     }
 
-    /// Names a curve by the settings that differ from those of the scene, and by sharing.
+    /// Names a curve by its settings, and by sharing.
     pub fn name(&self, curve: &Curve) -> String {
         let of_scene = self.subject.as_ref().map_or_else(RenderSettings::default, |(scene, _)| scene.settings);
         let bias = if curve.settings.bias().is_some() { " (biased)" } else { "" };
@@ -102,12 +102,12 @@ impl History {
     }
 }
 
-/// Names settings by what differs from those of the scene, and by whether pixels share paths.
+/// Names settings by what differs from those of the scene, or by estimator and sampler if nothing does, and by whether pixels share paths.
 pub fn name(settings: &RenderSettings, of_scene: &RenderSettings, shares: bool) -> String {
     let differences = options(settings, of_scene);
     let mut parts: Vec<&str> = differences.split(" --").filter(|part| !part.is_empty()).collect();
     if parts.is_empty() {
-        parts.push("as the scene opens");
+        parts.extend([settings.estimator.word().title, settings.sampler.word().title]);
     }
     // The word for it says less than what became of it.
     parts.retain(|part| !part.starts_with("reuse "));
@@ -214,10 +214,10 @@ mod tests {
             history.record(&settings, generation, moment(1, 0.5));
         }
         let names: Vec<String> = history.curves.iter().map(|curve| history.name(curve)).collect();
-        assert_eq!(names[0], "as the scene opens, no sharing");
+        assert_eq!(names[0], "MIS, Sobol (Owen), no sharing");
         assert!(names[1].contains("independent") && names[1].contains('3') && names[1].ends_with(" (biased)"), "{}", names[1]);
         let never = RenderSettings { reuse: Reuse::Off, ..scene.settings };
         assert_eq!(name(&never, &scene.settings, false), "no sharing");
-        assert_eq!(name(&scene.settings, &scene.settings, true), "as the scene opens, shared paths");
+        assert_eq!(name(&scene.settings, &scene.settings, true), "MIS, Sobol (Owen), shared paths");
     }
 }

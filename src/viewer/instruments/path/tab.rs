@@ -1,12 +1,23 @@
 //! The tab of the path inspector: a pixel, its samples, and the vertices of one path.
 use egui::{RichText, ScrollArea, Ui, scroll_area::ScrollBarVisibility};
 use noisefall::{
+    integrator::Replay,
     math::colour::luminance,
     render::{Frame, RenderRequest},
+    scene::Object,
 };
 
-use super::{copying, histogram, inspector::PathInspector, table};
+use super::{
+    copying, histogram,
+    inspector::PathInspector,
+    table::{self, Channel},
+};
 use crate::viewer::widgets::{number, palette::Palette};
+
+/// Width of the column of samples, points.
+const SAMPLES: f32 = 380.0;
+/// Below this width the path stands under the samples, and not beside them.
+const NARROW: f32 = 640.0;
 
 /// The picture that is inspected.
 pub struct Subject<'a> {
@@ -21,7 +32,7 @@ pub struct Subject<'a> {
 
 /// Shows what the inspector has traced. Returns whether to save the path or its samples.
 pub fn show(ui: &mut Ui, inspector: &mut PathInspector, subject: &Subject) -> bool {
-    let Subject { request, frame, side, resolution } = *subject;
+    let Subject { request, resolution, .. } = *subject;
     let Some(pixel) = inspector.pixel else {
         ui.label("Click a pixel of the image to see its samples and their paths.");
         if ui.button("Use the middle pixel").clicked() {
@@ -29,37 +40,60 @@ pub fn show(ui: &mut Ui, inspector: &mut PathInspector, subject: &Subject) -> bo
         }
         return false;
     };
-    let mut saves = false;
-    egui::Panel::left("pixel").resizable(false).exact_size(380.0).show(ui, |ui| {
-        ScrollArea::vertical().show(ui, |ui| {
-            pixel_choice(ui, inspector, pixel, side, resolution);
-            if let Some(frame) = frame {
-                estimate(ui, frame, pixel);
-            }
-            saves = sample_column(ui, inspector, request);
+    if ui.available_width() < NARROW {
+        let scroll = ScrollArea::both().auto_shrink(false);
+        return scroll
+            .show(ui, |ui| {
+                ui.set_max_width(SAMPLES);
+                let saves = samples(ui, inspector, pixel, subject);
+                ui.separator();
+                path(ui, inspector, request, table::show);
+                saves
+            })
+            .inner;
+    }
+    let left = egui::Panel::left("pixel").resizable(false).exact_size(SAMPLES);
+    let column = |ui: &mut Ui| ScrollArea::vertical().show(ui, |ui| samples(ui, inspector, pixel, subject)).inner;
+    let saves = left.show(ui, column).inner;
+    egui::Frame::new().inner_margin(egui::Margin { left: 8, ..egui::Margin::ZERO }).show(ui, |ui| {
+        path(ui, inspector, request, |ui, replay, objects, channel| {
+            let scroll = ScrollArea::both().auto_shrink(false).scroll_bar_visibility(ScrollBarVisibility::AlwaysVisible);
+            _ = scroll.show(ui, |ui| table::show(ui, replay, objects, channel));
         });
     });
+    saves
+}
+
+/// Shows the pixel and its samples. Returns whether to save them or the path.
+fn samples(ui: &mut Ui, inspector: &mut PathInspector, pixel: [u32; 2], subject: &Subject) -> bool {
+    pixel_choice(ui, inspector, pixel, subject.side, subject.resolution);
+    if let Some(frame) = subject.frame {
+        estimate(ui, frame, pixel);
+    }
+    sample_column(ui, inspector, subject.request)
+}
+
+/// Shows the path of the chosen sample, with its table.
+fn path(
+    ui: &mut Ui,
+    inspector: &mut PathInspector,
+    request: Option<&RenderRequest>,
+    show_table: impl FnOnce(&mut Ui, &Replay, &[Object], Channel),
+) {
     if let Some(failure) = inspector.failure() {
         let text = format!("{failure}. Please report it with the command in the status line.");
         ui.label(RichText::new(text).color(ui.bad()));
-        return saves;
+        return;
     }
     let mut channel = inspector.channel;
     let Some((sample, replay)) = inspector.replay() else {
         ui.weak("Tracing the samples of this pixel …");
-        return saves;
+        return;
     };
     let objects = request.map_or(&[][..], |request| &request.scene.objects);
-    egui::Frame::new().inner_margin(egui::Margin { left: 8, ..egui::Margin::ZERO }).show(ui, |ui| {
-        table::heading(ui, sample, replay, &mut channel);
-        let bars = ScrollBarVisibility::AlwaysVisible;
-        ScrollArea::both()
-            .auto_shrink(false)
-            .scroll_bar_visibility(bars)
-            .show(ui, |ui| table::show(ui, replay, objects, channel));
-    });
+    table::heading(ui, sample, replay, &mut channel);
+    show_table(ui, replay, objects, channel);
     inspector.channel = channel;
-    saves
 }
 
 fn pixel_choice(ui: &mut Ui, inspector: &mut PathInspector, pixel: [u32; 2], side: Option<&str>, [width, height]: [u32; 2]) {

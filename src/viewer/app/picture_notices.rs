@@ -1,0 +1,61 @@
+//! Notices on the picture: why it is black, and that the exposure of a scene that was opened does not suit it.
+use egui::Ui;
+use noisefall::{render::Frame, render::view::View, scene::Camera};
+
+use super::state::App;
+use crate::viewer::background::exposure_meter::misfit;
+use crate::viewer::canvas::{notice::Notice, picture_area::PictureArea};
+use crate::viewer::instruments::compare::comparison::CompareLayout;
+use crate::viewer::widgets::wording::capitalised;
+
+const BACK: (&str, &str) = ("Back to the last view that showed something", "Returns to the camera of that view.");
+const EXPOSURE: [(&str, &str); 2] = [
+    ("Set exposure", "Displays the scene in the middle of the display range. The samples do not change."),
+    ("Leave it", "Keeps the exposure as it is."),
+];
+
+impl App {
+    /// Shows the notice that the picture needs, if any.
+    pub fn notices(&mut self, ui: &mut Ui, area: &PictureArea) {
+        let is_full = self.results.shown.as_ref().is_some_and(|frame| !frame.is_coarse());
+        // A notice would hide the other picture of a wipe.
+        let is_alone = self.comparison().is_none_or(|comparison| comparison.layout == CompareLayout::SideBySide);
+        if !is_full || !is_alone || self.session.look.view != View::Radiance {
+            return;
+        }
+        match self.results.why_black().map(|why| format!("{}.", capitalised(why))) {
+            Some(why) => self.black_notice(ui, area, why),
+            None => self.exposure_notice(ui, area),
+        }
+    }
+
+    fn black_notice(&mut self, ui: &mut Ui, area: &PictureArea, reason: String) {
+        let back = self.results.last_seeing.map(|last| Camera { resolution: self.session.camera.resolution, ..last });
+        let back = back.filter(|back| *back != self.session.camera);
+        let buttons = if back.is_some() { &[BACK][..] } else { &[] };
+        if (Notice { title: "No light found yet", reason, buttons }).show(ui, area).is_some() {
+            self.session.camera = back.unwrap_or(self.session.camera);
+        }
+    }
+
+    fn exposure_notice(&mut self, ui: &mut Ui, area: &PictureArea) {
+        let Some(misfit) = self.results.misfit.filter(|misfit| misfit.at == self.session.look.display.exposure) else { return };
+        let (title, what) = if misfit.suited < misfit.at { ("Too bright", "brighter") } else { ("Too dark", "darker") };
+        let stops = (misfit.at - misfit.suited).abs();
+        let reason = format!("The scene is about {stops:.0} stops {what} than the display can show.");
+        match (Notice { title, reason, buttons: &EXPOSURE }).show(ui, area) {
+            Some(0) => self.session.look.display.exposure = misfit.suited,
+            Some(_) => self.results.misfit = None,
+            None => {}
+        }
+    }
+
+    /// Measures the first image of a scene that was opened, once it has light.
+    pub fn meter(&mut self, frame: &Frame) {
+        let is_due = self.results.awaits_meter && frame.generation == self.background.worker.generation() && !frame.is_coarse();
+        if is_due && !self.results.black {
+            self.results.awaits_meter = false;
+            self.results.misfit = misfit(&frame.radiance, frame.width as usize, self.session.look.display.exposure);
+        }
+    }
+}
