@@ -7,6 +7,7 @@ pub mod display_image;
 pub mod display_pipeline;
 pub mod display_request;
 pub mod dropped;
+pub mod earlier_scenes;
 pub mod feature_finder;
 pub mod file_state;
 pub mod file_watcher;
