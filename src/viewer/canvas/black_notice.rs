@@ -2,6 +2,7 @@
 use egui::{Align, Button, Color32, FontId, Label, Layout, Rect, Stroke, StrokeKind, Ui, UiBuilder, Vec2, vec2};
 
 use super::picture_area::PictureArea;
+use crate::viewer::widgets::quotation::with_quotation_marks;
 
 const MOST_WIDTH: f32 = 420.0;
 const MARGIN: f32 = 18.0;
@@ -16,7 +17,7 @@ pub fn show(ui: &mut Ui, area: &PictureArea, why: &str, has_button: bool) -> boo
     let most = MOST_WIDTH.min(area.clip.width() - 4.0 * MARGIN);
     let layout = |text: String, font: FontId, ink: Color32| ui.painter().layout(text, font, ink, most);
     let title = layout(TITLE.to_owned(), FontId::proportional(16.0), Color32::WHITE);
-    let reason = layout(sentence(why), FontId::proportional(13.5), Color32::from_gray(210));
+    let reason = layout(sentence(&with_quotation_marks(why)), FontId::proportional(13.5), Color32::from_gray(210));
     let button = if has_button { BUTTON } else { Vec2::ZERO };
     let width = title.size().x.max(reason.size().x).max(button.x.min(most));
     let height = title.size().y + GAP + reason.size().y + if has_button { 2.0 * GAP + button.y } else { 0.0 };

@@ -5,7 +5,7 @@ use noisefall::{
     render::{Frame, Series, view::View},
 };
 
-use crate::viewer::widgets::palette::Palette;
+use crate::viewer::widgets::{counted::counted, palette::Palette};
 
 /// The part of the series that is displayed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -80,7 +80,10 @@ pub fn show(ui: &mut Ui, bounces: &mut Bounces, frame: Option<&Frame>, view: Vie
         );
     }
     let spp = frame.spp;
-    ui.weak(format!("After {spp} samples per pixel without path sharing. Shares are fractions of the luminance of the image."));
+    ui.weak(format!(
+        "After {} per pixel without path sharing. Shares are fractions of the luminance of the image.",
+        counted(spp, "sample")
+    ));
 }
 
 /// Draws a bar for the share of each number of bounces; a click chooses the term.
@@ -109,8 +112,8 @@ fn bars(ui: &mut Ui, series: &Series, bounces: &mut Bounces) {
             let below = |dy: f32| egui::pos2(middle, base + dy);
             ui.painter().text(below(2.0), egui::Align2::CENTER_TOP, name, font.clone(), ink);
             ui.painter().text(below(16.0), egui::Align2::CENTER_TOP, short(share), font, ui.visuals().weak_text_color());
-            let doc =
-                format!("{} bounces: {}", if k < BARS { k.to_string() } else { format!("{BARS} and more") }, percent(share));
+            let bounces_of_bar = if k < BARS { counted(k, "bounce") } else { format!("{BARS} and more bounces") };
+            let doc = format!("{bounces_of_bar}: {}", percent(share));
             response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &doc));
             if response.on_hover_text(&doc).clicked() {
                 bounces.k = term;

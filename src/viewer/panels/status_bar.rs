@@ -9,7 +9,7 @@ use noisefall::{
 
 use super::pixel_readout::Pixel;
 use crate::viewer::background::{display_image::ReferenceComparison, loader::OpenedScene};
-use crate::viewer::widgets::palette::Palette;
+use crate::viewer::widgets::{counted::counted, palette::Palette, quotation::with_quotation_marks};
 
 /// The figures of the line.
 pub struct StatusBar<'a> {
@@ -46,7 +46,7 @@ impl StatusBar<'_> {
             ui.separator();
             if let Err(error) = self.camera.check() {
                 ui.label(RichText::new("Invalid camera. The last image is shown.").color(ui.warning()))
-                    .on_hover_text(error.to_string());
+                    .on_hover_text(with_quotation_marks(&error.to_string()));
                 return;
             }
             let target = self.budget.max_spp.map_or_else(String::new, |most| format!(" / {most}"));
@@ -79,7 +79,7 @@ impl StatusBar<'_> {
     fn remarks_link(&self, ui: &mut egui::Ui) -> bool {
         let Some(opened) = self.opened.filter(|opened| !opened.remarks.is_empty()) else { return false };
         ui.separator();
-        ui.link(remarks_text(opened.remarks.len()))
+        ui.link(counted(opened.remarks.len(), "remark"))
             .on_hover_text("Lists what could not be taken over exactly from the file.")
             .clicked()
     }
@@ -102,7 +102,7 @@ impl StatusBar<'_> {
     fn noise_label(&self, ui: &mut egui::Ui) {
         if let Some(why) = self.why_black {
             ui.label(RichText::new("no light found yet").color(ui.warning()))
-                .on_hover_text(format!("All samples are black: {why}."));
+                .on_hover_text(format!("All samples are black: {}.", with_quotation_marks(why)));
             return;
         }
         let text = self.status.relative_noise().map_or_else(|| "–".to_owned(), percent);
@@ -147,11 +147,11 @@ impl StatusBar<'_> {
         if let Some(at) = first_invalid {
             let size = self.request.map_or([0; 2], |request| request.camera.resolution);
             let command = self.replay_command(at, size);
-            trouble(format!("{invalid_samples} invalid samples"), format!("Replay the first: {command}"));
+            trouble(counted(invalid_samples, "invalid sample"), format!("Replay the first: {command}"));
         }
         if cut_paths > 0 {
             let longest = self.request.map_or(RenderSettings::LONGEST_PATH, |request| request.settings.last_bounce());
-            let text = format!("paths cut after {longest} bounces");
+            let text = format!("paths cut after {}", counted(longest, "bounce"));
             trouble(text, "Choose a roulette, so that paths end by themselves.".to_owned());
         }
         if let State::Failed(failure) = &self.status.state {
@@ -161,7 +161,7 @@ impl StatusBar<'_> {
             } else {
                 ("the tile at", "None of its samples fails alone.".to_owned())
             };
-            trouble(format!("{place} {x},{y}, sample {}: {}", failure.at.sample, failure.message), advice);
+            trouble(format!("{place} {x},{y}, sample {}: {}", failure.at.sample, with_quotation_marks(&failure.message)), advice);
         }
     }
 
@@ -179,10 +179,6 @@ impl StatusBar<'_> {
             ui.add(text).on_hover_text(format!("{}\n{}", readout.text, readout.doc));
         }
     }
-}
-
-fn remarks_text(count: usize) -> String {
-    if count == 1 { "1 remark".to_owned() } else { format!("{count} remarks") }
 }
 
 /// The text with a capital at its beginning.

@@ -3,7 +3,7 @@ use noisefall::{math::colour::luminance, scene::Camera};
 
 use super::*;
 
-const WALL: &str = "The camera is inside `left wall`.";
+const WALL: &str = "The camera is inside “left wall”.";
 const BACK: &str = "Back to the last view that showed something";
 
 /// Waits for the full picture of what the controls say, and returns its mean luminance.
@@ -143,7 +143,7 @@ fn there_is_no_way_back_where_nothing_was_ever_seen() {
     let mut window = window("inside_lit_outside");
     assert_eq!(brightness(&mut window), 0.0);
     window.run_steps(2);
-    assert!(window.query_by_label("The camera is inside `wall`.").is_some() && window.query_by_label(BACK).is_none());
+    assert!(window.query_by_label("The camera is inside “wall”.").is_some() && window.query_by_label(BACK).is_none());
     // What another scene showed is no view of this one.
     let path = shipped("furnace");
     window.state_mut().background.loader.open(Some(path));

@@ -41,7 +41,7 @@ fn a_black_picture_is_told_with_its_likely_cause() {
     wait(&mut window, "samples", |app| app.results.status.spp >= 2 && app.results.black);
     window.run_steps(2);
     assert!(window.query_by_label("no light found yet").is_some() && window.query_by_label_contains("noise").is_none());
-    assert!(window.query_by_label("The camera is inside `wall`.").is_some());
+    assert!(window.query_by_label("The camera is inside “wall”.").is_some());
     let mut window = opened(shipped("furnace"));
     window.run_steps(2);
     assert!(window.query_by_label("no light found yet").is_none());
@@ -81,7 +81,7 @@ fn a_camera_that_cannot_be_leaves_the_last_picture_as_it_is() {
         let camera = &mut w.state_mut().session.camera;
         (camera.look_at, camera.up) = (DVec3::ZERO, DVec3::ZERO);
     });
-    assert!(window.query_by_label_contains("`up` is zero").is_some());
+    assert!(window.query_by_label_contains("“up” is zero").is_some());
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! The histogram of a pixel's samples.
 use egui::{Align2, Color32, FontId, Rect, Sense, Stroke, Ui, pos2, vec2};
 
-use crate::viewer::widgets::palette::Palette;
+use crate::viewer::widgets::{counted::counted, palette::Palette};
 
 const BINS: usize = 40;
 const HEIGHT: f32 = 76.0;
@@ -71,7 +71,7 @@ pub fn show(ui: &mut Ui, histogram: &Histogram, chosen: u32) -> Option<u32> {
     text(plot.left_bottom() + vec2(0.0, 3.0), Align2::LEFT_TOP, "0".to_owned());
     text(plot.right_bottom() + vec2(0.0, 3.0), Align2::RIGHT_TOP, format!("{:.3} and more", histogram.end));
     let count = histogram.samples.len();
-    ui.weak(format!("{count} samples, mean {:.4} (line), {:.0} % black", histogram.mean, 100.0 * histogram.black))
+    ui.weak(format!("{}, mean {:.4} (line), {:.0} % black", counted(count, "sample"), histogram.mean, 100.0 * histogram.black))
         .on_hover_text("Number of samples, mean of their luminance, and fraction without light");
     let under = |at: egui::Pos2| (((at.x - plot.left()) / width) as usize).min(BINS - 1);
     let clicked = response.clicked().then(|| response.interact_pointer_pos()).flatten().map(under);
