@@ -22,6 +22,7 @@ mod mouse;
 mod opening;
 mod painted;
 mod path;
+mod popups;
 mod presets;
 mod random_edits;
 mod rasteriser;
