@@ -7,11 +7,12 @@ use crate::viewer::background::{
     catalogue::{CatalogueEntry, SceneRequest, in_full},
     loader::{BUILT_IN_NAME, OpenedScene},
 };
+use crate::viewer::widgets::quotation::with_quotation_marks;
 
 /// The height of a row of the list: more than its text needs, so that all are alike.
 const ROW: f32 = 26.0;
 
-/// Shows the list of scenes, and the notes and warnings of the open one.
+/// Shows the list of scenes.
 pub fn show(ui: &mut egui::Ui, opened: Option<&OpenedScene>, catalogue: &[CatalogueEntry]) -> Option<SceneRequest> {
     let name = opened.map_or("Choose a scene", |opened| opened.name.as_str()).to_owned();
     let mut request = None;
@@ -32,15 +33,19 @@ pub fn show(ui: &mut egui::Ui, opened: Option<&OpenedScene>, catalogue: &[Catalo
             request = combo.inner.flatten().map(SceneRequest::Open).or(request.take());
         });
     });
+    request
+}
+
+/// Shows the notes and warnings of the open scene.
+pub fn notes(ui: &mut egui::Ui, opened: Option<&OpenedScene>) {
     if let Some(opened) = opened {
         if !opened.scene.notes.is_empty() {
             ui.label(RichText::new(&opened.scene.notes).weak());
         }
         for warning in &opened.warnings {
-            ui.label(RichText::new(format!("Note: {warning}.")).color(ui.visuals().warn_fg_color));
+            ui.label(RichText::new(format!("Note: {}.", with_quotation_marks(warning))).color(ui.visuals().warn_fg_color));
         }
     }
-    request
 }
 
 /// The height of the list: of all its rows, or of as many whole ones as fit.

@@ -21,6 +21,7 @@ mod minified;
 mod mouse;
 mod opening;
 mod painted;
+mod parts;
 mod path;
 mod popups;
 mod presets;

@@ -11,5 +11,6 @@ pub mod palette;
 pub mod path_field;
 pub mod quotation;
 pub mod refusal;
+pub mod split;
 pub mod style;
 pub mod typed_number;
