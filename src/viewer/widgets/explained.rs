@@ -3,7 +3,7 @@ use std::{cell::RefCell, rc::Rc};
 
 use egui::{DragValue, Response, Slider, Ui, Widget};
 
-use super::{arithmetic::evaluate, refusal};
+use super::{arithmetic::evaluate, given_up::gave_up, refusal};
 
 /// A field that parses typed texts by a function, once they are entered.
 pub trait Typed: Widget {
@@ -71,7 +71,11 @@ impl<W: Typed> Widget for Explained<W> {
         let id = ui.next_auto_id();
         let refused = Rc::new(RefCell::new(None));
         let note = refused.clone();
+        let is_given_up = gave_up(ui);
         let parse = move |text: &str| {
+            if is_given_up {
+                return None;
+            }
             let number = evaluate(without(text, &suffix));
             number.map_err(|refusal| *note.borrow_mut() = Some(refusal)).ok()
         };
@@ -134,6 +138,21 @@ mod tests {
         for (text, value) in [("3/2", 1.5), ("0,25 m", 0.25), ("2*0.25", 0.5)] {
             type_in(&mut fields, 0, text);
             assert_eq!(fields.state()[0], value, "{text}");
+        }
+    }
+
+    #[test]
+    fn an_edit_that_is_given_up_is_neither_taken_nor_refused() {
+        let mut fields = fields();
+        for text in ["far", "7"] {
+            fields.get_all_by_role(Role::SpinButton).next().expect("there are two").click();
+            fields.run_steps(4);
+            fields.key_press_modifiers(Modifiers::COMMAND, Key::A);
+            fields.event(Event::Text(text.to_owned()));
+            fields.run_steps(3);
+            fields.key_press(Key::Escape);
+            fields.run_steps(4);
+            assert!(fields.query_by_label_contains("expected a number").is_none() && *fields.state() == [1.0, 2.0], "{text}");
         }
     }
 

@@ -4,6 +4,7 @@ pub mod colour_edit;
 pub mod committed_text;
 pub mod counted;
 pub mod explained;
+pub mod given_up;
 pub mod hex;
 pub mod kinds;
 pub mod number;

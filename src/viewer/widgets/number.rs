@@ -2,11 +2,11 @@
 use std::ops::RangeInclusive;
 
 use egui::{
-    DragValue, Id, Key, Slider, SliderClamping, Ui,
+    DragValue, Id, Slider, SliderClamping, Ui,
     emath::{Numeric, format_with_decimals_in_range},
 };
 
-use super::explained::Explained;
+use super::{explained::Explained, given_up::gave_up};
 
 /// Significant digits of a number that was dragged.
 const DRAGGED_DIGITS: usize = 12;
@@ -82,18 +82,6 @@ fn kept<N: Numeric>(value: &mut N, decimals: usize, range: RangeInclusive<f64>, 
         }
         value.to_f64()
     }
-}
-
-/// Whether Escape was pressed in this frame or the last one, because egui applies the typed text in the frame after Escape.
-fn gave_up(ui: &Ui) -> bool {
-    let (frame, escape) = (ui.ctx().cumulative_frame_nr(), ui.input(|input| input.key_pressed(Key::Escape)));
-    ui.data_mut(|data| {
-        let until = data.get_temp_mut_or_default::<u64>(Id::unique("edits were given up"));
-        if escape {
-            *until = frame + 2;
-        }
-        frame < *until
-    })
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@ use std::{cell::RefCell, ops::RangeInclusive};
 
 use egui::{Id, Response, Ui, Widget};
 
-use super::{arithmetic::evaluate, explained::without, number, quotation::with_quotation_marks, refusal};
+use super::{arithmetic::evaluate, explained::without, given_up::gave_up, number, quotation::with_quotation_marks, refusal};
 
 /// A field of a number, and what it accepts.
 pub struct TypedNumber<'a> {
@@ -47,7 +47,8 @@ impl TypedNumber<'_> {
         if set.is_some() {
             *value = before;
         }
-        if let Some(message) = refused.into_inner().or(set) {
+        let typed = refused.into_inner().filter(|_| !gave_up(ui));
+        if let Some(message) = typed.or(set) {
             refusal::remember(ui, response.id, *value, message);
         }
         let message = refusal::of(ui, response.id, *value);
