@@ -9,7 +9,7 @@ use noisefall::{
     scene::{Object, Scene},
 };
 
-use crate::viewer::widgets::{counted::counted, style::elided};
+use crate::viewer::widgets::{counted::counted, decimals::fixed, style::elided};
 
 /// Together, with what is between them, as wide as the panel.
 const PLACE_WIDTH: f32 = 156.0;
@@ -48,8 +48,9 @@ fn place(object: &Object) -> String {
         Shape::Mesh { data, .. } => format!("{}, ", counted(data.triangles.len(), "triangle")),
         Shape::Sphere { .. } | Shape::Isosurface { .. } => String::new(),
     };
+    let center = center.to_array().map(|x| fixed(x, 4)).join(", ");
     let moves = if object.motion.0.is_empty() { "" } else { "\nmoves while the shutter is open" };
-    format!("{}: {size}within {radius:.4} m of {center:.4}{moves}", object.shape.name())
+    format!("{}: {size}within {radius:.4} m of [{center}]{moves}", object.shape.name())
 }
 
 /// Kind of material, and whether it is a lamp.

@@ -3,6 +3,7 @@ pub mod arithmetic;
 pub mod colour_edit;
 pub mod committed_text;
 pub mod counted;
+pub mod decimals;
 pub mod explained;
 pub mod given_up;
 pub mod hex;

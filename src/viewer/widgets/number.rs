@@ -6,7 +6,7 @@ use egui::{
     emath::{Numeric, format_with_decimals_in_range},
 };
 
-use super::{explained::Explained, given_up::gave_up};
+use super::{decimals::unsigned_zero, explained::Explained, given_up::gave_up};
 
 /// Significant digits of a number that was dragged.
 const DRAGGED_DIGITS: usize = 12;
@@ -40,8 +40,7 @@ pub fn tidy(x: f64) -> f64 {
 
 /// The text of a number. What rounds to zero has no sign.
 fn shown(x: f64, decimals: RangeInclusive<usize>) -> String {
-    let text = format_with_decimals_in_range(x, decimals);
-    if text.parse::<f64>() == Ok(0.0) { text.replace('-', "") } else { text }
+    unsigned_zero(format_with_decimals_in_range(x, decimals))
 }
 
 /// A field for an optional number, with a text for `None` and a suffix.
