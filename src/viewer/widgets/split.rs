@@ -16,8 +16,7 @@ pub fn show(ui: &mut Ui, upper: impl FnOnce(&mut Ui)) {
     let panel = panel.default_size((UPPER * room).clamp(LEAST, most)).size_range(LEAST..=most);
     let area = panel.show(ui, |ui| {
         // The contents fill the area, whose height is the user's.
-        let room = ui.available_size() - vec2(0.0, ui.spacing().item_spacing.y);
-        ui.set_min_size(room);
+        ui.set_min_size(ui.available_size());
         upper(ui);
     });
     let middle = area.response.rect.center_bottom();
