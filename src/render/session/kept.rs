@@ -47,8 +47,9 @@ impl KeptSessions {
     /// Keeps a session, or returns its film for another one to use.
     pub fn keep(&mut self, mut session: Session) -> Option<Film> {
         let bytes = Film::kept_bytes(session.request.camera.resolution);
-        let is_small = |of_scenes: u64| bytes + of_scenes <= self.most_bytes;
-        if !session.is_worth_keeping() || !is_small(self.bytes_of_scenes(Some(&session))) {
+        let scene = &session.request.scene;
+        let of_scene = if is_current(&self.current, scene) { 0 } else { scene.memory.bytes() };
+        if !session.is_worth_keeping() || bytes + of_scene > self.most_bytes {
             return Some(session.into_film());
         }
         // Its frames, half images and saved images are not kept.

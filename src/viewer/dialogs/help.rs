@@ -48,7 +48,7 @@ const KEYS: [(&str, &[(&str, &str)]); 5] = [
     (
         "Window",
         &[
-            ("Ctrl+Z, Ctrl+Shift+Z", "undo, redo: scene, camera, settings, view"),
+            ("Ctrl+Z, Ctrl+Shift+Z", "undo, redo: scene, camera, settings, stop target, view"),
             ("Ctrl+S", "save the scene"),
             ("Ctrl+E", "save the image"),
             ("Ctrl+C", "copy the image, or the error message that is open"),

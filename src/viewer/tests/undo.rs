@@ -64,6 +64,14 @@ fn an_edit_that_is_undone_gives_its_samples_back() {
     assert!(again.radiance == first.radiance && again.elapsed == first.elapsed, "the very same samples");
     edits(&mut window, "forth again", redo);
     wait(&mut window, "its samples", |app| app.results.shown.as_ref().is_some_and(|frame| frame.spp == 41));
+    // What is taken back at once was never rendered.
+    never_restarts(&mut window, |w| {
+        let brighter = OwnedValue::Textured(Textured::Constant([0.75; 3]));
+        w.state_mut().edit(&Edit::set(Path::of("materials.amber.lambertian.albedo"), brighter));
+        w.state_mut().undo();
+    });
+    wait(&mut window, "the scene", |app| !app.background.worker.is_editing() && app.session.waiting_edit.is_none());
+    assert_eq!(window.state().results.status.generation, generation(&window));
 }
 
 #[test]

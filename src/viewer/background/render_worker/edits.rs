@@ -21,12 +21,13 @@ pub struct EditedDescription {
 }
 
 impl RenderWorkerHandle {
-    /// Requests a changed scene. The request holds the scene before the edit. If only texts changed, the image continues;
+    /// Requests a changed scene. The request holds the scene before the edit. If only texts changed, or nothing, the image continues;
     /// the image of an earlier scene comes back with its samples. Until there is a result, nothing else is requested.
     pub fn edit(&mut self, request: RenderRequest, edited: EditedDescription, now: f64) {
         let EditedDescription { description, folder, differs_in_texts, earlier } = edited;
         let generation = self.generation;
-        let continues = differs_in_texts && !self.restarts && self.request.as_ref() == Some(&request);
+        let has_same_image = differs_in_texts || earlier.as_ref().is_some_and(|earlier| earlier.has_same_image(&request.scene));
+        let continues = has_same_image && !self.restarts && self.request.as_ref() == Some(&request);
         if !continues {
             self.generation = self.next(now);
         }
