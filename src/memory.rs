@@ -95,6 +95,11 @@ impl Reservation {
         }
     }
 
+    /// The bytes that are reserved.
+    pub fn bytes(&self) -> u64 {
+        self.bytes
+    }
+
     /// Takes over the bytes of another reservation.
     pub fn absorb(&mut self, mut other: Reservation) {
         self.bytes += std::mem::take(&mut other.bytes);

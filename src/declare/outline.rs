@@ -55,6 +55,8 @@ pub struct Choice {
 pub struct Alternative {
     /// Its name in scene files.
     pub name: &'static str,
+    /// Its title in the window; may be empty.
+    pub title: &'static str,
     /// Its parameters, at the level of the choice.
     pub outline: Outline,
 }

@@ -55,7 +55,7 @@ impl dyn Parameters + '_ {
         let reads = self.reads_outlines();
         let seen = |alternative: &mut T| {
             let outline = if reads { outline(|p| alternative.chosen(p)) } else { Outline::new() };
-            Alternative { name: alternative.name(), outline }
+            Alternative { name: alternative.name(), title: alternative.about().title, outline }
         };
         let choice = Choice { what: T::WHAT, alternatives: alternatives.iter_mut().map(seen).collect() };
         if self.sees_all() {

@@ -4,7 +4,7 @@ use glam::{DAffine3, DVec3};
 use super::{Document, Edit, tree::Tree};
 use crate::{
     declare::{OwnedValue, Path},
-    shape::{PointMap, Transform, product},
+    shape::{PointMap, Transform, product, tidied},
 };
 
 /// Largest difference of two unit axes that count as the same.
@@ -43,8 +43,10 @@ impl Document {
             return Some(list(&described.transform, &at.key("transform"), change, &map, ROUNDING * pivot.length()));
         }
         let at = at.key(described.kind.name());
-        let points = described.kind.kind().moved(&map).into_iter();
-        Some(Edit::All(points.map(|(key, point)| Edit::set(at.key(key), OwnedValue::Vector(point))).collect()))
+        let kind = described.kind.kind();
+        let points = kind.moved(&DAffine3::IDENTITY).into_iter().zip(kind.moved(&map));
+        let set = |((key, before), (_, after))| Edit::set(at.key(key), OwnedValue::Vector(tidied(before, after)));
+        Some(Edit::All(points.map(set).collect()))
     }
 }
 
@@ -66,7 +68,8 @@ fn list(transforms: &[Transform], at: &Path, change: &Transform, map: &DAffine3,
             }
         }
     }
-    let moved = map.transform_point3(translation.unwrap_or(DVec3::ZERO));
+    let start = translation.unwrap_or(DVec3::ZERO);
+    let moved = tidied(start, map.transform_point3(start));
     match translation {
         Some(_) => edits.push(Edit::set(at.item(count).key("translate"), OwnedValue::Vector(moved))),
         None if moved.length() > rounding => {
@@ -80,11 +83,12 @@ fn list(transforms: &[Transform], at: &Path, change: &Transform, map: &DAffine3,
 /// The value of one transform that equals two in succession.
 fn combined(first: &Transform, then: &Transform) -> Option<(&'static str, OwnedValue)> {
     match (first, then) {
-        (Transform::Scale(first), Transform::Scale(then)) => Some(("scale", OwnedValue::Vector(*first * *then))),
+        (Transform::Scale(first), Transform::Scale(then)) => Some(("scale", OwnedValue::Vector(tidied(*first, *first * *then)))),
         (Transform::Rotate(first), Transform::Rotate(then)) => {
             let axes = [first.axis.try_normalize()?, then.axis.try_normalize()?];
             let is_same = axes[0].distance(axes[1]) < SAME_AXIS;
-            is_same.then_some(("rotate.degrees", OwnedValue::Number(first.degrees + then.degrees)))
+            let sum = tidied(DVec3::splat(first.degrees), DVec3::splat(first.degrees + then.degrees)).x;
+            is_same.then_some(("rotate.degrees", OwnedValue::Number(sum)))
         }
         _ => None,
     }

@@ -25,7 +25,8 @@ pub struct SceneEdit {
     pub before: Arc<Scene>,
     /// Precision of the compile.
     pub precision: Precision,
-    /// Whether the scene differs from `before` in texts only: see [`SceneDescription::differs_in_texts`]. Its image then continues.
+    /// Whether the scene differs from `before` in texts at most: see [`SceneDescription::differs_in_texts`]. Its image is then that of
+    /// `before`, which continues.
     pub keeps_image: bool,
     /// The camera, which need not be the scene's.
     pub camera: Camera,
@@ -84,10 +85,11 @@ impl SceneEdits {
         self.waiting = edit;
     }
 
-    /// Compiles the edit that waits. Returns the request of its image, and a message for [`SceneEdits::tell`].
-    pub fn compile(&mut self, threads: &Threads) -> Option<(Option<RenderRequest>, EditResult)> {
+    /// Compiles the edit that waits. If that fails and `frees` has freed memory, tries again. Returns the request of its image, and a
+    /// message for [`SceneEdits::tell`].
+    pub fn compile(&mut self, threads: &Threads, frees: impl FnOnce() -> bool) -> Option<(Option<RenderRequest>, EditResult)> {
         let (generation, edit) = self.waiting.take()?;
-        let scene = edit.compile(threads);
+        let scene = edit.compile(threads).or_else(|error| if frees() { edit.compile(threads) } else { Err(error) });
         let SceneEdit { camera, settings, .. } = *edit;
         let request = scene.as_ref().ok().map(|scene| RenderRequest { scene: scene.clone(), camera, settings });
         Some((request, EditResult { generation, scene }))

@@ -127,6 +127,8 @@ pub struct Scene {
     pub deepest_media: usize,
     /// Shared by scenes that have the same image: see [`Scene::has_same_image`].
     pub identity: Arc<()>,
+    /// Shared by a scene and those that were rebuilt from it: see [`Scene::is_of_same_file`].
+    pub lineage: Arc<()>,
     /// See [`Scene::warnings`].
     pub warned: OnceLock<Vec<String>>,
     /// The parts that the compile made, and those that it reused from another scene.

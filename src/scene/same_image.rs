@@ -38,6 +38,11 @@ impl Scene {
         Arc::ptr_eq(&self.identity, &other.identity)
     }
 
+    /// Whether both scenes are edits of the same scene, or one is an edit of the other.
+    pub fn is_of_same_file(&self, other: &Scene) -> bool {
+        Arc::ptr_eq(&self.lineage, &other.lineage)
+    }
+
     /// Takes over the identity of the scene that this one was rebuilt from. Their descriptions differ in texts at most. If a file that
     /// the scene names has changed, parts were made anew, and the scene keeps an identity of its own.
     pub fn keep_image(&mut self, before: &Scene) {
@@ -106,6 +111,7 @@ mod tests {
         assert!(after.has_same_image(&before) && after.title == "Room" && after.sharing_pays.get() == Some(&true));
         write(16);
         assert!(!renamed().has_same_image(&before));
+        assert!(after.is_of_same_file(&before) && !built_in().is_of_same_file(&before));
         assert!(!built_in().has_same_image(&built_in()), "another compile is not compared");
     }
 }

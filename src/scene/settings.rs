@@ -67,36 +67,54 @@ crate::declare::words! {
     }
 }
 
+impl RenderSettings {
+    /// How direct light is estimated, as files and the window name it.
+    pub const ESTIMATOR: Parameter =
+        Parameter::new("estimator", "How direct light is estimated. All estimators converge to the same image.")
+            .aliases("integrator method nee");
+    /// How directions are sampled, as files and the window name it.
+    pub const DIRECTIONS: Parameter = Parameter::new("directions", "How directions are sampled at diffuse surfaces.")
+        .symbol("p(ω)")
+        .aliases("sampling importance_sampling distribution");
+    /// The sequence of random numbers, as files and the window name it.
+    pub const SAMPLER: Parameter = Parameter::new("sampler", "How the samples of a pixel are distributed.");
+    /// The highest number of bounces, as files and the window name it.
+    pub const MAX_BOUNCES: Parameter =
+        Parameter::new("max_bounces", "Highest number of bounces. A cap makes the image too dark. Default: no cap.")
+            .title("Bounce cap")
+            .symbol("k")
+            .aliases("depth max_depth bounces max_bounce maxdepth")
+            .advice("leave it out for no cap");
+    /// How paths end, as files and the window name it.
+    pub const ROULETTE: Parameter =
+        Parameter::new("roulette", "Ends paths at random and weights the survivors, so that the mean does not change.")
+            .aliases("russian_roulette rr");
+    /// Whether pixels share path suffixes, as files and the window name it.
+    pub const REUSE: Parameter =
+        Parameter::new("reuse", "Whether neighbouring pixels share path suffixes (Bekaert, Sbert and Halton 2002).")
+            .title("Share paths")
+            .aliases("sharing share");
+    /// Whether noisier pixels get more samples, as files and the window name it.
+    pub const ADAPTIVE: Parameter = Parameter::new("adaptive", "Whether noisier pixels get more samples.");
+    /// The seed, as files and the window name it.
+    pub const SEED: Parameter = Parameter::new("seed", "Random seed of the samples.");
+}
+
 impl Declare for RenderSettings {
     fn parameters(&mut self, p: &mut dyn Parameters) {
-        const ESTIMATOR: Parameter =
-            Parameter::new("estimator", "How direct light is estimated. All estimators converge to the same image.")
-                .aliases("integrator method nee");
-        const DIRECTIONS: Parameter = Parameter::new("directions", "How directions are sampled at diffuse surfaces.")
-            .symbol("p(ω)")
-            .aliases("sampling importance_sampling distribution");
-        const SAMPLER: Parameter = Parameter::new("sampler", "How the samples of a pixel are distributed.");
-        const MAX_BOUNCES: Parameter =
-            Parameter::new("max_bounces", "Highest number of bounces. A cap makes the image too dark. Default: no cap.")
-                .symbol("k")
-                .aliases("depth max_depth bounces max_bounce maxdepth")
-                .advice("leave it out for no cap");
-        const ROULETTE: Parameter =
-            Parameter::new("roulette", "Ends paths at random and weights the survivors, so that the mean does not change.")
-                .aliases("russian_roulette rr");
-        const REUSE: Parameter =
-            Parameter::new("reuse", "Whether neighbouring pixels share path suffixes (Bekaert, Sbert and Halton 2002).")
-                .aliases("sharing share");
-        const ADAPTIVE: Parameter = Parameter::new("adaptive", "Whether noisier pixels get more samples.");
-        const SEED: Parameter = Parameter::new("seed", "Random seed of the samples.");
-        p.word(&ESTIMATOR, &mut self.estimator);
-        p.word(&DIRECTIONS, &mut self.directions);
-        p.word(&SAMPLER, &mut self.sampler);
-        p.optional(&MAX_BOUNCES, &mut self.max_bounces, || Self::FIRST_CAP, |p, cap| p.count(&MAX_BOUNCES, cap, CountRange::ANY));
-        p.optional_choice(&ROULETTE, Form::NameOrTable, &mut self.roulette);
-        p.word(&REUSE, &mut self.reuse);
-        p.flag(&ADAPTIVE, &mut self.adaptive);
-        p.count(&SEED, &mut self.seed, CountRange::ANY);
+        p.word(&Self::ESTIMATOR, &mut self.estimator);
+        p.word(&Self::DIRECTIONS, &mut self.directions);
+        p.word(&Self::SAMPLER, &mut self.sampler);
+        p.optional(
+            &Self::MAX_BOUNCES,
+            &mut self.max_bounces,
+            || Self::FIRST_CAP,
+            |p, cap| p.count(&Self::MAX_BOUNCES, cap, CountRange::ANY),
+        );
+        p.optional_choice(&Self::ROULETTE, Form::NameOrTable, &mut self.roulette);
+        p.word(&Self::REUSE, &mut self.reuse);
+        p.flag(&Self::ADAPTIVE, &mut self.adaptive);
+        p.count(&Self::SEED, &mut self.seed, CountRange::ANY);
     }
 }
 

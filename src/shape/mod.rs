@@ -22,7 +22,7 @@ pub use self::{
     bounds::Bounds,
     mesh::Mesh,
     placement::Placement,
-    point_map::{Changes, PointMap},
+    point_map::{Changes, PointMap, tidied},
     sphere::Sphere,
     transform::{Rotation, Transform, motion, product},
 };

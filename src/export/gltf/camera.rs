@@ -6,10 +6,7 @@ use super::{
     super::geometry::upwards,
     context::{Export, table},
 };
-use crate::{
-    import::gltf::resolution,
-    scene::{Projection, description::CameraDescription},
-};
+use crate::scene::{Projection, description::CameraDescription};
 
 /// Distances between which other programs see things, metres.
 const NEAR: f64 = 1e-3;
@@ -46,13 +43,6 @@ impl Export<'_> {
         }
         if !camera.motion.is_empty() || camera.shutter.is_some() {
             self.remark("the shutter and `motion`", "the image at time 0", "what moves is sharp");
-        }
-        if camera.resolution != resolution(aspect(camera)) {
-            self.remark(
-                format!("`resolution` {:?}", camera.resolution),
-                "its aspect",
-                "the program chooses the number of pixels",
-            );
         }
         if camera.filter != CameraDescription::default().filter {
             self.remark("`filter`", "nothing", "the program chooses the filter");

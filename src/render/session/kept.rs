@@ -8,8 +8,13 @@ use crate::{
     scene::Scene,
 };
 
-/// Memory of all films that are kept, in bytes: four of 1920 × 1080 pixels.
+/// Memory of all films that are kept, in bytes: four of 1920 × 1080 pixels. Scenes before an edit count too.
 const MOST_BYTES: u64 = 512 << 20;
+/// Most scenes before an edit whose images are kept.
+const MOST_SCENES: usize = 8;
+/// Samples per pixel from which an image is kept when its scene is edited. While something is dragged, each step has fewer, and its
+/// film is used for the next one.
+const LEAST_SPP: u32 = 4;
 
 /// Sessions to go back to, within a budget of memory.
 pub(in crate::render) struct KeptSessions {
@@ -17,6 +22,8 @@ pub(in crate::render) struct KeptSessions {
     most_bytes: u64,
     /// The number of sessions so far.
     count: u64,
+    /// Identity of the scene that is rendered, once it is known.
+    current: Option<Arc<()>>,
 }
 
 struct Kept {
@@ -34,18 +41,24 @@ impl Default for KeptSessions {
 
 impl KeptSessions {
     pub fn within(most_bytes: u64) -> KeptSessions {
-        KeptSessions { kept: Vec::new(), most_bytes, count: 0 }
+        KeptSessions { kept: Vec::new(), most_bytes, count: 0, current: None }
     }
 
     /// Keeps a session, or returns its film for another one to use.
     pub fn keep(&mut self, mut session: Session) -> Option<Film> {
         let bytes = Film::kept_bytes(session.request.camera.resolution);
-        if !session.is_worth_keeping() || bytes > self.most_bytes {
+        let scene = &session.request.scene;
+        let of_scene = if is_current(&self.current, scene) { 0 } else { scene.memory.bytes() };
+        if !session.is_worth_keeping() || bytes + of_scene > self.most_bytes {
             return Some(session.into_film());
         }
         // Its frames, half images and saved images are not kept.
         (session.memory, session.halves) = ([None, None], None);
-        while self.bytes() + bytes > self.most_bytes {
+        let is_full = |kept: &KeptSessions| {
+            let scenes = kept.scenes(Some(&session)).len();
+            kept.bytes() + bytes + kept.bytes_of_scenes(Some(&session)) > kept.most_bytes || scenes > MOST_SCENES
+        };
+        while !self.kept.is_empty() && is_full(self) {
             self.drop_one();
         }
         let memory = self.reserve(|| Film::reserve_kept(session.request.camera.resolution));
@@ -55,15 +68,47 @@ impl KeptSessions {
         None
     }
 
-    /// The session of a request, if it is kept.
+    /// The session of a request, if it is kept. It continues with the scene of the request.
     pub fn take(&mut self, request: &RenderRequest) -> Option<Session> {
         let at = self.kept.iter().position(|kept| kept.session.is_of(request))?;
-        Some(self.kept.remove(at).session)
+        let mut session = self.kept.remove(at).session;
+        session.set_scene(request.scene.clone());
+        Some(session)
     }
 
-    /// Drops the sessions of other scenes.
+    /// Renders a scene from now on. Drops the sessions of others, but keeps those from before an edit of this one, within the budget.
     pub fn retain_scene(&mut self, scene: &Arc<Scene>) {
-        self.kept.retain(|kept| kept.session.request.scene.has_same_image(scene));
+        self.kept.retain(|kept| kept.session.request.scene.is_of_same_file(scene));
+        self.current = Some(scene.identity.clone());
+        while self.bytes() + self.bytes_of_scenes(None) > self.most_bytes && !self.kept.is_empty() {
+            self.drop_one();
+        }
+    }
+
+    /// Drops the sessions of scenes before an edit. Returns whether there were any.
+    pub fn drop_other_scenes(&mut self) -> bool {
+        let before = self.kept.len();
+        let current = self.current.clone();
+        self.kept.retain(|kept| is_current(&current, &kept.session.request.scene));
+        self.kept.len() < before
+    }
+
+    /// The scenes of the kept sessions and of one more, without the current one.
+    fn scenes<'s>(&'s self, more: Option<&'s Session>) -> Vec<&'s Arc<Scene>> {
+        let sessions = self.kept.iter().map(|kept| &kept.session).chain(more);
+        let mut scenes: Vec<&Arc<Scene>> = Vec::new();
+        for scene in sessions.map(|session| &session.request.scene) {
+            let is_known = scenes.iter().any(|known| known.has_same_image(scene));
+            if !is_known && !is_current(&self.current, scene) {
+                scenes.push(scene);
+            }
+        }
+        scenes
+    }
+
+    /// Memory of these scenes, in bytes. They may share parts, so that it is at most this.
+    fn bytes_of_scenes(&self, more: Option<&Session>) -> u64 {
+        self.scenes(more).iter().map(|scene| scene.memory.bytes()).sum()
     }
 
     /// Makes a reservation. Drops sessions until there is memory for it.
@@ -90,7 +135,16 @@ impl KeptSessions {
     }
 }
 
+fn is_current(current: &Option<Arc<()>>, scene: &Scene) -> bool {
+    current.as_ref().is_none_or(|current| Arc::ptr_eq(&scene.identity, current))
+}
+
 impl Session {
+    /// Whether the image is worth keeping when the scene is edited.
+    pub fn outlasts_edit(&self) -> bool {
+        self.film.spp() >= LEAST_SPP
+    }
+
     /// Whether this is the image of a request. A series is not, because it has another film.
     pub fn is_of(&self, request: &RenderRequest) -> bool {
         let RenderRequest { scene, camera, settings } = &self.request;

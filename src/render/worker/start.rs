@@ -11,7 +11,8 @@ use crate::render::{
 impl Worker {
     /// Compiles the edit that waits, if any, and starts its image.
     pub(super) fn compile_edit(&mut self, notify: &dyn Fn()) {
-        let Some((request, result)) = self.edits.compile(&self.threads) else { return };
+        let kept = &mut self.kept;
+        let Some((request, result)) = self.edits.compile(&self.threads, || kept.drop_other_scenes()) else { return };
         if let Some(request) = request
             && !self.follows(&request)
         {
@@ -37,8 +38,9 @@ impl Worker {
         self.kept.retain_scene(&request.scene);
         let old = self.sessions[side].take();
         let starts_over = old.as_ref().is_some_and(|old| old.is_of(request));
-        let is_same_scene = old.as_ref().is_some_and(is_of_scene);
-        let film = old.and_then(|old| if starts_over || !is_same_scene { Some(old.into_film()) } else { self.kept.keep(old) });
+        let is_earlier = |old: &Session| old.request().scene.is_of_same_file(&request.scene) && old.outlasts_edit();
+        let is_kept = !starts_over && old.as_ref().is_some_and(|old| is_of_scene(old) || is_earlier(old));
+        let film = old.and_then(|old| if is_kept { self.kept.keep(old) } else { Some(old.into_film()) });
         let earlier = if starts_over { None } else { self.earlier(side, &task) };
         if earlier.is_none() {
             self.make_room(&task);

@@ -23,6 +23,13 @@ fn request(scene: &Arc<Scene>, side: u32) -> RenderRequest {
     RenderRequest { camera, settings: scene.settings, scene: scene.clone() }
 }
 
+/// Renders an image until its target is reached.
+fn finish(worker: &mut Worker, side: usize) {
+    while worker.sessions[side].as_ref().is_some_and(|session| session.state(&worker.budget) == State::Running) {
+        advance(worker, side);
+    }
+}
+
 fn advance(worker: &mut Worker, side: usize) {
     let session = worker.sessions[side].as_mut().expect("it is there");
     session.advance(&worker.threads, &worker.budget, worker.publish, &|| false);
@@ -124,18 +131,20 @@ fn sides_that_are_swapped_keep_their_samples() {
 }
 
 #[test]
-fn an_edit_drops_the_images_of_the_scene_before() {
+fn an_edit_keeps_the_images_of_the_scene_before_and_another_file_drops_them() {
     let scene = Arc::new(built_in());
     let mut worker = worker(Publish::Sparse);
     let of = |seed| {
         let request = request(&scene, 32);
         RenderTask::Picture(RenderRequest { settings: RenderSettings { seed, ..request.settings }, ..request })
     };
-    worker.budget = Budget { max_spp: Some(2), ..Budget::default() };
+    worker.budget = Budget { max_spp: Some(4), ..Budget::default() };
     for (generation, side, seed) in [(1, 0, 1), (2, 0, 2), (3, 1, 3)] {
         worker.start(side, generation, of(seed));
-        advance(&mut worker, side);
+        finish(&mut worker, side);
     }
+    let [second, third] = samples(&worker);
+    assert!(second > Some(0) && third > Some(0));
     let mut description = SceneDescription::default();
     description.add_object("ball", Sphere::default());
     let RenderRequest { camera, settings, .. } = request(&scene, 32);
@@ -148,10 +157,45 @@ fn an_edit_drops_the_images_of_the_scene_before() {
     assert_eq!((first.generation(), Arc::ptr_eq(&first.request().scene, &scene)), (4, false));
     // The second image is still of the scene before.
     worker.take(Message::StopSecond);
-    for (generation, seed) in [(5, 1), (6, 3)] {
+    for (generation, seed, kept) in [(5, 2, second), (6, 3, third)] {
         worker.start(0, generation, of(seed));
-        assert_eq!(samples(&worker), [Some(0), None], "seed {seed}");
+        assert_eq!(samples(&worker), [kept, None], "seed {seed}");
     }
+    let other = RenderRequest { scene: Arc::new(built_in()), ..request(&scene, 32) };
+    worker.start(0, 7, RenderTask::Picture(other));
+    worker.start(0, 8, of(1));
+    assert_eq!(samples(&worker), [Some(0), None], "another file was opened in between");
+}
+
+#[test]
+fn an_edit_that_is_taken_back_continues_the_image_of_the_scene_before() {
+    let mut description = SceneDescription::default();
+    description.add_object("ball", Sphere::default());
+    let first = Arc::new(description.clone());
+    let scene = Arc::new(first.build("".as_ref()).expect("it is valid"));
+    let mut worker = worker(Publish::Sparse);
+    worker.budget = Budget { max_spp: Some(4), ..Budget::default() };
+    worker.start(0, 1, RenderTask::Picture(request(&scene, 32)));
+    finish(&mut worker, 0);
+    let before = samples(&worker);
+    description.add_object("another", Sphere::default());
+    let RenderRequest { camera, settings, .. } = request(&scene, 32);
+    let mut edit = |description: &Arc<SceneDescription>, before: &Arc<Scene>, keeps_image: bool, generation: u64| {
+        let (description, before, folder, precision) =
+            (description.clone(), before.clone(), PathBuf::new(), Precision::Interactive);
+        let edit = SceneEdit { description, folder, before, precision, keeps_image, camera, settings };
+        worker.take(Message::Edit(generation, Box::new(edit)));
+        worker.compile_edit(&|| ());
+        let first = worker.sessions[0].as_ref().expect("it is there");
+        assert_eq!(first.generation(), generation);
+        (samples(&worker), first.request().scene.clone())
+    };
+    let (edited, second) = edit(&Arc::new(description), &scene, false, 2);
+    assert_eq!(edited, [Some(0), None]);
+    assert!(!second.has_same_image(&scene));
+    let (taken_back, third) = edit(&first, &scene, true, 3);
+    assert_eq!(taken_back, before);
+    assert!(third.has_same_image(&scene));
 }
 
 #[test]

@@ -166,6 +166,7 @@ impl Parts {
             truth,
             deepest_media: 0,
             identity: Arc::new(()),
+            lineage: before.map(|before| before.scene.lineage.clone()).unwrap_or_default(),
             warned: OnceLock::new(),
             compiled: CompileReport { parts: report, took: Duration::ZERO },
             memo,

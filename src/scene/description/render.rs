@@ -16,6 +16,12 @@ pub struct RenderDescription {
 }
 
 impl RenderDescription {
+    /// The target of the render, as files and the window name it.
+    pub const SPP: Parameter = Parameter::new("spp", "Samples per pixel at which the render stops. Default: no limit.")
+        .title("Stop at")
+        .symbol("N")
+        .aliases("samples samples_per_pixel sample_count num_samples n");
+
     /// Whether the renders are the same, with the same target. Their displays may differ.
     pub fn renders_like(&self, other: &RenderDescription) -> bool {
         (self.settings, self.spp) == (other.settings, other.spp)
@@ -24,9 +30,6 @@ impl RenderDescription {
 
 impl Declare for RenderDescription {
     fn parameters(&mut self, p: &mut dyn Parameters) {
-        const SPP: Parameter = Parameter::new("spp", "Samples per pixel at which the render stops. Default: no limit.")
-            .symbol("N")
-            .aliases("samples samples_per_pixel sample_count num_samples n");
         const EXPOSURE: Parameter = Parameter::new(
             "exposure",
             "Exposure of the displayed image. One stop doubles the brightness; samples do not change.",
@@ -34,7 +37,7 @@ impl Declare for RenderDescription {
         .unit("stops")
         .aliases("ev");
         self.settings.parameters(p);
-        p.optional(&SPP, &mut self.spp, || 64, |p, spp| p.count(&SPP, spp, CountRange::new(1, u32::MAX)));
+        p.optional(&Self::SPP, &mut self.spp, || 64, |p, spp| p.count(&Self::SPP, spp, CountRange::new(1, u32::MAX)));
         p.single(&EXPOSURE, &mut self.exposure, Range::linear(-100.0, 100.0));
     }
 }

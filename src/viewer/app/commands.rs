@@ -1,5 +1,5 @@
 //! Commands of the toolbar and of single keys.
-use egui::{Context, InputState, Key, KeyboardShortcut, Modifiers, Ui, ViewportCommand};
+use egui::{Context, InputState, Key, KeyboardShortcut, Modifiers, Popup, Ui, ViewportCommand};
 
 use super::state::App;
 use crate::viewer::background::catalogue::SceneRequest;
@@ -169,6 +169,10 @@ impl App {
 
     /// Closes what lies over the picture: of several things all dialogs first, then messages, then the selection, then the region.
     fn escape(&mut self) {
+        // A menu, a list or a colour picker closes itself, and nothing else.
+        if Popup::is_any_open(&self.ctx) {
+            return;
+        }
         // The field of a path belongs to its dialog.
         let dialogs = &mut self.dialogs;
         if dialogs.open.take().is_some() || dialogs.save.take().is_some() || dialogs.file.take().is_some() {

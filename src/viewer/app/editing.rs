@@ -23,7 +23,9 @@ impl App {
         self.outside.diagnosis = None;
         self.session.submitted_edit = Some(description.clone());
         let differs_in_texts = description.differs_in_texts(&opened.description);
-        self.background.worker.edit(request, EditedDescription { description, folder, differs_in_texts }, now);
+        // A drag has no way back to an earlier scene, and no time to look for one.
+        let earlier = if self.is_dragging() { None } else { self.session.earlier.of(&description) };
+        self.background.worker.edit(request, EditedDescription { description, folder, differs_in_texts, earlier }, now);
     }
 
     /// Receives the edited scene from the worker, and the exact one from the settler.
@@ -44,6 +46,7 @@ impl App {
         {
             opened.warnings = settled.warnings;
             if !Arc::ptr_eq(&opened.scene, &settled.scene) {
+                self.session.earlier.note(&opened.description, &settled.scene);
                 opened.change(settled.scene);
             }
         }
@@ -69,6 +72,7 @@ impl App {
         if description.render.spp != before.render.spp {
             session.budget.max_spp = scene.spp;
         }
+        session.earlier.note(&description, &scene);
         opened.description = description.clone();
         let folder = opened.folder();
         self.background.settler.note(EditedScene { scene: scene.clone(), description: description.clone(), folder });

@@ -1,5 +1,5 @@
 //! Joins the outliner and the inspector with the document.
-use egui::{RichText, Ui};
+use egui::{RichText, ScrollArea, Ui};
 use noisefall::{
     declare::{Declare, Path},
     edit::Edit,
@@ -16,7 +16,7 @@ use crate::viewer::panels::{
     objects, scene_commands,
     scene_commands::SceneCommand,
 };
-use crate::viewer::widgets::style::section;
+use crate::viewer::widgets::split;
 
 impl App {
     /// The panel of the scene's parts, with the parameters of the selected one.
@@ -24,7 +24,8 @@ impl App {
         let Some(editor) = &mut self.editor else { return };
         let description = editor.document.description();
         let (mut asked, mut command) = (Default::default(), None);
-        section(ui, "Parts", |ui| {
+        split::show(ui, |ui| {
+            ui.label(RichText::new("Parts").strong());
             command = scene_commands::show(ui);
             asked = editor.outliner.show(ui, description, editor.revision, self.selection.subject.as_ref());
         });
@@ -41,7 +42,7 @@ impl App {
             Some(SceneCommand::SaveAs) => self.ask_where_to_save(),
             None => {}
         }
-        self.inspector(ui);
+        ScrollArea::vertical().id_salt("parameters").auto_shrink(false).show(ui, |ui| self.inspector(ui));
     }
 
     /// Gives the scene the camera and the settings of the window.
@@ -56,19 +57,16 @@ impl App {
     fn inspector(&mut self, ui: &mut Ui) {
         let (Some(editor), Some(opened)) = (&mut self.editor, &self.session.opened) else { return };
         let Some(subject) = &self.selection.subject else {
-            ui.separator();
             ui.weak("Click an object in the image or a part in the list to change it.");
             return;
         };
         let Some(mut part) = subject.of(editor.document.description()) else { return };
         let (path, size, object) = (subject.path(), opened.scene.size, self.selection.object());
-        let mut asked = Asked::default();
-        section(ui, "Parameters", |ui| {
-            if let Some(object) = object {
-                objects::show(ui, &opened.scene, opened.scene.objects_of(object));
-            }
-            asked = inspected(editor, ui, &mut *part, &path, size);
-        });
+        ui.label(RichText::new("Parameters").strong());
+        if let Some(object) = object {
+            objects::show(ui, &opened.scene, opened.scene.objects_of(object));
+        }
+        let asked = inspected(editor, ui, &mut *part, &path, size);
         self.follow_inspector(asked);
     }
 

@@ -2,7 +2,7 @@
 #[cfg(test)]
 mod tests;
 
-use std::collections::VecDeque;
+use std::{collections::VecDeque, time::Duration};
 
 use noisefall::{
     render::view::DisplaySettings,
@@ -23,6 +23,18 @@ pub struct Controls {
     pub settings: RenderSettings,
     pub comparison: Option<Comparison>,
     pub look: DisplaySettings,
+    pub stop: StopTarget,
+}
+
+/// When the render stops.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct StopTarget {
+    /// Samples per pixel.
+    pub spp: Option<u32>,
+    /// Render time.
+    pub time: Option<Duration>,
+    /// Relative noise.
+    pub noise: Option<f64>,
 }
 
 /// One undoable step.
@@ -33,6 +45,9 @@ pub enum Step {
     /// The scene was edited. The editor of the scene knows how.
     Edit { title: String },
 }
+
+/// Whether each part of the controls differs: camera, settings, comparison, view, stop target.
+type Parts = [bool; 5];
 
 /// The controls before and after a step.
 #[derive(Clone, Debug, PartialEq)]
@@ -69,7 +84,7 @@ pub struct History {
     /// The controls of the last frame.
     last: Option<Controls>,
     /// The gesture of the last step and what it changes, while it can go on.
-    open: Option<(Gesture, [bool; 4])>,
+    open: Option<(Gesture, Parts)>,
 }
 
 impl Controls {
@@ -79,13 +94,14 @@ impl Controls {
         same == *self
     }
 
-    /// The parts that differ: camera, settings, comparison, view.
-    fn differing(&self, other: &Controls) -> [bool; 4] {
+    /// The parts that differ.
+    fn differing(&self, other: &Controls) -> Parts {
         [
             self.camera != other.camera,
             self.settings != other.settings,
             self.comparison != other.comparison,
             self.look != other.look,
+            self.stop != other.stop,
         ]
     }
 }
@@ -99,9 +115,10 @@ impl Step {
         };
         match change.before.differing(&change.after) {
             [true, ..] => "camera",
-            [_, _, true, _] => "comparison",
+            [_, _, true, ..] => "comparison",
             [_, true, ..] => "settings",
-            _ => "view",
+            [.., true, _] => "view",
+            _ => "stop target",
         }
     }
 }
@@ -196,8 +213,8 @@ impl History {
 
 impl Gesture {
     /// Whether a change belongs to the gesture of the one before.
-    fn goes_on(&self, now: Gesture, parts: [bool; 4]) -> bool {
-        let is_camera = parts == [true, false, false, false];
+    fn goes_on(&self, now: Gesture, parts: Parts) -> bool {
+        let is_camera = parts == [true, false, false, false, false];
         self.presses == now.presses && (now.is_held || (is_camera && now.time - self.time <= PAUSE))
     }
 }

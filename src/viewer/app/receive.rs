@@ -6,7 +6,8 @@ use noisefall::{
 
 use super::{file_tasks::OutsideChanges, history::History, scene_editor::SceneEditor, selection::Selection, state::App};
 use crate::viewer::background::{
-    catalogue, display_image::DisplayImage, feature_finder::FeatureFinder, loader::DroppedReference, loader::OpenedScene, recent,
+    catalogue, display_image::DisplayImage, earlier_scenes::EarlierScenes, feature_finder::FeatureFinder,
+    loader::DroppedReference, loader::OpenedScene, recent,
 };
 use crate::viewer::instruments::{convergence::curve::Moment, path::inspector::PathInspector};
 
@@ -107,6 +108,8 @@ impl App {
         self.background.drops.forget();
         self.background.settler.forget();
         (session.waiting_edit, session.submitted_edit) = (None, None);
+        session.earlier = EarlierScenes::default();
+        session.earlier.note(&opened.description, &opened.scene);
         // What was found of the scene before would keep it in memory.
         (self.instruments.path, self.background.features) = (PathInspector::new(&self.ctx), FeatureFinder::new(&self.ctx));
         (results.last_seeing, results.black_reason) = (None, None);

@@ -6,16 +6,17 @@ use glam::DVec3;
 use noisefall::render::RenderRequest;
 
 use super::state::App;
-use crate::viewer::canvas::{framing, picking, picture_area::PictureArea, selection};
+use crate::viewer::canvas::{framing, interaction::Tool, picking, picture_area::PictureArea, selection};
 use crate::viewer::panels::{panel_tabs::PanelTab, subject::Subject};
 
 impl App {
-    /// Selects the object at a pixel of the picture, or nothing.
+    /// Selects the object at a pixel of the picture, or nothing. The tool Picture shows its parameters; with the tool Camera the panel
+    /// stays as it is, because its page may be that of the camera.
     pub fn select_at(&mut self, pixel: [u32; 2]) {
         let object = self.object_at(pixel);
         self.selection.clicked = Some(pixel);
         self.selection.select(object.map(Subject::Object));
-        if object.is_some() {
+        if object.is_some() && self.window.tool == Tool::Picture {
             self.window.panel = PanelTab::Edit;
         }
     }

@@ -6,14 +6,16 @@ use noisefall::{
     scene::{Camera, RenderSettings, built_in, description::SceneDescription},
 };
 
-use super::history::Controls;
-use crate::viewer::background::{loader::DroppedReference, loader::OpenedScene};
+use super::history::{Controls, StopTarget};
+use crate::viewer::background::{earlier_scenes::EarlierScenes, loader::DroppedReference, loader::OpenedScene};
 use crate::viewer::instruments::{bounces::Bounces, compare::comparison::Comparison};
 
 pub struct Session {
     pub opened: Option<OpenedScene>,
     /// An edit of the scene that is not requested yet.
     pub waiting_edit: Option<Arc<SceneDescription>>,
+    /// The scenes before the edits.
+    pub earlier: EarlierScenes,
     /// The edit whose result is awaited.
     pub submitted_edit: Option<Arc<SceneDescription>>,
     pub camera: Camera,
@@ -34,6 +36,7 @@ impl Session {
         Session {
             opened: None,
             waiting_edit: None,
+            earlier: EarlierScenes::default(),
             submitted_edit: None,
             camera: scene.camera,
             settings: scene.settings,
@@ -55,7 +58,9 @@ impl Session {
 
     /// What undo and redo restore.
     pub fn controls(&self) -> Controls {
-        Controls { camera: self.camera, settings: self.settings, comparison: self.comparison, look: self.look }
+        let Budget { max_spp, max_time, noise, .. } = self.budget;
+        let stop = StopTarget { spp: max_spp, time: max_time, noise };
+        Controls { camera: self.camera, settings: self.settings, comparison: self.comparison, look: self.look, stop }
     }
 
     /// The settings that the sampling panel shows and changes.

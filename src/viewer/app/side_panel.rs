@@ -11,20 +11,22 @@ use crate::viewer::panels::{
 };
 use crate::viewer::widgets::{style::section, wording::capitalised};
 
+/// The largest part of the panel's height that the notes of a scene take while it is edited.
+const NOTES: f32 = 0.2;
+
 impl App {
     pub fn side_panel(&mut self, ui: &mut Ui) {
         // The bar has room of its own: it would lie over what is at the right.
         let scroll = &mut ui.spacing_mut().scroll;
         scroll.floating_allocated_width = scroll.bar_width;
+        if self.window.panel == PanelTab::Edit {
+            let height = ui.available_height();
+            self.scene_and_tabs(ui, NOTES * height);
+            // Its parts scroll by themselves.
+            return self.editor_panel(ui);
+        }
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-            ui.add_space(4.0);
-            let request = scene::show(ui, self.session.opened.as_ref(), &self.catalogue);
-            request.into_iter().for_each(|request| self.open_scene(request));
-            ui.add_space(4.0);
-            panel_tabs::show(ui, &mut self.window.panel);
-            if self.window.panel == PanelTab::Edit {
-                return self.editor_panel(ui);
-            }
+            self.scene_and_tabs(ui, f32::INFINITY);
             ui.add_enabled_ui(self.session.opened.is_some(), |ui| {
                 section(ui, "Sampling", |ui| self.sampling_panel(ui));
                 section(ui, "Stop", |ui| stop::show(ui, &mut self.session.budget, self.session.camera.resolution));
@@ -41,6 +43,22 @@ impl App {
                 });
             });
         });
+    }
+
+    /// Shows the scene, its notes in at most this height, and the tabs.
+    fn scene_and_tabs(&mut self, ui: &mut Ui, most_notes: f32) {
+        ui.add_space(4.0);
+        let opened = self.session.opened.as_ref();
+        let request = scene::show(ui, opened, &self.catalogue);
+        if most_notes.is_finite() {
+            let notes = ScrollArea::vertical().id_salt("notes").max_height(most_notes).auto_shrink([false, true]);
+            notes.show(ui, |ui| scene::notes(ui, opened));
+        } else {
+            scene::notes(ui, opened);
+        }
+        request.into_iter().for_each(|request| self.open_scene(request));
+        ui.add_space(4.0);
+        panel_tabs::show(ui, &mut self.window.panel);
     }
 
     pub fn open_scene(&mut self, request: SceneRequest) {

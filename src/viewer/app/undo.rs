@@ -1,8 +1,9 @@
 //! Joins the history with the state of the window.
 use egui::Event;
+use noisefall::render::Budget;
 
 use super::{
-    history::{Controls, Gesture, Restored},
+    history::{Controls, Gesture, Restored, StopTarget},
     state::App,
 };
 
@@ -35,6 +36,8 @@ impl App {
         let session = &mut self.session;
         (session.camera, session.settings) = (controls.camera, controls.settings);
         (session.comparison, session.look) = (controls.comparison, controls.look);
+        let StopTarget { spp, time, noise } = controls.stop;
+        session.budget = Budget { max_spp: spp, max_time: time, noise, ..session.budget };
     }
 
     fn gesture(&mut self) -> Gesture {

@@ -7,6 +7,7 @@ pub mod display_image;
 pub mod display_pipeline;
 pub mod display_request;
 pub mod dropped;
+pub mod earlier_scenes;
 pub mod exposure_meter;
 pub mod feature_finder;
 pub mod file_state;

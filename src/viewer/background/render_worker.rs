@@ -35,7 +35,7 @@ struct PendingEdit {
     /// The generation of the previous image.
     before: u64,
     /// The image continues.
-    keeps_image: bool,
+    continues: bool,
 }
 
 impl RenderWorkerHandle {

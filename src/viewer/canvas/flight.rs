@@ -29,10 +29,11 @@ pub fn moved(
         let delta = response.drag_delta();
         let (x, y) = (f64::from(delta.x), f64::from(delta.y));
         let shift = ui.input(|input| input.modifiers.shift);
-        if response.dragged_by(PointerButton::Secondary) || (shift && response.dragged_by(PointerButton::Primary)) {
+        let turns = response.dragged_by(PointerButton::Primary) || response.dragged_by(PointerButton::Middle);
+        if response.dragged_by(PointerButton::Secondary) || (shift && turns) {
             let width = f64::from(rect.width());
             moved = pan(scene, &moved, [x / width, -y / width]);
-        } else if response.dragged_by(PointerButton::Primary) {
+        } else if turns {
             moved = orbit(scene, &moved, [-x * RADIANS_PER_POINT, y * RADIANS_PER_POINT]);
         }
         // Over a handle of the gizmo too.

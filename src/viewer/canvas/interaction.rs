@@ -111,7 +111,9 @@ fn marked(ui: &egui::Ui, response: &Response, area: &PictureArea, view: &mut Pic
 fn move_picture(ui: &egui::Ui, response: &Response, over: Option<Pos2>, tool: Tool, view: &mut PictureView, area: Rect) {
     let pixels_per_point = ui.ctx().pixels_per_point();
     let moves = matches!(tool, Tool::Picture | Tool::Inspect);
-    if (moves && response.dragged_by(PointerButton::Primary)) || response.dragged_by(PointerButton::Middle) {
+    // With the tool Camera the middle button orbits, as in other programs.
+    let is_middle = tool != Tool::Camera && response.dragged_by(PointerButton::Middle);
+    if (moves && response.dragged_by(PointerButton::Primary)) || is_middle {
         view.pan(response.drag_delta(), pixels_per_point);
     }
     if let Some(pointer) = over {

@@ -8,7 +8,7 @@ const KEYS: [(&str, &[(&str, &str)]); 5] = [
         &[
             ("P", "drag and wheel pan and zoom the image"),
             ("Wheel, drag", "zoom, pan"),
-            ("Ctrl+wheel, middle drag", "the same, with any tool"),
+            ("Ctrl+wheel, middle drag", "the same with any tool; with Camera, middle drag orbits"),
             ("F, double-click", "fit the image to the window"),
             ("1", "one image pixel per screen pixel"),
             ("[  ]", "half a stop darker, brighter"),
@@ -21,8 +21,8 @@ const KEYS: [(&str, &[(&str, &str)]); 5] = [
         "Camera",
         &[
             ("C", "drag and wheel move the camera"),
-            ("Drag", "orbit"),
-            ("Right drag, Shift+drag", "pan"),
+            ("Drag, middle drag", "orbit"),
+            ("Right drag, Shift+drag", "pan, also Shift+middle drag"),
             ("Wheel", "dolly"),
             ("W A S D", "fly forwards, left, back, right"),
             ("Q  E", "fly down, up"),
@@ -48,7 +48,7 @@ const KEYS: [(&str, &[(&str, &str)]); 5] = [
     (
         "Window",
         &[
-            ("Ctrl+Z, Ctrl+Shift+Z", "undo, redo: scene, camera, settings, view"),
+            ("Ctrl+Z, Ctrl+Shift+Z", "undo, redo: scene, camera, settings, stop target, view"),
             ("Ctrl+O", "open a scene"),
             ("Ctrl+S", "save the scene"),
             ("Ctrl+E", "save the image"),

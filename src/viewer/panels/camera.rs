@@ -1,7 +1,7 @@
 //! The panel of the camera's numbers.
 use egui::{Button, RichText};
 use glam::DVec3;
-use noisefall::scene::{Camera, Lens, Scene};
+use noisefall::scene::{Camera, Lens, Scene, description::CameraDescription};
 
 use crate::viewer::widgets::{
     kinds::{kinds, number_rows},
@@ -14,20 +14,22 @@ use crate::viewer::widgets::{
 pub fn show(ui: &mut egui::Ui, camera: &mut Camera, scene: Option<&Scene>) -> bool {
     let speed = scene.map_or(0.01, |scene| scene.size * 0.002);
     controls(ui, "camera", |ui| {
-        row(ui, "Eye", "Position of the camera: x, y (up), z, in metres.", |ui, label| {
+        row(ui, &CameraDescription::EYE.label(), "Position of the camera: x, y (up), z, in metres.", |ui, label| {
             point(ui, label, &mut camera.eye, speed);
         });
-        row(ui, "Look at", "Point in the middle of the image, in metres.", |ui, label| {
+        row(ui, &CameraDescription::LOOK_AT.label(), "Point in the middle of the image, in metres.", |ui, label| {
             point(ui, label, &mut camera.look_at, speed);
         });
-        row(ui, "Up", "Direction that is up in the image.", |ui, label| point(ui, label, &mut camera.up, 0.01));
+        row(ui, &CameraDescription::UP.label(), "Direction that is up in the image.", |ui, label| {
+            point(ui, label, &mut camera.up, 0.01);
+        });
         projection(ui, camera);
         lens(ui, camera, speed);
-        row(ui, "Pixel filter", "Weight of the light around the centre of a pixel.", |ui, _| {
+        row(ui, &CameraDescription::FILTER.label(), "Weight of the light around the centre of a pixel.", |ui, _| {
             ui.horizontal(|ui| kinds(ui, &mut camera.filter));
         });
         number_rows(ui, &mut camera.filter);
-        row(ui, "Resolution", "Width and height of the image in pixels.", |ui, label| {
+        row(ui, &CameraDescription::RESOLUTION.label(), "Width and height of the image in pixels.", |ui, label| {
             ui.horizontal(|ui| {
                 let [width, height] = &mut camera.resolution;
                 let range = 1.0..=f64::from(Camera::MOST_SIDE);
@@ -50,14 +52,14 @@ pub fn show(ui: &mut egui::Ui, camera: &mut Camera, scene: Option<&Scene>) -> bo
 
 fn projection(ui: &mut egui::Ui, camera: &mut Camera) {
     let before = *camera;
-    row(ui, "Projection", "Rays through one point, or parallel rays.", |ui, _| {
+    row(ui, &CameraDescription::PROJECTION.label(), "Rays through one point, or parallel rays.", |ui, _| {
         ui.horizontal(|ui| kinds(ui, &mut camera.projection));
     });
     if camera.projection != before.projection {
         camera.projection = camera.projection.with_width(before.width_at_look_at());
         camera.lens = camera.lens.filter(|_| camera.projection.takes_lens());
     }
-    row(ui, "Field of view", "Full horizontal angle of view.", |ui, label| {
+    row(ui, &CameraDescription::FOV.label(), "Full horizontal angle of view.", |ui, label| {
         let slider = number::slider(ui, &mut camera.fov, 2, 1.0..=170.0).suffix("°");
         ui.add_enabled(camera.projection.has_angle(), slider).labelled_by(label);
     });
@@ -70,14 +72,14 @@ fn lens(ui: &mut egui::Ui, camera: &mut Camera, speed: f64) {
     let mut lens = camera.lens.unwrap_or(Lens { radius: 0.0, focus: distance });
     row(
         ui,
-        "Lens radius",
+        &Lens::RADIUS.label(),
         "Radius in metres. A wide lens blurs what is out of focus; 0 is a pinhole. Orthographic cameras have no lens.",
         |ui, label| {
             let radius = number::field(ui, &mut lens.radius, 4, 0.0..=1e9).speed(0.05 * speed).suffix(" m");
             ui.add_enabled(takes_lens, radius).labelled_by(label);
         },
     );
-    row(ui, "Focus", "Distance of the plane in focus, in metres. A pinhole has none.", |ui, label| {
+    row(ui, &Lens::FOCUS.label(), "Distance of the plane in focus, in metres. A pinhole has none.", |ui, label| {
         ui.add_enabled_ui(takes_lens && lens.radius > 0.0, |ui| {
             ui.horizontal(|ui| {
                 let focus = number::field(ui, &mut lens.focus, 3, 1e-9..=1e12).speed(speed).suffix(" m");

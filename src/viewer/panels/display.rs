@@ -2,13 +2,17 @@
 use egui::{Button, ComboBox, DragValue, Slider, Ui};
 use noisefall::render::{Display, ToneMap, WhiteBalance};
 
-use crate::viewer::widgets::style::{controls, row};
+use crate::viewer::widgets::{
+    explained::Explained,
+    style::{controls, row},
+};
 
 pub fn show(ui: &mut Ui, display: &mut Display) {
     controls(ui, "display", |ui| {
         row(ui, "Exposure", "Exposure in stops. One more doubles the brightness. ([ and ])", |ui, label| {
-            let slider = Slider::new(&mut display.exposure, -20.0..=20.0).step_by(0.1).fixed_decimals(1).suffix(" EV");
-            ui.add(slider).labelled_by(label);
+            let now = display.exposure.into();
+            let slider = Slider::new(&mut display.exposure, -20.0..=20.0).step_by(0.1).fixed_decimals(1);
+            ui.add(Explained::new(slider, now).suffix(" EV")).labelled_by(label);
         });
         white_balance(ui, &mut display.white_balance);
         row(ui, "Tone map", "Maps radiance, which has no upper bound, to display light.", |ui, label| {
@@ -30,11 +34,13 @@ fn white_balance(ui: &mut Ui, balance: &mut WhiteBalance) {
     let doc = "The light that appears white: its colour temperature and its tint. Applied before the tone map.";
     row(ui, "White balance", doc, |ui, label| {
         ui.horizontal(|ui| {
+            let now = balance.kelvin.into();
             let kelvin = DragValue::new(&mut balance.kelvin).range(range(WhiteBalance::KELVIN)).speed(20.0).fixed_decimals(0);
-            let kelvin = ui.add(kelvin.suffix(" K")).labelled_by(label);
+            let kelvin = ui.add(Explained::new(kelvin, now).suffix(" K")).labelled_by(label);
             kelvin.on_hover_text("Colour temperature in kelvin. Lower values make the image bluer.");
+            let now = balance.tint.into();
             let tint = DragValue::new(&mut balance.tint).range(range(WhiteBalance::TINT)).speed(0.5).fixed_decimals(0);
-            let tint = ui.add(tint).labelled_by(label);
+            let tint = ui.add(Explained::new(tint, now)).labelled_by(label);
             tint.on_hover_text("Tint. Shifts the image from green (negative) to magenta (positive).");
             let reset = ui.add_enabled(*balance != WhiteBalance::NEUTRAL, Button::new("Neutral"));
             if reset.on_hover_text("Resets the white balance: colours stay as they are.").clicked() {

@@ -4,6 +4,8 @@ use std::time::Duration;
 use egui::{Align2, RichText};
 use noisefall::scene::CompileReport;
 
+use crate::viewer::widgets::counted::counted;
+
 #[derive(Default)]
 pub struct FrameTimes {
     pub shown: bool,
@@ -65,7 +67,7 @@ impl FrameTimes {
         let egui::Rect { min, .. } = ctx.content_rect();
         egui::Area::new(egui::Id::unique("pace")).anchor(Align2::LEFT_TOP, [min.x + 10.0, min.y + 44.0]).show(ctx, |ui| {
             egui::Frame::popup(ui.style()).show(ui, |ui| {
-                ui.label(RichText::new(format!("The last {} frames of the window", self.layout.ring.len())).strong());
+                ui.label(RichText::new(format!("The last {} of the window", counted(self.layout.ring.len(), "frame"))).strong());
                 for (name, times) in [("layout", &self.layout), ("and drawing", &self.whole)] {
                     let [half, most] = [0.5, 0.99].map(|part| times.quantile(part).as_secs_f64() * 1e3);
                     ui.monospace(format!("{name:<11} p50 {half:6.2} ms   p99 {most:6.2} ms"));

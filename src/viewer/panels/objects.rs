@@ -9,7 +9,7 @@ use noisefall::{
     scene::{Object, Scene},
 };
 
-use crate::viewer::widgets::style::elided;
+use crate::viewer::widgets::{counted::counted, decimals::fixed, style::elided};
 
 /// Together, with what is between them, as wide as the panel.
 const PLACE_WIDTH: f32 = 156.0;
@@ -45,11 +45,12 @@ fn place(object: &Object) -> String {
             let ends = if *capped { "" } else { "open, " };
             format!("{ends}radius {:.4} m, height {:.4} m, ", axes.x_axis.length(), axes.z_axis.length())
         }
-        Shape::Mesh { data, .. } => format!("{} triangles, ", data.triangles.len()),
+        Shape::Mesh { data, .. } => format!("{}, ", counted(data.triangles.len(), "triangle")),
         Shape::Sphere { .. } | Shape::Isosurface { .. } => String::new(),
     };
+    let center = center.to_array().map(|x| fixed(x, 4)).join(", ");
     let moves = if object.motion.0.is_empty() { "" } else { "\nmoves while the shutter is open" };
-    format!("{}: {size}within {radius:.4} m of {center:.4}{moves}", object.shape.name())
+    format!("{}: {size}within {radius:.4} m of [{center}]{moves}", object.shape.name())
 }
 
 /// Kind of material, and whether it is a lamp.
@@ -62,7 +63,7 @@ fn summary(scene: &Scene, object: &Object) -> String {
 fn details(scene: &Scene, object: &Object) -> String {
     let mut lines = Vec::new();
     if let Some(material) = scene.material(object) {
-        lines.push(format!("material `{}`", material.name));
+        lines.push(format!("material “{}”", material.name));
         lines.extend(lines_of(|p| material.material.clone().chosen(p)));
         if material.bump.is_some() {
             lines.push("bump map".to_owned());
@@ -129,7 +130,7 @@ mod tests {
         assert_eq!(kind, "plastic, lamp");
         assert_eq!(
             more,
-            "material `mine`\nalbedo ρ: 0.1 0.2 0.3\nior η: 1.4\nalpha α: 0.25\nemits 1.000 2.000 3.000 W/(sr·m²) on average"
+            "material “mine”\nalbedo ρ: 0.1 0.2 0.3\nior η: 1.4\nalpha α: 0.25\nemits 1.000 2.000 3.000 W/(sr·m²) on average"
         );
         let (kind, more) = of("dielectric = { ior = 1.5, ior_outside = 1.3, transmittance = [0.1, 0.6, 0.4] }", "");
         assert_eq!(kind, "dielectric");
@@ -141,7 +142,7 @@ mod tests {
             "lambertian = { albedo = 0.5 }\nbump = { texture = \"t\", height = 0.1 }",
             "[textures.t]\nchecker = { even = 0.1, odd = 0.5, scale = 4.0 }",
         );
-        assert_eq!(more, "material `mine`\nalbedo ρ: 0.5\nbump map");
+        assert_eq!(more, "material “mine”\nalbedo ρ: 0.5\nbump map");
         let black = scene("[[objects]]\nshape = { sphere = { center = [0.0, 0.0, 0.0], radius = 1.0 } }");
         let object = &black.objects[0];
         assert_eq!((summary(&black, object), details(&black, object)), ("black".to_owned(), "reflects nothing".to_owned()));

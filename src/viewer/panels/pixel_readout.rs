@@ -9,6 +9,7 @@ use noisefall::{
 };
 
 use crate::viewer::background::display_image::PixelValues;
+use crate::viewer::widgets::decimals::{fixed, three};
 
 /// The pixel under the pointer.
 #[derive(Clone, Copy)]
@@ -61,7 +62,7 @@ impl Pixel<'_> {
         let scaled = |at: u32, from: u64, to: u32| (u64::from(at) * u64::from(to) / from) as usize;
         let [x, y] = [scaled(self.at[0], width, features.width), scaled(self.at[1], height, features.height)];
         let index = y * features.width as usize + x;
-        let three = |name: &str, [a, b, c]: [f32; 3]| format!("{name} {a:.3} {b:.3} {c:.3}");
+        let three = |name: &str, numbers: [f32; 3]| format!("{name} {}", three(numbers.map(f64::from), 3));
         Some(match view {
             View::Normals => three("n", *features.normal.get(index)?),
             View::Albedo => three("Albedo RGB", *features.albedo.get(index)?),
@@ -77,7 +78,7 @@ fn number(number: Option<f32>, legend: &Legend) -> String {
     let title = &legend.title;
     let unit = legend.scale.as_ref().map_or("", |scale| scale.unit);
     match number.filter(|number| number.is_finite()) {
-        Some(number) => format!("{title} {number:.4} {unit}"),
+        Some(number) => format!("{title} {} {unit}", fixed(number.into(), 4)),
         None => format!("{title} –"),
     }
 }
@@ -129,7 +130,7 @@ mod tests {
         let features = Arc::new(Features {
             width: 2,
             height: 1,
-            normal: vec![[0.0; 3], [0.0, 0.6, 0.8]],
+            normal: vec![[0.0; 3], [-1e-8, 0.6, -0.8]],
             albedo: vec![[0.0; 3], [0.25, 0.5, 0.75]],
             depth: vec![1.0; 2],
             position: vec![[0.0; 3]; 2],
@@ -140,7 +141,7 @@ mod tests {
         let of = |view| said(&PixelValues { features: Some((view, features.clone())), ..PixelValues::default() }, None);
         assert_eq!(
             [View::Normals, View::Albedo, View::Materials].map(of),
-            ["(1, 0)  n 0.000 0.600 0.800", "(1, 0)  Albedo RGB 0.250 0.500 0.750", "(1, 0)  Material brass"]
+            ["(1, 0)  n 0.000 0.600 -0.800", "(1, 0)  Albedo RGB 0.250 0.500 0.750", "(1, 0)  Material brass"]
         );
     }
 }

@@ -34,21 +34,31 @@ pub fn side_choice(ui: &mut Ui, edits_second: Option<&mut bool>) {
 pub fn show(ui: &mut Ui, settings: &mut RenderSettings, status: &Status, caution: Option<&str>) -> bool {
     controls(ui, "sampling", |ui| {
         presets::show(ui, settings);
-        row(ui, "Estimator", "How direct light is estimated. All converge to the same image; they differ in noise.", |ui, _| {
-            words(ui, &mut settings.estimator);
-        });
+        row(
+            ui,
+            &RenderSettings::ESTIMATOR.label(),
+            "How direct light is estimated. All converge to the same image; they differ in noise.",
+            |ui, _| {
+                words(ui, &mut settings.estimator);
+            },
+        );
         sampler_row(ui, &mut settings.sampler);
-        row(ui, "Directions", "Pdf p(ω_i) of the next direction at diffuse surfaces.", |ui, _| {
+        row(ui, &RenderSettings::DIRECTIONS.label(), "Pdf p(ω_i) of the next direction at diffuse surfaces.", |ui, _| {
             words(ui, &mut settings.directions);
         });
         reuse_row(ui, &mut settings.reuse, status);
-        row(ui, "Adaptive", "Takes more samples where a pilot finds more noise. Not used if pixels share paths.", |ui, label| {
-            drop(ui.checkbox(&mut settings.adaptive, "").labelled_by(label));
-        });
+        row(
+            ui,
+            &RenderSettings::ADAPTIVE.label(),
+            "Takes more samples where a pilot finds more noise. Not used if pixels share paths.",
+            |ui, label| {
+                drop(ui.checkbox(&mut settings.adaptive, "").labelled_by(label));
+            },
+        );
         roulette_rows(ui, &mut settings.roulette, caution);
         row(
             ui,
-            "Bounce cap",
+            &RenderSettings::MAX_BOUNCES.label(),
             "Highest number of bounces n, reflections and refractions alike. A cap cuts the series L_e + T L_e + … after T^n L_e, so the image is biased.",
             |ui, label| {
                 let range = 0.0..=RenderSettings::HIGHEST_CAP.into();
@@ -56,10 +66,15 @@ pub fn show(ui: &mut Ui, settings: &mut RenderSettings, status: &Status, caution
                 number::optional(ui, label, &mut settings.max_bounces, words, RenderSettings::FIRST_CAP, 0, range);
             },
         );
-        row(ui, "Seed", "Seed of the random numbers. Another seed gives different noise with the same mean.", |ui, label| {
-            let field = number::field(ui, &mut settings.seed, 0, 0.0..=u32::MAX.into());
-            ui.add(field).labelled_by(label);
-        });
+        row(
+            ui,
+            &RenderSettings::SEED.label(),
+            "Seed of the random numbers. Another seed gives different noise with the same mean.",
+            |ui, label| {
+                let field = number::field(ui, &mut settings.seed, 0, 0.0..=u32::MAX.into());
+                ui.add(field).labelled_by(label);
+            },
+        );
     });
     ui.add_space(4.0);
     let doc = "Tests estimators, samplers, roulettes and sharing for some seconds, and offers the most efficient settings.";
@@ -68,7 +83,7 @@ pub fn show(ui: &mut Ui, settings: &mut RenderSettings, status: &Status, caution
 
 fn sampler_row(ui: &mut Ui, sampler: &mut Sampler) {
     let doc = "Points of the unit cube for the N samples of a pixel. They decide how fast the noise falls.";
-    row(ui, "Sampler", doc, |ui, label| {
+    row(ui, &RenderSettings::SAMPLER.label(), doc, |ui, label| {
         let combo = ComboBox::from_id_salt("Sampler").selected_text(sampler.word().title).show_ui(ui, |ui| {
             for (value, word) in Sampler::ALL.map(|sampler| (sampler, sampler.word())) {
                 ui.selectable_value(sampler, value, word.title).on_hover_text(word.doc);
@@ -80,7 +95,7 @@ fn sampler_row(ui: &mut Ui, sampler: &mut Sampler) {
 
 fn reuse_row(ui: &mut Ui, reuse: &mut Reuse, status: &Status) {
     let doc = "Shares path suffixes between neighbouring pixels (Bekaert et al. 2002). Less noise, no bias.";
-    row(ui, "Share paths", doc, |ui, _| {
+    row(ui, &RenderSettings::REUSE.label(), doc, |ui, _| {
         // Below, and not beside: the panel is as wide as its widest row.
         ui.vertical(|ui| {
             words(ui, reuse);
@@ -93,7 +108,7 @@ fn reuse_row(ui: &mut Ui, reuse: &mut Reuse, status: &Status) {
 
 fn roulette_rows(ui: &mut Ui, roulette: &mut Roulette, caution: Option<&str>) {
     let doc = "Ends paths with probability 1 − q and weights the survivors by 1/q. Shorter paths, no bias.";
-    row(ui, "Roulette", doc, |ui, label| {
+    row(ui, &RenderSettings::ROULETTE.label(), doc, |ui, label| {
         // Below, and not beside, as above.
         ui.vertical(|ui| {
             roulette_choice(ui, label, roulette);

@@ -12,7 +12,7 @@ use crate::viewer::widgets::quotation::with_quotation_marks;
 /// The height of a row of the list: more than its text needs, so that all are alike.
 const ROW: f32 = 26.0;
 
-/// Shows the list of scenes, and the notes and warnings of the open one.
+/// Shows the list of scenes.
 pub fn show(ui: &mut egui::Ui, opened: Option<&OpenedScene>, catalogue: &[CatalogueEntry]) -> Option<SceneRequest> {
     let name = opened.map_or("Choose a scene", |opened| opened.name.as_str()).to_owned();
     let mut request = None;
@@ -33,6 +33,11 @@ pub fn show(ui: &mut egui::Ui, opened: Option<&OpenedScene>, catalogue: &[Catalo
             request = combo.inner.flatten().map(SceneRequest::Open).or(request.take());
         });
     });
+    request
+}
+
+/// Shows the notes and warnings of the open scene.
+pub fn notes(ui: &mut egui::Ui, opened: Option<&OpenedScene>) {
     if let Some(opened) = opened {
         if !opened.scene.notes.is_empty() {
             ui.label(RichText::new(&opened.scene.notes).weak());
@@ -41,7 +46,6 @@ pub fn show(ui: &mut egui::Ui, opened: Option<&OpenedScene>, catalogue: &[Catalo
             ui.label(RichText::new(format!("Note: {}.", with_quotation_marks(warning))).color(ui.visuals().warn_fg_color));
         }
     }
-    request
 }
 
 /// The height of the list: of all its rows, or of as many whole ones as fit.

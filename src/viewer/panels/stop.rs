@@ -2,7 +2,10 @@
 use std::time::Duration;
 
 use egui::Ui;
-use noisefall::render::{Budget, Region};
+use noisefall::{
+    render::{Budget, Region},
+    scene::description::RenderDescription,
+};
 
 use crate::viewer::widgets::{
     number,
@@ -15,22 +18,34 @@ const DEFAULT_PERCENT: f64 = 1.0;
 
 pub fn show(ui: &mut Ui, budget: &mut Budget, resolution: [u32; 2]) {
     controls(ui, "stop", |ui| {
-        row(ui, "Stop at", "Samples per pixel N at which the render stops. Does not restart it.", |ui, label| {
-            number::optional(ui, label, &mut budget.max_spp, ("never", "spp"), DEFAULT_SPP, 0, 1.0..=16_777_216.0);
-        });
+        row(
+            ui,
+            &RenderDescription::SPP.label(),
+            "Samples per pixel N at which the render stops. Does not restart it.",
+            |ui, label| {
+                number::optional(ui, label, &mut budget.max_spp, ("never", "spp"), DEFAULT_SPP, 0, 1.0..=16_777_216.0);
+            },
+        );
         row(ui, "Stop after", "Render time after which the render stops. Does not restart it.", |ui, label| {
-            let mut seconds = budget.max_time.map(|time| time.as_secs_f64());
+            let before = budget.max_time.map(|time| time.as_secs_f64());
+            let mut seconds = before;
             number::optional(ui, label, &mut seconds, ("never", "seconds"), DEFAULT_SECONDS, 1, 0.1..=1e7);
-            budget.max_time = seconds.map(Duration::from_secs_f64);
+            if seconds != before {
+                budget.max_time = seconds.map(Duration::from_secs_f64);
+            }
         });
         row(
             ui,
             "Stop below",
             "Estimated relative error at which the render stops, from 64 samples per pixel on. The stop depends on the samples, so it adds a bias far below the target. Does not restart the render.",
             |ui, label| {
-                let mut percent = budget.noise.map(|noise| 100.0 * noise);
+                let before = budget.noise.map(|noise| 100.0 * noise);
+                let mut percent = before;
                 number::optional(ui, label, &mut percent, ("never", "% noise"), DEFAULT_PERCENT, 3, 0.001..=100.0);
-                budget.noise = percent.map(|percent| percent / 100.0);
+                // There and back, rounding could make another number of it.
+                if percent != before {
+                    budget.noise = percent.map(|percent| percent / 100.0);
+                }
             },
         );
         row(ui, "Region", "Tiles that are rendered first. Drag a rectangle with the tool Region (B).", |ui, label| {

@@ -62,6 +62,25 @@ fn a_typed_number_counts_when_it_is_entered_and_escape_gives_it_up() {
 }
 
 #[test]
+fn arithmetic_counts_and_what_is_no_number_says_so_until_the_next_press() {
+    let mut window = window("cornell_spheres");
+    let type_seed = |w: &mut Window, text: &str| {
+        enter(w, "Seed", 0);
+        type_text(w, text);
+        w.key_press(Key::Enter);
+        w.run_steps(3);
+    };
+    type_seed(&mut window, "3*7");
+    assert_eq!(window.state().session.settings.seed, 21);
+    never_restarts(&mut window, |w| type_seed(w, "3//7"));
+    const REFUSAL: &str = "expected a number, found “3//7”";
+    assert!(window.query_by_label(REFUSAL).is_some());
+    click(&mut window, "MIS");
+    assert!(window.query_by_label(REFUSAL).is_none());
+    assert_eq!(window.state().session.settings.seed, 21);
+}
+
+#[test]
 fn a_scene_can_be_opened_by_its_path() {
     let mut window = window("furnace");
     click(&mut window, "Open…");

@@ -112,8 +112,10 @@ fn every_bar_is_named_by_its_bounces_and_the_last_has_the_rest() {
     app.results.second_frame = Some(Arc::new(Frame { spp: 7, series, ..Frame::default() }));
     let harness = Harness::builder().with_size(SIZE).build_ui(|ui| app.instrument(ui, InstrumentTab::Bounces));
     let buttons = harness.root().children_recursive().filter(|node| node.accesskit_node().role() == Role::Button);
-    let bars: Vec<String> =
-        buttons.filter_map(|button| button.accesskit_node().label()).filter(|name| name.contains(" bounce")).collect();
+    let bars: Vec<String> = buttons
+        .filter_map(|button| button.accesskit_node().label())
+        .filter(|name| name.contains(" bounces: ") || name.starts_with("1 bounce: "))
+        .collect();
     assert_eq!(bars.len(), 17);
     for (k, bar) in bars[..16].iter().enumerate() {
         assert_eq!(*bar, format!("{k} bounce{}: 5.00 %", if k == 1 { "" } else { "s" }));

@@ -124,3 +124,19 @@ fn a_reached_target_is_named_and_a_higher_one_goes_on() {
     window.run_steps(1);
     assert!(window.query_by_label("Noise target 50 % reached").is_some());
 }
+
+#[test]
+fn a_setting_has_one_name_on_both_pages_of_the_panel() {
+    const NAMES: [&str; 9] =
+        ["Estimator", "Sampler", "Directions", "Share paths", "Adaptive", "Roulette", "Bounce cap", "Seed", "Stop at"];
+    let mut window = window("cornell_spheres");
+    for page in [PanelTab::Render, PanelTab::Edit] {
+        window.state_mut().window.panel = page;
+        window.state_mut().selection.select(Some(Subject::Presentation));
+        window.run_steps(3);
+        for name in NAMES {
+            assert!(window.query_all_by_label_contains(name).count() > 0, "{name} is not on {page:?}");
+        }
+    }
+    assert_eq!(window.query_all_by_label_contains("Max bounces").count(), 0);
+}

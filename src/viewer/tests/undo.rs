@@ -1,11 +1,24 @@
 //! Undo and redo: a stray click or drag costs no work.
-use noisefall::{render::view::View as Shown, scene::Camera};
+use noisefall::{
+    declare::{OwnedValue, Path, Textured},
+    edit::Edit,
+    render::view::View as Shown,
+    scene::Camera,
+};
 
-use super::*;
+use super::{scene_edits::edits, *};
+
+/// Sets the number of samples to stop at, which is no step here.
+fn stop_at(window: &mut Window, spp: u32) {
+    let app = window.state_mut();
+    app.session.budget.max_spp = Some(spp);
+    let controls = app.session.controls();
+    app.history.adopt(controls);
+}
 
 /// Waits until every pixel has so many samples, and stops there.
 fn rendered(window: &mut Window, spp: u32) {
-    window.state_mut().session.budget.max_spp = Some(spp);
+    stop_at(window, spp);
     wait(window, "the samples", |app| {
         app.results.shown.as_ref().is_some_and(|frame| frame.spp == spp && frame.generation == app.background.worker.generation())
     });
@@ -18,7 +31,7 @@ fn settings_that_are_undone_come_back_with_their_samples() {
     let first = window.state().results.shown.clone().expect("it is shown");
     restarts(&mut window, "a stray click", |w| click(w, "Light"));
     rendered(&mut window, 41);
-    window.state_mut().session.budget.max_spp = Some(40);
+    stop_at(&mut window, 40);
     restarts(&mut window, "the way back", undo);
     assert_eq!(window.state().session.settings.estimator, Estimator::Mis);
     wait(&mut window, "the samples as they were", |app| app.results.shown.as_ref().is_some_and(|frame| frame.spp == 40));
@@ -30,6 +43,35 @@ fn settings_that_are_undone_come_back_with_their_samples() {
     // Restart is meant as it is said.
     restarts(&mut window, "a restart", |w| click(w, "Restart"));
     wait(&mut window, "new samples", |app| app.results.shown.as_ref().is_some_and(|frame| frame.spp < 40));
+}
+
+#[test]
+fn an_edit_that_is_undone_gives_its_samples_back() {
+    let mut window = window("cornell_spheres");
+    rendered(&mut window, 40);
+    let first = window.state().results.shown.clone().expect("it is shown");
+    let darker = OwnedValue::Textured(Textured::Constant([0.25; 3]));
+    let edit = Edit::set(Path::of("materials.amber.lambertian.albedo"), darker);
+    edits(&mut window, "a darker ball", |w| {
+        w.state_mut().edit(&edit);
+        w.run_steps(1);
+    });
+    rendered(&mut window, 41);
+    stop_at(&mut window, 40);
+    edits(&mut window, "the way back", undo);
+    wait(&mut window, "the samples as they were", |app| app.results.shown.as_ref().is_some_and(|frame| frame.spp == 40));
+    let again = window.state().results.shown.clone().expect("it is shown");
+    assert!(again.radiance == first.radiance && again.elapsed == first.elapsed, "the very same samples");
+    edits(&mut window, "forth again", redo);
+    wait(&mut window, "its samples", |app| app.results.shown.as_ref().is_some_and(|frame| frame.spp == 41));
+    // What is taken back at once was never rendered.
+    never_restarts(&mut window, |w| {
+        let brighter = OwnedValue::Textured(Textured::Constant([0.75; 3]));
+        w.state_mut().edit(&Edit::set(Path::of("materials.amber.lambertian.albedo"), brighter));
+        w.state_mut().undo();
+    });
+    wait(&mut window, "the scene", |app| !app.background.worker.is_editing() && app.session.waiting_edit.is_none());
+    assert_eq!(window.state().results.status.generation, generation(&window));
 }
 
 #[test]
@@ -108,6 +150,23 @@ fn a_slider_that_is_dragged_is_one_step_and_text_has_an_undo_of_its_own() {
 }
 
 #[test]
+fn the_stop_target_is_undone_without_a_restart() {
+    let mut window = window("cornell_spheres");
+    let start = window.state().session.budget;
+    never_restarts(&mut window, |w| {
+        check_box(w, "Stop at");
+        set(w, "Stop at", 0, 3.0);
+        check_box(w, "Stop below");
+    });
+    let last = window.state().session.budget;
+    assert_eq!((last.max_spp, last.noise), (Some(3), Some(0.01)));
+    never_restarts(&mut window, |w| (0..3).for_each(|_| undo(w)));
+    assert_eq!(window.state().session.budget, start);
+    never_restarts(&mut window, |w| (0..3).for_each(|_| redo(w)));
+    assert_eq!(window.state().session.budget, last);
+}
+
+#[test]
 fn another_scene_has_nothing_to_undo() {
     let mut window = window("cornell_spheres");
     window.state_mut().session.camera.fov = 50.0;
@@ -133,7 +192,7 @@ fn a_restart_and_a_stray_drag_cost_no_curve() {
         app.instruments.history.curves.iter().any(|curve| curve.moments.last().is_some_and(|moment| moment.spp >= 38))
     });
     let before = longest(&window);
-    window.state_mut().session.budget.max_spp = Some(3);
+    stop_at(&mut window, 3);
     restarts(&mut window, "a restart", |w| click(w, "Restart"));
     rendered(&mut window, 3);
     assert_eq!(longest(&window), before);

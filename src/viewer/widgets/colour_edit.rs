@@ -12,6 +12,7 @@ use noisefall::math::{
 
 use super::{
     committed_text,
+    explained::Explained,
     hex::{brightness, bytes, from_hex, hex, linear},
 };
 
@@ -23,7 +24,7 @@ pub fn show(ui: &mut Ui, label: Id, rgb: &mut [f64; 3], most: f64, is_light: boo
         ui.spacing_mut().slider_width = 180.0;
         let changed = [picker(ui, rgb), hex_field(ui, rgb), is_light && kelvin(ui, rgb)];
         if changed.contains(&true) {
-            *rgb = rgb.map(|x| x.clamp(0.0, most));
+            *rgb = rounded(*rgb).map(|x| x.clamp(0.0, most));
         }
     });
     button
@@ -37,6 +38,15 @@ fn button(ui: &mut Ui, colour: Color32) -> Response {
     ui.painter().rect_filled(rect, 3.0, colour);
     ui.painter().rect_stroke(rect, 3.0, Stroke::new(1.0, visuals.fg_stroke.color), StrokeKind::Inside);
     response
+}
+
+/// The colour without the digits that no eye and no screen tells apart.
+fn rounded(rgb: [f64; 3]) -> [f64; 3] {
+    /// Significant digits of the largest channel.
+    const DIGITS: i32 = 7;
+    let most = rgb.into_iter().fold(f64::MIN_POSITIVE, f64::max);
+    let decimals = (DIGITS - 1 - most.log10().floor() as i32).clamp(0, 300) as usize;
+    rgb.map(|x| format!("{x:.decimals$}").parse().unwrap_or(x))
 }
 
 /// The plane of saturation and value with the strip of hues.
@@ -76,8 +86,9 @@ fn kelvin(ui: &mut Ui, rgb: &mut [f64; 3]) -> bool {
     let mut kelvin = found.unwrap_or(6504.0).round();
     let slider = ui.horizontal(|ui| {
         let label = ui.label("Temperature").on_hover_text("Sets the colour to that of a black body and keeps the luminance.");
-        let slider = Slider::new(&mut kelvin, COLDEST..=HOTTEST).logarithmic(true).fixed_decimals(0).suffix(" K");
-        let slider = ui.add(slider).labelled_by(label.id);
+        let now = kelvin;
+        let slider = Slider::new(&mut kelvin, COLDEST..=HOTTEST).logarithmic(true).fixed_decimals(0);
+        let slider = ui.add(Explained::new(slider, now).suffix(" K")).labelled_by(label.id);
         if found.is_none() {
             ui.weak("none");
         }
@@ -134,6 +145,16 @@ mod tests {
         let rgb = *harness.state();
         assert!((f64::from(luminance(rgb.map(|x| x as f32))) - 10.0).abs() < 1e-4);
         assert!(temperature(rgb).is_some_and(|kelvin| (kelvin - 3000.0).abs() < 1.0), "{rgb:?}");
+    }
+
+    #[test]
+    fn a_picked_colour_is_written_with_few_digits() {
+        assert_eq!(rounded([0.214_041_140_482_232_55, 1.0, 1.0 / 3.0]), [0.214_041, 1.0, 0.333_333]);
+        assert_eq!((rounded([0.0; 3]), rounded([1_234.567_891, 0.0, 5.0])), ([0.0; 3], [1_234.568, 0.0, 5.0]));
+        for byte in 0..=255 {
+            let rgb = linear([byte, 255 - byte, 3]);
+            assert_eq!(bytes(rounded(rgb)), bytes(rgb), "it is the same colour on the screen");
+        }
     }
 
     #[test]

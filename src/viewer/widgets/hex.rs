@@ -29,7 +29,7 @@ pub fn from_hex(text: &str) -> Result<[u8; 3], String> {
     match digits.as_deref() {
         Some(&[r, g, b]) => Ok([r, g, b].map(|digit| 17 * digit)),
         Some(&[a, b, c, d, e, f]) => Ok([16 * a + b, 16 * c + d, 16 * e + f]),
-        _ => Err(format!("expected six hexadecimal digits such as #ff8000, found `{}`", noisefall::quote::piece(text.trim()))),
+        _ => Err(format!("expected six hexadecimal digits such as #ff8000, found “{}”", noisefall::quote::piece(text.trim()))),
     }
 }
 
@@ -55,7 +55,7 @@ mod tests {
     fn short_and_plain_forms_are_read_and_others_are_refused() {
         assert_eq!([from_hex("#f80"), from_hex(" ff8800 ")], [Ok([255, 136, 0]), Ok([255, 136, 0])]);
         let refused = from_hex("#12345g").expect_err("g is no digit");
-        assert_eq!(refused, "expected six hexadecimal digits such as #ff8000, found `#12345g`");
+        assert_eq!(refused, "expected six hexadecimal digits such as #ff8000, found “#12345g”");
         assert!(from_hex("#12345").is_err() && from_hex("").is_err());
     }
 }

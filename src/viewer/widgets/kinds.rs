@@ -51,11 +51,11 @@ impl Parameters for NumberRows<'_> {
                 let ends = range.least..=range.most;
                 if range.most > WIDEST * range.least {
                     let speed = 0.005 * *number;
-                    let field = number::field(ui, number, 3, ends).speed(speed).suffix(suffix);
+                    let field = number::field(ui, number, 3, ends).speed(speed).suffix(&suffix);
                     ui.add_enabled(self.is_enabled, field).labelled_by(label);
                 } else {
                     let slider = number::slider(ui, number, 3, ends).logarithmic(range.scale == Scale::Log);
-                    ui.add_enabled(self.is_enabled, slider.suffix(suffix)).labelled_by(label);
+                    ui.add_enabled(self.is_enabled, slider.suffix(&suffix)).labelled_by(label);
                 }
             });
         }

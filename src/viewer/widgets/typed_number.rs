@@ -2,9 +2,8 @@
 use std::{cell::RefCell, ops::RangeInclusive};
 
 use egui::{Id, Response, Ui, Widget};
-use noisefall::quote;
 
-use super::number;
+use super::{arithmetic::evaluate, explained::without, given_up::gave_up, number, quotation::with_quotation_marks, refusal};
 
 /// A field of a number, and what it accepts.
 pub struct TypedNumber<'a> {
@@ -28,30 +27,36 @@ pub struct TypedNumber<'a> {
 const DIGIT: f32 = 12.0;
 
 impl TypedNumber<'_> {
-    /// Shows the field. It takes only numbers that are in range; a typed one that is not shows its message below, until the next edit.
-    pub fn show(&self, ui: &mut Ui, value: &mut f64) -> Response {
+    /// Shows the field. It takes only numbers that are in range. Returns its message if the one that was typed last is not, until the
+    /// next press of a key or a button.
+    pub fn show(&self, ui: &mut Ui, value: &mut f64) -> (Response, Option<String>) {
         let before = *value;
         let refused = RefCell::new(None);
         let parse = |text: &str| {
-            let text = text.trim().trim_end_matches(self.unit).trim();
-            let parsed = text.replace('−', "-").parse::<f64>().ok();
-            let not_a_number = || format!("`{}`: expected a number, found `{}`", self.key, quote::piece(text));
-            *refused.borrow_mut() = parsed.map_or_else(|| Some(not_a_number()), self.check);
-            parsed.filter(|_| refused.borrow().is_none())
+            let parsed = evaluate(without(text, self.unit)).map_err(|why| format!("“{}”: {why}", self.key));
+            let checked = parsed.and_then(|x| self.checked(x));
+            checked.map_err(|refusal| *refused.borrow_mut() = Some(refusal)).ok()
         };
         let decimals = if self.is_whole { 0 } else { decimals(before, self.width) };
         let suffix = if self.unit.is_empty() { String::new() } else { format!(" {}", self.unit) };
-        let field = number::field(ui, value, decimals, self.range.clone());
+        let field = number::plain_field(ui, value, decimals, self.range.clone());
         let field = field.speed(self.speed).suffix(suffix).clip_text(true).custom_parser(parse);
         let response = sized(ui, self.width, field).labelled_by(self.label);
         // Screen readers set numbers without typing.
-        let set = Some(*value).filter(|value| *value != before).and_then(|value| (self.check)(value));
+        let set = Some(*value).filter(|value| *value != before).and_then(|value| self.checked(value).err());
         if set.is_some() {
             *value = before;
         }
-        let refusal = refused.into_inner().or(set);
-        remember(ui, response.id, refusal, response.changed() || response.dragged());
-        response
+        let typed = refused.into_inner().filter(|_| !gave_up(ui));
+        if let Some(message) = typed.or(set) {
+            refusal::remember(ui, response.id, *value, message);
+        }
+        let message = refusal::of(ui, response.id, *value);
+        (response, message)
+    }
+
+    fn checked(&self, x: f64) -> Result<f64, String> {
+        (self.check)(x).map_or(Ok(x), |refusal| Err(with_quotation_marks(&refusal)))
     }
 }
 
@@ -64,21 +69,6 @@ fn decimals(value: f64, width: f32) -> usize {
 
 fn sized(ui: &mut Ui, width: f32, field: impl Widget) -> Response {
     ui.add_sized([width, ui.spacing().interact_size.y], field)
-}
-
-/// Keeps a refusal until there is another one, or an edit.
-fn remember(ui: &Ui, field: Id, refusal: Option<String>, is_edited: bool) {
-    let id = field.with("refusal");
-    if let Some(refusal) = refusal {
-        ui.data_mut(|data| data.insert_temp(id, refusal));
-    } else if is_edited {
-        ui.data_mut(|data| data.remove::<String>(id));
-    }
-}
-
-/// The error of the last number that was typed into a field.
-pub fn refusal(ui: &Ui, field: Id) -> Option<String> {
-    ui.data(|data| data.get_temp(field.with("refusal")))
 }
 
 #[cfg(test)]
@@ -101,8 +91,7 @@ mod tests {
             let (speed, width) = (0.1, 80.0);
             let (range, is_whole) = (1.0..=170.0, false);
             let field = TypedNumber { key: "fov", range, is_whole, speed, unit: "°", width, label, check: &check };
-            let response = field.show(ui, &mut state.value);
-            state.refusal = refusal(ui, response.id);
+            (_, state.refusal) = field.show(ui, &mut state.value);
         };
         Harness::builder().build_ui_state(draw, State { value: 40.0, ..State::default() })
     }
@@ -121,16 +110,39 @@ mod tests {
     fn a_typed_number_out_of_range_changes_nothing_and_says_so_until_the_next() {
         let mut field = field();
         type_in(&mut field, "200");
-        assert_eq!((field.state().value, field.state().refusal.as_deref()), (40.0, Some("`fov` is out of range: 200")));
+        assert_eq!((field.state().value, field.state().refusal.as_deref()), (40.0, Some("“fov” is out of range: 200")));
         type_in(&mut field, "wide");
-        assert_eq!(field.state().refusal.as_deref(), Some("`fov`: expected a number, found `wide`"));
+        assert_eq!(field.state().refusal.as_deref(), Some("“fov”: expected a number, found “wide”"));
         type_in(&mut field, "55.25°");
         assert_eq!((field.state().value, field.state().refusal.as_deref()), (55.25, None));
         type_in(&mut field, " 60.5° ");
         assert_eq!((field.state().value, field.state().refusal.as_deref()), (60.5, None), "spaces do not count");
         type_in(&mut field, "55.25");
         type_in(&mut field, "−3");
-        assert_eq!((field.state().value, field.state().refusal.as_deref()), (55.25, Some("`fov` is out of range: -3")));
+        assert_eq!((field.state().value, field.state().refusal.as_deref()), (55.25, Some("“fov” is out of range: -3")));
+    }
+
+    #[test]
+    fn arithmetic_and_a_decimal_comma_are_numbers() {
+        let mut field = field();
+        for (text, value) in [("3/2", 1.5), ("20,25", 20.25), ("2*(10 + 5.5)°", 31.0), ("1e1", 10.0)] {
+            type_in(&mut field, text);
+            assert_eq!((field.state().value, field.state().refusal.as_deref()), (value, None), "{text}");
+        }
+        type_in(&mut field, "0,25,5");
+        assert!(field.state().refusal.as_ref().is_some_and(|refusal| refusal.starts_with("“fov”: expected one number")));
+        assert_eq!(field.state().value, 10.0);
+    }
+
+    #[test]
+    fn a_refusal_ends_when_the_field_is_edited_again() {
+        let mut field = field();
+        type_in(&mut field, "200");
+        field.run_steps(5);
+        assert!(field.state().refusal.is_some(), "it stays while nothing is done");
+        field.get_by_role(Role::SpinButton).click();
+        field.run_steps(4);
+        assert_eq!(field.state().refusal, None);
     }
 
     #[test]
@@ -138,7 +150,7 @@ mod tests {
         let mut field = field();
         field.get_by_role(Role::SpinButton).set_value_accesskit(300.0);
         field.run_steps(3);
-        assert_eq!((field.state().value, field.state().refusal.as_deref()), (40.0, Some("`fov` is out of range: 300")));
+        assert_eq!((field.state().value, field.state().refusal.as_deref()), (40.0, Some("“fov” is out of range: 300")));
         field.get_by_role(Role::SpinButton).set_value_accesskit(60.0);
         field.run_steps(3);
         assert_eq!((field.state().value, field.state().refusal.as_deref()), (60.0, None));

@@ -5,7 +5,8 @@ use super::*;
 
 fn controls() -> Controls {
     let scene = built_in();
-    Controls { camera: scene.camera, settings: scene.settings, comparison: None, look: DisplaySettings::default() }
+    let (look, stop) = (DisplaySettings::default(), StopTarget::default());
+    Controls { camera: scene.camera, settings: scene.settings, comparison: None, look, stop }
 }
 
 fn moved(fov: f64) -> Controls {
@@ -56,6 +57,16 @@ fn steps_go_back_and_forth_and_a_new_one_forgets_what_was_undone() {
     assert_eq!(history.names(), [Some("settings"); 2]);
     history.observe(moved(30.0), at(3, false, 3.0));
     assert_eq!(history.names(), [Some("camera"), None]);
+}
+
+#[test]
+fn the_stop_target_is_a_setting_of_its_own() {
+    let mut history = started();
+    let stop = StopTarget { spp: Some(64), noise: Some(0.01), ..StopTarget::default() };
+    let stopped = Controls { stop, ..controls() };
+    history.observe(stopped, at(1, false, 1.0));
+    assert_eq!(history.names(), [Some("stop target"), None]);
+    assert_eq!((undone(&mut history), redone(&mut history)), (Some(controls()), Some(stopped)));
 }
 
 #[test]

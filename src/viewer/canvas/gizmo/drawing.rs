@@ -7,6 +7,7 @@ use super::{
     handles::{Handle, HandleShape},
     operation::{Lock, Mode, Operation},
 };
+use crate::viewer::widgets::decimals::three;
 
 /// Of the axes x, y and z.
 const COLOURS: [Color32; 3] = [Color32::from_rgb(238, 84, 84), Color32::from_rgb(122, 200, 66), Color32::from_rgb(82, 146, 255)];
@@ -83,7 +84,7 @@ pub fn title(operation: &Operation, change: &Transform) -> String {
     };
     let typed = if operation.typed.is_empty() { String::new() } else { format!("  [{}]", operation.typed) };
     match change {
-        Transform::Translate(by) => format!("Move{lock}: {:.3} {:.3} {:.3} m{typed}", by.x, by.y, by.z),
+        Transform::Translate(by) => format!("Move{lock}: {} m{typed}", three(by.to_array(), 3)),
         Transform::Rotate(turn) => format!("Rotate{}: {:.1}°{typed}", lock.replace("along", "about"), turn.degrees),
         Transform::Scale(by) => format!("Scale{lock}: {:.3} {:.3} {:.3}{typed}", by.x, by.y, by.z),
         Transform::Matrix(_) => String::new(),

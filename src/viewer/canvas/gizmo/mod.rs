@@ -6,12 +6,14 @@
 //! | `operation.rs` | an operation under way: from the pointer or a typed number to a transform |
 //! | `handles.rs` | positions of handles, and the one under the pointer |
 //! | `keys.rs` | the keys |
+//! | `rounding.rs` | rounds what the pointer asks for |
 //! | `drawing.rs` | draws handles and figures |
 mod drawing;
 mod handles;
 mod keys;
 mod maths;
 mod operation;
+mod rounding;
 #[cfg(test)]
 mod tests;
 
@@ -24,7 +26,7 @@ use self::{
     keys::Press,
     operation::{Lock, Operation},
 };
-use super::picture_area::PictureArea;
+use super::{picture_area::PictureArea, projection::pixel_width};
 
 /// Result of a gizmo in one frame.
 #[derive(Clone, Debug, PartialEq)]
@@ -103,6 +105,9 @@ impl Gizmo {
         };
         operation.point(camera, area.place(pointer));
         let change = operation.change(camera, size, ui.input(|input| input.modifiers.command));
+        // What is typed is meant as it is.
+        let is_typed = operation.number().is_some();
+        let change = if is_typed { change } else { rounding::rounded(change, pixel_width(camera, pivot)) };
         drawing::handles(&painter, &handles, self.mode, Some(operation.lock));
         drawing::status(&painter, operation, &change);
         if ended.is_some() {

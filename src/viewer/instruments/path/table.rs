@@ -7,6 +7,7 @@ use noisefall::{
 
 use super::terms::{Row, Source, Target, Term, rows, totals};
 use crate::viewer::widgets::{
+    decimals::three,
     palette::Palette,
     style::{choices, elided},
 };
@@ -175,8 +176,8 @@ pub fn colour([r, g, b]: [f32; 3]) -> String {
     if r == g && g == b { short(r) } else { format!("{} {} {}", short(r), short(g), short(b)) }
 }
 
-fn vector([x, y, z]: [f32; 3]) -> String {
-    format!("{x:.3} {y:.3} {z:.3}")
+fn vector(v: [f32; 3]) -> String {
+    three(v.map(f64::from), 3)
 }
 
 /// Four digits that count, as short as they can be.

@@ -111,7 +111,12 @@ pub fn totals(replay: &Replay, most_vertices: usize) -> Vec<Total> {
     if let Some(further) = replay.vertices.len().checked_sub(most_vertices).filter(|further| *further > 0) {
         let terms = replay.vertices.iter().skip(most_vertices).flat_map(terms).filter(|term| !term.is_shared);
         let value = terms.fold([0.0; 3], |sum: Colour, term| [0, 1, 2].map(|c| sum[c] + term.value[c]));
-        totals.push(Total { name: format!("{further} more vertices"), doc: "The sum of the terms that are not listed.", value });
+        let vertices = if further == 1 { "vertex" } else { "vertices" };
+        totals.push(Total {
+            name: format!("{further} more {vertices}"),
+            doc: "The sum of the terms that are not listed.",
+            value,
+        });
     }
     if let Some(shared) = &replay.shared {
         totals.push(Total {

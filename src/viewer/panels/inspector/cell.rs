@@ -4,7 +4,7 @@ use glam::DVec3;
 use noisefall::declare::{OwnedValue, Parameter, Path, Range, Textured, Value, Word, check_value};
 
 use super::{Request, Surroundings, numbers::Numbers, references};
-use crate::viewer::widgets::{colour_edit, committed_text};
+use crate::viewer::widgets::{colour_edit, committed_text, counted::counted};
 
 /// The control of a value, and its result.
 pub struct Cell<'a> {
@@ -74,8 +74,8 @@ impl Cell<'_> {
                 let new = self.numbers(label).matrix(ui, **rows);
                 self.set(new.map(OwnedValue::Matrix));
             }
-            Value::Points(points) => _ = ui.weak(format!("{} points, in the file", points.len())),
-            Value::Triangles(triangles) => _ = ui.weak(format!("{} triangles, in the file", triangles.len())),
+            Value::Points(points) => _ = ui.weak(format!("{}, in the file", counted(points.len(), "point"))),
+            Value::Triangles(triangles) => _ = ui.weak(format!("{}, in the file", counted(triangles.len(), "triangle"))),
             Value::Word(place, words) => self.word(ui, label, **place, words),
         }
     }

@@ -3,7 +3,7 @@ use egui::{Id, Slider, SliderClamping, Ui};
 use glam::DVec3;
 use noisefall::declare::{CountRange, Parameter, Problem, Range, Scale, Value, check_value, short};
 
-use crate::viewer::widgets::typed_number::{TypedNumber, refusal};
+use crate::viewer::widgets::{number::tidy, typed_number::TypedNumber};
 
 /// Largest range of a slider in powers of ten. Its field takes all numbers.
 const SLIDER_LEAST: f64 = 1e-3;
@@ -44,6 +44,9 @@ impl Numbers<'_> {
             let slider = Slider::new(&mut new, least..=most).show_value(false).clamping(SliderClamping::Edits);
             let slider = slider.logarithmic(range.scale == Scale::Log).smallest_positive(SLIDER_LEAST);
             ui.add(slider).labelled_by(self.label);
+            if new != old {
+                new = tidy(new).clamp(range.least, range.most);
+            }
         }
         let check = |mut x: f64| check_value(parameter, &value(&mut x)).map(message);
         let unit = if self.parameter.unit.chars().count() <= 3 { self.parameter.unit } else { "" };
@@ -151,9 +154,9 @@ impl Numbers<'_> {
         let (range, Look { unit, width, is_whole }) = (least..=most, look);
         let (key, label) = (self.parameter.key, self.label);
         let field = TypedNumber { key, range, is_whole, speed, unit, width, label, check };
-        let response = field.show(ui, number);
-        if let Some(refusal) = refusal(ui, response.id) {
-            *self.refused = Some(refusal);
+        let (_, refusal) = field.show(ui, number);
+        if refusal.is_some() {
+            *self.refused = refusal;
         }
     }
 }
@@ -175,7 +178,7 @@ impl Look<'_> {
 
 fn check_count(parameter: &Parameter, x: f64, range: &CountRange) -> Option<String> {
     if x.fract() != 0.0 || !(0.0..=f64::from(u32::MAX)).contains(&x) {
-        return Some(format!("`{}`: expected a whole number, 0 or more, found `{}`", parameter.key, short(x)));
+        return Some(format!("“{}”: expected a whole number, 0 or more, found “{}”", parameter.key, short(x)));
     }
     check_value(parameter, &Value::Count(&mut (x as u32), *range)).map(message)
 }

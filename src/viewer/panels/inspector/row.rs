@@ -26,11 +26,11 @@ pub struct Heading {
 }
 
 impl Heading {
-    /// The label of a parameter: key and symbol. The tooltip has its description and unit.
+    /// The label of a parameter, with its symbol. The tooltip has its description and unit.
     pub fn of(parameter: &Parameter, mark: Mark) -> Heading {
         let symbol = if parameter.symbol.is_empty() { String::new() } else { format!(" {}", parameter.symbol) };
         let unit = if parameter.unit.is_empty() { String::new() } else { format!("\nUnit: {}", parameter.unit) };
-        Heading { title: capital(parameter.key) + &symbol, tooltip: format!("{}{unit}", parameter.doc), mark }
+        Heading { title: parameter.label() + &symbol, tooltip: format!("{}{unit}", parameter.doc), mark }
     }
 
     /// Shows the label with its mark in a row, with a control behind it. Returns whether the mark was clicked.
@@ -56,14 +56,20 @@ impl Heading {
         ui.horizontal(|ui| self.label(ui, RichText::new(&self.title).strong()).1).inner
     }
 
+    /// The whole title, which the row may cut, and the tooltip.
+    fn hover_text(&self) -> String {
+        format!("{}\n{}", self.title, self.tooltip)
+    }
+
     fn label(&self, ui: &mut Ui, text: RichText) -> (Response, bool) {
         let is_removed = self.mark == Mark::Item && ui.small_button("×").on_hover_text("Remove from the list").clicked();
         if let Mark::Optional(mut is_given) = self.mark {
-            let checkbox = ui.checkbox(&mut is_given, text).on_hover_text(&self.tooltip);
+            let checkbox = ui.checkbox(&mut is_given, text).on_hover_text(self.hover_text());
             let is_clicked = checkbox.clicked();
             return (checkbox, is_clicked);
         }
-        (ui.add(Label::new(text).truncate()).on_hover_text(&self.tooltip), is_removed)
+        let label = ui.add(Label::new(text).truncate().show_tooltip_when_elided(false));
+        (label.on_hover_text(self.hover_text()), is_removed)
     }
 }
 
@@ -72,4 +78,21 @@ pub fn capital(key: &str) -> String {
     let mut letters = key.chars();
     let first = letters.next().map(|first| first.to_uppercase().to_string()).unwrap_or_default();
     first + &letters.as_str().replace('_', " ")
+}
+
+#[cfg(test)]
+mod tests {
+    use egui_kittest::{Harness, kittest::Queryable};
+
+    use super::*;
+
+    #[test]
+    fn a_title_that_is_cut_stands_in_the_tooltip() {
+        let parameter = Parameter::new("specular_roughness_anisotropy", "How far highlights are stretched.");
+        let heading = Heading::of(&parameter, Mark::None);
+        let mut harness = Harness::builder().with_size(vec2(400.0, 200.0)).build_ui(|ui| _ = heading.row(ui, |_, _| {}));
+        harness.get_by_label("Specular roughness anisotropy").hover();
+        harness.run_steps(8);
+        assert!(harness.query_by_label("Specular roughness anisotropy\nHow far highlights are stretched.").is_some());
+    }
 }

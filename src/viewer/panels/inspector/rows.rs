@@ -1,6 +1,6 @@
 //! The visitor that makes rows of parameters.
 use egui::{ComboBox, Ui};
-use noisefall::declare::{Choice, Form, Parameter, Parameters, Path, Value};
+use noisefall::declare::{Alternative, Choice, Form, Parameter, Parameters, Path, Value};
 
 use super::{
     Request, Surroundings,
@@ -123,7 +123,7 @@ impl Parameters for Rows<'_> {
         let mut place = now;
         let is_removed = self.ui.push_id((&self.path, choice.what), |ui| {
             heading.row(ui, |ui, label| {
-                let name = |place: usize| choice.alternatives[place].name.replace('_', " ");
+                let name = |place: usize| words(&choice.alternatives[place]);
                 let combo = ComboBox::from_id_salt("choice").selected_text(name(now)).show_ui(ui, |ui| {
                     for (at, alternative) in choice.alternatives.iter().enumerate() {
                         let entry = ui.selectable_value(&mut place, at, name(at));
@@ -175,4 +175,11 @@ impl Parameters for Rows<'_> {
         self.show_title();
         self.descend(self.path.key(parameter.key).key(name));
     }
+}
+
+/// The name of an alternative in words: its title, or else its key.
+fn words(alternative: &Alternative) -> String {
+    let mut letters = alternative.title.chars();
+    let first = letters.next().map(|first| first.to_lowercase().to_string());
+    first.map_or_else(|| alternative.name.replace('_', " "), |first| first + letters.as_str())
 }

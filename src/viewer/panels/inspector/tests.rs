@@ -112,11 +112,11 @@ fn a_value_out_of_range_is_refused_in_the_words_of_the_reader() {
     let mut panel = inspect(lambertian());
     type_in(&mut panel, "Albedo ρ", 0, "1.5");
     assert!(panel.state().asked.is_empty());
-    let message = "`albedo` is out of range: 1.5; every channel must lie in [0, 1]: a surface cannot reflect more light than it \
+    let message = "“albedo” is out of range: 1.5; every channel must lie in [0, 1]: a surface cannot reflect more light than it \
                    receives";
     assert!(panel.query_by_label(message).is_some());
     type_in(&mut panel, "Albedo ρ", 0, "red");
-    assert!(panel.query_by_label("`albedo`: expected a number, found `red`").is_some());
+    assert!(panel.query_by_label("“albedo”: expected a number, found “red”").is_some());
 }
 
 #[test]

@@ -11,9 +11,9 @@ mod menu;
 #[cfg(test)]
 mod tests;
 
-use std::sync::Arc;
+use std::{ops::Range, sync::Arc};
 
-use egui::{CollapsingHeader, RichText, ScrollArea, TextEdit, Ui};
+use egui::{CollapsingHeader, Rect, RichText, ScrollArea, Sense, TextEdit, Ui, UiBuilder, pos2, vec2};
 use noisefall::scene::description::SceneDescription;
 
 pub use self::menu::{Action, New, can_rename};
@@ -54,16 +54,19 @@ struct Listed {
 /// Height of a row in points, with the space below.
 const ROW: f32 = 24.0;
 
-/// Number of rows of a group that are shown without scrolling.
-const MOST_OPEN: usize = 12;
+/// The space below a row in points.
+const GAP: f32 = 2.0;
 
 impl Outliner {
-    /// Shows the parts of a description, one of which may be selected. They are listed anew when its revision is another one.
+    /// Shows the parts of a description in the room that is left, one of which may be selected. They are listed anew when its revision
+    /// is another one.
     pub fn show(&mut self, ui: &mut Ui, description: &SceneDescription, revision: u64, selected: Option<&Subject>) -> Asked {
         let mut asked = Asked::default();
-        let label = ui.label("Search").on_hover_text("Shows only the parts whose name or kind contains these letters.");
-        let field = TextEdit::singleline(&mut self.search).hint_text("name or kind").desired_width(f32::INFINITY);
-        ui.add(field).labelled_by(label.id);
+        ui.horizontal(|ui| {
+            let label = ui.label("Search").on_hover_text("Shows only the parts whose name or kind contains these letters.");
+            let field = TextEdit::singleline(&mut self.search).hint_text("name or kind").desired_width(f32::INFINITY);
+            ui.add(field).labelled_by(label.id);
+        });
         let is_listed = |listed: &Listed| (listed.revision, &listed.search) == (revision, &self.search);
         let listed = self.listed.take().filter(is_listed).unwrap_or_else(|| Listed {
             revision,
@@ -71,9 +74,11 @@ impl Outliner {
             groups: entries::groups(description, &self.search),
             menu: Menu::of(description),
         });
-        for group in &listed.groups {
-            self.group(ui, group, &listed.menu, selected, &mut asked);
-        }
+        ScrollArea::vertical().id_salt("parts").auto_shrink(false).show(ui, |ui| {
+            for group in &listed.groups {
+                self.group(ui, group, &listed.menu, selected, &mut asked);
+            }
+        });
         self.listed = Some(listed);
         asked
     }
@@ -83,14 +88,16 @@ impl Outliner {
         let header = CollapsingHeader::new(RichText::new(title).strong()).id_salt(group.title).default_open(true);
         header.show_unindented(ui, |ui| {
             // Only the rows in sight are laid out: a scene can have a hundred thousand objects.
-            let height = ROW * group.entries.len().min(MOST_OPEN) as f32;
-            ui.spacing_mut().item_spacing.y = 2.0;
-            let rows = ScrollArea::vertical().id_salt(group.title).max_height(height).auto_shrink([false, true]);
-            rows.show_rows(ui, ROW - 2.0, group.entries.len(), |ui, range| {
-                for entry in &group.entries[range] {
-                    ui.push_id(&entry.subject, |ui| self.row(ui, entry, menu, selected == Some(&entry.subject), asked));
-                }
-            });
+            let size = vec2(ui.available_width(), ROW * group.entries.len() as f32 - GAP);
+            let (all, _) = ui.allocate_exact_size(size, Sense::hover());
+            let seen = in_sight(all, ui.clip_rect(), group.entries.len());
+            let top = all.top() + ROW * seen.start as f32;
+            let rect = Rect::from_min_max(pos2(all.left(), top), all.max);
+            let mut rows = ui.new_child(UiBuilder::new().id_salt(group.title).max_rect(rect));
+            rows.spacing_mut().item_spacing.y = GAP;
+            for entry in &group.entries[seen] {
+                rows.push_id(&entry.subject, |ui| self.row(ui, entry, menu, selected == Some(&entry.subject), asked));
+            }
         });
     }
 
@@ -101,7 +108,7 @@ impl Outliner {
         }
         let text = format!("{}  {}", entry.name, entry.kind);
         let row = egui::Button::selectable(is_selected, entry.text(ui.visuals()));
-        let row = row.sense(egui::Sense::click_and_drag()).truncate().min_size(egui::vec2(ui.available_width(), ROW - 2.0));
+        let row = row.sense(Sense::click_and_drag()).truncate().min_size(vec2(ui.available_width(), ROW - GAP));
         let row = ui.add(row).on_hover_text(text);
         if row.clicked() || row.secondary_clicked() {
             asked.selected = Some(subject.clone());
@@ -150,4 +157,11 @@ impl Outliner {
             asked.action = Some((entry.subject.clone(), Action::Rename(name)));
         }
     }
+}
+
+/// The rows of a list that can be seen. `all` is where all rows lie.
+fn in_sight(all: Rect, clip: Rect, count: usize) -> Range<usize> {
+    let row = |y: f32| ((y - all.top()) / ROW).max(0.0);
+    let first = (row(clip.top()).floor() as usize).min(count);
+    first..(row(clip.bottom()).ceil() as usize).clamp(first, count)
 }

@@ -9,6 +9,9 @@ use noisefall::{
 
 use super::*;
 
+/// Rows that a small list has room for.
+const MOST_SEEN: usize = 12;
+
 #[derive(Default)]
 struct State {
     description: SceneDescription,
@@ -18,6 +21,10 @@ struct State {
 type Panel = Harness<'static, State>;
 
 fn outliner(description: SceneDescription) -> Panel {
+    outliner_of_height(description, 900.0)
+}
+
+fn outliner_of_height(description: SceneDescription, height: f32) -> Panel {
     let mut outliner = Outliner::default();
     let draw = move |ui: &mut Ui, state: &mut State| {
         let asked = outliner.show(ui, &state.description, 0, Some(&Subject::Camera));
@@ -25,7 +32,7 @@ fn outliner(description: SceneDescription) -> Panel {
             state.asked.push(asked);
         }
     };
-    Harness::builder().with_size(vec2(336.0, 900.0)).build_ui_state(draw, State { description, asked: Vec::new() })
+    Harness::builder().with_size(vec2(336.0, height)).build_ui_state(draw, State { description, asked: Vec::new() })
 }
 
 fn room() -> Panel {
@@ -118,11 +125,38 @@ fn a_scene_of_many_objects_lays_out_those_in_sight() {
     for number in 0..5000 {
         many.add_object(&format!("ball {number}"), Sphere::default());
     }
-    let panel = outliner(many);
+    let panel = outliner_of_height(many, ROW * MOST_SEEN as f32);
     let rows = panel.get_all_by_role(Role::Button).filter(|row| label(row).starts_with("ball")).count();
     // A row above and a row below may be partly in sight.
-    assert!((1..=MOST_OPEN + 2).contains(&rows), "{rows}");
+    assert!((1..=MOST_SEEN + 2).contains(&rows), "{rows}");
     // The height of the list is that of so many rows.
     let top = |name| row(&panel, name).rect().top();
     assert!((top("ball 5") - top("ball 2") - 3.0 * ROW).abs() < 0.5);
+}
+
+#[test]
+fn the_whole_list_scrolls_to_its_end() {
+    let mut many = SceneDescription::default();
+    for number in 0..200 {
+        many.add_object(&format!("ball {number}"), Sphere::default());
+    }
+    let mut panel = outliner_of_height(many, ROW * MOST_SEEN as f32);
+    let is_listed = |panel: &Panel, name: &str| panel.get_all_by_role(Role::Button).any(|row| label(&row).starts_with(name));
+    assert!(is_listed(&panel, "ball 2") && !is_listed(&panel, "Camera"));
+    panel.hover_at(pos2(150.0, 200.0));
+    panel.run_steps(2);
+    for _ in 0..20 {
+        panel.event(Event::MouseWheel {
+            unit: egui::MouseWheelUnit::Point,
+            source: egui::MouseWheelSource::Wheel,
+            delta: vec2(0.0, -500.0),
+            phase: egui::TouchPhase::Move,
+            modifiers: Modifiers::NONE,
+        });
+        panel.run_steps(6);
+    }
+    assert!(is_listed(&panel, "Camera") && !is_listed(&panel, "ball 2sphere"));
+    row(&panel, "Camera").click();
+    panel.run_steps(3);
+    assert_eq!(last(&panel).selected, Some(Subject::Camera));
 }

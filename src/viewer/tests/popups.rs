@@ -1,0 +1,43 @@
+//! A popup over the panel takes Escape, and a tool leaves the panel as it is.
+use egui::Popup;
+
+use super::{
+    selection::{AMBER_BALL, ball, seen},
+    *,
+};
+
+#[test]
+fn escape_closes_a_menu_or_a_colour_picker_and_keeps_the_selection() {
+    let mut window = window("cornell_spheres");
+    click(&mut window, "Edit");
+    let amber = || Some(Subject::Material("amber".to_owned()));
+    let open: [fn(&mut Window); 3] = [
+        |window| window.get_by_role(Role::ColorWell).click(),
+        |window| window.get_by_label("Add").click(),
+        |window| window.get_by_role_and_label(Role::ComboBox, "Material").click(),
+    ];
+    for open in open {
+        window.state_mut().selection.select(amber());
+        window.run_steps(3);
+        open(&mut window);
+        window.run_steps(4);
+        assert!(Popup::is_any_open(&window.ctx));
+        press(&mut window, Key::Escape);
+        assert_eq!((Popup::is_any_open(&window.ctx), window.state().selection.subject.clone()), (false, amber()));
+        press(&mut window, Key::Escape);
+        assert_eq!(window.state().selection.subject, None);
+    }
+}
+
+#[test]
+fn a_tool_leaves_the_page_of_the_panel_as_it_is() {
+    let mut window = window("cornell_spheres");
+    for key in [Key::B, Key::I, Key::P, Key::C] {
+        press(&mut window, key);
+        assert_eq!(window.state().window.panel, PanelTab::Render, "{key:?}");
+    }
+    let at = seen(&mut window, ball());
+    click_at(&mut window, at);
+    assert_eq!(window.state().selection.object(), Some(AMBER_BALL));
+    assert_eq!(window.state().window.panel, PanelTab::Render, "the camera has its numbers there");
+}
