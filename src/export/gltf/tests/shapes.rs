@@ -91,7 +91,7 @@ fn meshes_that_a_matrix_would_shear_are_moved_themselves() {
     let found = imported.assets.get::<Model>(paths(&imported.description)[0]).expect("a mesh");
     assert_eq!(found.vertices[2], [0.5, 1.0, -3e8]);
     assert_eq!(found.triangles, [[0, 2, 1], [2, 0, 1]], "the front stays");
-    assert_eq!(remarks.len(), 1, "the resolution: {remarks:?}");
+    assert_eq!(remarks, [""; 0]);
 }
 
 #[test]
