@@ -40,6 +40,7 @@ impl SceneOptions {
             time: self.at,
             variant: self.variant.clone(),
             allow_outside: self.allow_outside,
+            ..ImportOptions::default()
         }
     }
 
@@ -125,6 +126,7 @@ mod tests {
             time: Some(-1.5),
             variant: Some("Red one".to_owned()),
             allow_outside: true,
+            ..ImportOptions::default()
         };
         assert!(strict && !options.strict);
         assert_eq!(options.import_options(), expected);

@@ -5,19 +5,24 @@ use super::{
     Scene,
     carried::load_carried,
     diagnostic::{SceneError, SourceText},
-    parse::parse,
+    parse::parse_watched,
 };
-use crate::{file::open_regular, image::looks_like};
+use crate::{file::open_regular, image::looks_like, progress::Progress};
 
 /// Maximum size of a scene file, bytes. Larger files are rejected before they are read.
 pub const LARGEST_FILE: u64 = 64 << 20;
 
 /// Reads and compiles a scene file, or the scene in an image file.
 pub fn load(path: &Path) -> Result<Scene, SceneError> {
+    load_watched(path, &Progress::default())
+}
+
+/// The same, with progress and cancellation.
+pub fn load_watched(path: &Path, progress: &Progress) -> Result<Scene, SceneError> {
     if let Some(carried) = load_carried(path) {
         return carried;
     }
-    parse(&path.display().to_string(), read_text(path)?)
+    parse_watched(&path.display().to_string(), read_text(path)?, progress)
 }
 
 /// The text of a scene file, which is not parsed.

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use super::{
     super::{ModelFormatError, polygon::Polygon},
     lists::{Counts, Lists},
-    text::{Chunks, LineError, rest, words},
+    text::{ChunkError, Chunks, rest, words},
 };
 use crate::{memory::Reservation, quote};
 
@@ -76,15 +76,15 @@ impl<'a> Faces<'a> {
         chunk: usize,
         lists: &Lists,
         mut before: Counts,
-    ) -> Result<(Faces<'a>, Reservation), LineError> {
+    ) -> Result<(Faces<'a>, Reservation), ChunkError> {
         let (mut faces, mut room) = (Faces::default(), Reservation::none());
-        for (number, line) in chunks.lines(chunk) {
+        for (number, line) in chunks.lines(chunk)? {
             let mut words = words(line);
             match words.next() {
                 Some("v") => before.places += 1,
                 Some("vt") => before.uvs += 1,
                 Some("vn") => before.normals += 1,
-                Some("f") => faces.add(lists, &before, words, &mut room).map_err(|reason| (number, reason))?,
+                Some("f") => faces.add(lists, &before, words, &mut room).map_err(|reason| ChunkError::Line(number, reason))?,
                 Some("usemtl") => faces.switch(rest(line)),
                 Some("mtllib") => faces.libraries.push(rest(line)),
                 _ => {}
@@ -143,18 +143,26 @@ impl<'a> Faces<'a> {
 
 /// Reads `place`, `place/uv`, `place//normal` or `place/uv/normal`.
 fn corner(lists: &Lists, before: &Counts, word: &str) -> Result<Corner, String> {
-    let mut parts = word.split('/');
-    let mut index = |what, count, before| match parts.next() {
+    let mut rest = Some(word);
+    let mut index = |what, count, before| match next_part(&mut rest) {
         None | Some("") => Ok(NONE),
         Some(part) => position(part, what, count, before),
     };
     let place = index("vertex", lists.places.len(), before.places)?;
     let uv = index("texture coordinate", lists.uvs.len(), before.uvs)?;
     let normal = index("normal", lists.normals.len(), before.normals)?;
-    if place == NONE || parts.next().is_some() {
+    if place == NONE || rest.is_some() {
         return Err(format!("{} is not a corner: `vertex/texture coordinate/normal`", quote::bytes(word.as_bytes())));
     }
     Ok(Corner { place, uv, normal })
+}
+
+/// Takes the text before the next slash, or the rest.
+fn next_part<'w>(rest: &mut Option<&'w str>) -> Option<&'w str> {
+    let text = (*rest)?;
+    let slash = text.bytes().position(|byte| byte == b'/');
+    *rest = slash.map(|slash| &text[slash + 1..]);
+    Some(&text[..slash.unwrap_or(text.len())])
 }
 
 /// Resolves an index into a list of `count`. The file counts from 1, or with negative numbers back from the `before` elements of

@@ -21,19 +21,22 @@ use self::{
     text::Chunks,
 };
 use super::{Model, ModelFormatError, Part, Parts, polygon, weld::distinct};
-use crate::memory::{Reservation, reserve};
+use crate::{
+    memory::{Reservation, reserve},
+    progress::{Progress, Stage},
+};
 
 /// Reads the file as one mesh.
-pub(super) fn decode(bytes: &[u8]) -> Result<Model, ModelFormatError> {
-    read(bytes, |lists, faces| {
+pub(super) fn decode(bytes: &[u8], progress: &Progress) -> Result<Model, ModelFormatError> {
+    read(bytes, progress, |lists, faces| {
         let count = lists.places.len();
         model(lists, faces, count, |corner| corner.place as usize)
     })
 }
 
 /// Reads the file as one mesh per material.
-pub(super) fn decode_parts(bytes: &[u8]) -> Result<Parts, ModelFormatError> {
-    read(bytes, |lists, faces| {
+pub(super) fn decode_parts(bytes: &[u8], progress: &Progress) -> Result<Parts, ModelFormatError> {
+    read(bytes, progress, |lists, faces| {
         let libraries = faces.libraries.iter().map(|library| (*library).to_owned()).collect();
         let (mut local, _room) = parts::local_table(lists)?;
         let mut list = Vec::new();
@@ -46,15 +49,23 @@ pub(super) fn decode_parts(bytes: &[u8]) -> Result<Parts, ModelFormatError> {
     })
 }
 
-fn read<T>(bytes: &[u8], make: impl Fn(&Lists, Faces) -> Result<T, ModelFormatError>) -> Result<T, ModelFormatError> {
+fn read<T>(
+    bytes: &[u8],
+    progress: &Progress,
+    make: impl Fn(&Lists, Faces) -> Result<T, ModelFormatError>,
+) -> Result<T, ModelFormatError> {
+    /// How often the lines are read.
+    const PASSES: u64 = 2;
     let mut room = Reservation::none();
     let text = &text::decode(bytes)?;
-    let chunks = Chunks::new(text);
+    progress.expect(Stage::Files, PASSES * text.len() as u64);
+    let chunks = Chunks::new(text, progress);
     let (lists, before) = Lists::read(&chunks, &mut room)?;
     if let Cow::Owned(copy) = text {
         room.grow("copies of what is not UTF-8", copy.len() as u64)?;
     }
     let faces = Faces::read(&chunks, &lists, &before, &mut room)?;
+    progress.check()?;
     make(&lists, faces)
 }
 
