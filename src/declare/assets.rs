@@ -22,7 +22,9 @@ pub struct Assets {
 
 /// Contents of files on disk that have been read already, by [`super::key_of_file`]. Each is taken once.
 #[derive(Clone, Default)]
-pub(super) struct Loaded(Arc<Mutex<BTreeMap<String, (Box<dyn Any + Send>, Reservation)>>>);
+pub(super) struct Loaded(Arc<Mutex<LoadedFiles>>);
+
+type LoadedFiles = BTreeMap<String, (Box<dyn Any + Send>, Reservation)>;
 
 impl Loaded {
     /// Takes the content of a file, if it has this type.
@@ -31,7 +33,7 @@ impl Loaded {
         content.downcast().ok().map(|content| *content)
     }
 
-    fn files(&self) -> MutexGuard<'_, BTreeMap<String, (Box<dyn Any + Send>, Reservation)>> {
+    fn files(&self) -> MutexGuard<'_, LoadedFiles> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

@@ -88,7 +88,7 @@ mod tests {
 
     /// A strip of triangles, with a normal and a colour per vertex.
     fn file(big_endian: bool, index: &str) -> Vec<u8> {
-        let (format, count) = (if big_endian { "big" } else { "little" }, 30);
+        let (format, count) = (if big_endian { "big" } else { "little" }, 30i32);
         let numbers = ["double x", "double y", "double z", "float nx", "float ny", "float nz", "uchar red", "uchar green"];
         let properties: String = numbers.iter().chain(&["uchar blue"]).map(|name| format!("property {name}\n")).collect();
         let faces = count - 2;

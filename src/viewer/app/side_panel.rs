@@ -96,7 +96,7 @@ impl App {
         let pixel = |at| Some(Pixel { at, frame: frame.as_ref()?, values, legend: results.legend.as_ref(), materials });
         let bar = StatusBar {
             opened: session.opened.as_ref(),
-            is_opening: self.background.loader.is_busy(),
+            opening: self.background.loader.progress(),
             is_studying: self.is_studying(),
             camera: &session.camera,
             settings: &session.settings,

@@ -7,6 +7,7 @@ use std::{
 use noisefall::{
     edit::{Document, Recovery, Template},
     import::{self, ImportOptions, Opened, Remarks},
+    progress::Progress,
     render::truth::Reference,
     scene::{BUILT_IN, Camera, Scene, Truth, built_in, description::SceneDescription, parse},
 };
@@ -87,6 +88,8 @@ pub type ReferenceResult = Result<DroppedReference, String>;
 pub struct Loader {
     ctx: egui::Context,
     pending: Option<BackgroundTask<OpenResult>>,
+    /// The progress of the latest request.
+    progress: Progress,
     reference: Option<BackgroundTask<ReferenceResult>>,
     /// The scene of the command line.
     given: GivenScene,
@@ -94,7 +97,7 @@ pub struct Loader {
 
 impl Loader {
     pub fn new(ctx: &egui::Context) -> Loader {
-        Loader { ctx: ctx.clone(), pending: None, reference: None, given: GivenScene::default() }
+        Loader { ctx: ctx.clone(), pending: None, progress: Progress::default(), reference: None, given: GivenScene::default() }
     }
 
     /// Opens the scene of the command line.
@@ -105,8 +108,27 @@ impl Loader {
 
     /// Opens a scene file, or the built-in scene.
     pub fn open(&mut self, path: Option<PathBuf>) {
-        let scene = if self.is_given(path.as_deref()) { GivenScene { path, ..self.given.clone() } } else { path.into() };
+        let mut scene = if self.is_given(path.as_deref()) { GivenScene { path, ..self.given.clone() } } else { path.into() };
+        scene.options.progress = self.restart();
         self.pending = Some(BackgroundTask::start(&self.ctx, |_| open(scene)));
+    }
+
+    /// Cancels the request that is pending, and returns the progress of the next one.
+    fn restart(&mut self) -> Progress {
+        self.cancel();
+        self.progress = Progress::default();
+        self.progress.clone()
+    }
+
+    /// Cancels the pending request. No result will come.
+    pub fn cancel(&mut self) {
+        self.progress.cancel();
+        self.pending = None;
+    }
+
+    /// The progress of the pending request.
+    pub fn progress(&self) -> Option<&Progress> {
+        self.pending.is_some().then_some(&self.progress)
     }
 
     /// Whether a file is that of the command line, whose options it takes.
@@ -117,13 +139,15 @@ impl Loader {
 
     /// Begins a new scene.
     pub fn begin(&mut self, template: Template) {
+        self.cancel();
         self.pending = Some(BackgroundTask::start(&self.ctx, move |_| begin(template)));
     }
 
     /// Opens a scene with the changes that were not saved.
     pub fn restore(&mut self, recovery: Recovery) {
         let is_given = self.is_given(recovery.origin.as_deref());
-        let options = if is_given { self.given.options.clone() } else { ImportOptions::default() };
+        let of_file = if is_given { self.given.options.clone() } else { ImportOptions::default() };
+        let options = ImportOptions { progress: self.restart(), ..of_file };
         self.pending = Some(BackgroundTask::start(&self.ctx, move |_| restore(&recovery, &options)));
     }
 
@@ -156,6 +180,13 @@ impl Loader {
     pub fn take_reference(&mut self) -> Option<ReferenceResult> {
         let failed = |_| Err("Reading the reference failed unexpectedly".to_owned());
         Some(BackgroundTask::take(&mut self.reference)?.unwrap_or_else(failed))
+    }
+}
+
+/// The thread must not go on for nobody.
+impl Drop for Loader {
+    fn drop(&mut self) {
+        self.cancel();
     }
 }
 
@@ -192,8 +223,10 @@ fn restore(recovery: &Recovery, options: &ImportOptions) -> OpenResult {
     let source = recovery.file().map_or_else(|| "recovered scene".to_owned(), |path| path.display().to_string());
     let scene = match &recovery.origin {
         // Its meshes and textures are in the original only.
-        Some(origin) => import::read(origin, options)
-            .and_then(|imported| Arc::new(document.description().clone()).build_with(origin, imported.assets)),
+        Some(origin) => import::read(origin, options).and_then(|imported| {
+            let description = Arc::new(document.description().clone());
+            description.build_watched(origin, imported.assets, &options.progress)
+        }),
         None => parse(&source, recovery.text.clone()),
     };
     let scene = scene.map_err(|error| error.report())?;
@@ -244,6 +277,21 @@ mod tests {
         loader.open(Some(furnace.clone()));
         let (opened, _) = wait(|| loader.take()).unwrap_or_else(|error| panic!("{error}"));
         assert_eq!((opened.name.as_str(), opened.path, opened.truth.is_some()), ("Furnace", Some(furnace), true));
+    }
+
+    #[test]
+    fn a_cancelled_request_has_no_result_and_its_reader_is_told() {
+        let mut loader = Loader::new(&egui::Context::default());
+        assert!(loader.progress().is_none());
+        loader.open(None);
+        let first = loader.progress().expect("it is opened").clone();
+        loader.open(Some("no/such/scene.toml".into()));
+        let second = loader.progress().expect("it is opened").clone();
+        assert!(first.is_cancelled() && !second.is_cancelled());
+        loader.cancel();
+        assert!(second.is_cancelled() && !loader.is_busy() && loader.progress().is_none() && loader.take().is_none());
+        loader.open(None);
+        assert!(wait(|| loader.take()).is_ok());
     }
 
     #[test]

@@ -3,6 +3,7 @@ use std::{path::Path, time::Duration};
 
 use egui::{Color32, Label, RichText};
 use noisefall::{
+    progress::Progress,
     render::{Budget, RenderRequest, State, Status, pass::SampleId, replay_command::replay_command},
     scene::{Camera, RenderSettings},
 };
@@ -14,7 +15,8 @@ use crate::viewer::widgets::palette::Palette;
 /// The figures of the line.
 pub struct StatusBar<'a> {
     pub opened: Option<&'a OpenedScene>,
-    pub is_opening: bool,
+    /// The progress of a scene that is being opened.
+    pub opening: Option<&'a Progress>,
     pub is_studying: bool,
     pub camera: &'a Camera,
     pub settings: &'a RenderSettings,
@@ -86,8 +88,12 @@ impl StatusBar<'_> {
 
     fn state_text(&self, ui: &egui::Ui) -> (Color32, String) {
         let (good, warning) = (ui.good(), ui.warning());
+        if let Some(progress) = self.opening {
+            const INTERVAL: Duration = Duration::from_millis(100);
+            ui.ctx().request_repaint_after(INTERVAL);
+            return (warning, format!("{}: {:.0} %", progress.stage().name(), 100.0 * progress.fraction()));
+        }
         let (colour, text) = match self.status.state {
-            _ if self.is_opening => (warning, "Opening"),
             _ if self.is_studying => (warning, "Studying"),
             _ if self.camera.check().is_err() => (warning, "Invalid settings"),
             State::Idle => (Color32::GRAY, "No scene"),
