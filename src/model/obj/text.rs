@@ -127,7 +127,8 @@ impl<'a> Iterator for Lines<'a> {
 /// The words of a line, up to its comment.
 #[derive(Clone)]
 pub struct Words<'a> {
-    rest: &'a str,
+    /// The text after the last word.
+    pub rest: &'a str,
 }
 
 pub fn words(line: &str) -> Words<'_> {
