@@ -106,15 +106,22 @@ impl Reservation {
     }
 
     /// Appends to a list, and reserves its growth. `what` names the items.
+    #[inline]
     pub fn push<T>(&mut self, list: &mut Vec<T>, item: T, what: &str) -> Result<(), TooMuch> {
-        const FEWEST: usize = 64;
         if list.len() == list.capacity() {
-            // While it is copied the old list is there besides: its room is not given back.
-            let capacity = (2 * list.capacity()).max(FEWEST);
-            self.grow(format_args!("{capacity} {what}"), (capacity * size_of::<T>()) as u64)?;
-            list.reserve_exact(capacity - list.len());
+            self.enlarge(list, what)?;
         }
         list.push(item);
+        Ok(())
+    }
+
+    #[cold]
+    fn enlarge<T>(&mut self, list: &mut Vec<T>, what: &str) -> Result<(), TooMuch> {
+        const FEWEST: usize = 64;
+        // While it is copied the old list is there besides: its room is not given back.
+        let capacity = (2 * list.capacity()).max(FEWEST);
+        self.grow(format_args!("{capacity} {what}"), (capacity * size_of::<T>()) as u64)?;
+        list.reserve_exact(capacity - list.len());
         Ok(())
     }
 }

@@ -13,6 +13,7 @@ mod layers;
 mod lists;
 mod live;
 mod loaded_image;
+mod loading;
 mod meant;
 mod messages;
 mod options;

@@ -6,7 +6,10 @@ use noisefall::{
     quote,
 };
 
-use super::messages::{Failure, tell};
+use super::{
+    loading::with_bar,
+    messages::{Failure, tell},
+};
 
 /// Largest number of remarks that are printed.
 const MOST_REMARKS: usize = 20;
@@ -40,6 +43,7 @@ impl SceneOptions {
             time: self.at,
             variant: self.variant.clone(),
             allow_outside: self.allow_outside,
+            ..ImportOptions::default()
         }
     }
 
@@ -49,7 +53,7 @@ impl SceneOptions {
         if options != ImportOptions::default() && !is_foreign(path) {
             tell("note: -D, --at, --variant and --allow-outside affect scenes of other programs only");
         }
-        let opened = import::open(path, &options).map_err(|error| error.report())?;
+        let opened = with_bar(&options.progress, || import::open(path, &options)).map_err(|error| error.report())?;
         self.report(path, &opened.remarks, "taken over exactly")?;
         Ok(opened)
     }
@@ -125,6 +129,7 @@ mod tests {
             time: Some(-1.5),
             variant: Some("Red one".to_owned()),
             allow_outside: true,
+            ..ImportOptions::default()
         };
         assert!(strict && !options.strict);
         assert_eq!(options.import_options(), expected);

@@ -4,7 +4,7 @@ use std::{
     collections::BTreeMap,
     fmt,
     sync::{
-        Arc,
+        Arc, Mutex, MutexGuard, PoisonError,
         atomic::{AtomicU64, Ordering},
     },
 };
@@ -15,8 +15,27 @@ use crate::memory::Reservation;
 #[derive(Clone, Default)]
 pub struct Assets {
     files: Arc<BTreeMap<String, Asset>>,
+    loaded: Loaded,
     /// Given back with the last clone.
     memory: Option<Arc<Reservation>>,
+}
+
+/// Contents of files on disk that have been read already, by [`super::key_of_file`]. Each is taken once.
+#[derive(Clone, Default)]
+pub(super) struct Loaded(Arc<Mutex<LoadedFiles>>);
+
+type LoadedFiles = BTreeMap<String, (Box<dyn Any + Send>, Reservation)>;
+
+impl Loaded {
+    /// Takes the content of a file, if it has this type.
+    pub fn take<T: 'static>(&self, key: &str) -> Option<T> {
+        let (content, _memory) = self.files().remove(key)?;
+        content.downcast().ok().map(|content| *content)
+    }
+
+    fn files(&self) -> MutexGuard<'_, LoadedFiles> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
 }
 
 /// The content of a file in memory.
@@ -42,6 +61,17 @@ impl Assets {
         Arc::make_mut(&mut self.files).insert(path.into(), Asset { content: Arc::new(content), number });
     }
 
+    /// Hands over the content of a file on disk, and its memory, so that the compile need not read it again. `key` is its
+    /// [`super::key_of_file`] from before it was read.
+    pub fn hand_over<T: Send + 'static>(&self, key: String, content: T, memory: Reservation) {
+        self.loaded.files().insert(key, (Box::new(content), memory));
+    }
+
+    /// Forgets the contents that were handed over and not taken.
+    pub fn forget_loaded(&self) {
+        self.loaded.files().clear();
+    }
+
     /// The content of a file, if it has this type.
     pub fn get<T: Send + Sync + 'static>(&self, path: &str) -> Option<Arc<T>> {
         self.files.get(path)?.content()
@@ -49,6 +79,10 @@ impl Assets {
 
     pub(super) fn asset(&self, path: &str) -> Option<&Asset> {
         self.files.get(path)
+    }
+
+    pub(super) fn loaded(&self) -> &Loaded {
+        &self.loaded
     }
 
     /// Keeps the memory of the contents reserved while they exist, in place of an earlier reservation.

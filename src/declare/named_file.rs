@@ -5,17 +5,18 @@ use std::{
     sync::Arc,
 };
 
-use super::assets::Asset;
+use super::assets::{Asset, Loaded};
 
 /// A file that a description names: in memory, or else on disk.
 pub struct NamedFile {
     path: PathBuf,
     asset: Option<Asset>,
+    loaded: Loaded,
 }
 
 impl NamedFile {
-    pub(super) fn new(path: PathBuf, asset: Option<&Asset>) -> NamedFile {
-        NamedFile { path, asset: asset.cloned() }
+    pub(super) fn new(path: PathBuf, asset: Option<&Asset>, loaded: &Loaded) -> NamedFile {
+        NamedFile { path, asset: asset.cloned(), loaded: loaded.clone() }
     }
 
     /// The path of the file on disk, or that under which it is in memory.
@@ -26,6 +27,11 @@ impl NamedFile {
     /// The content of a file in memory, if it has this type.
     pub fn content<T: Send + Sync + 'static>(&self) -> Option<Arc<T>> {
         self.asset.as_ref()?.content()
+    }
+
+    /// Takes the content of a file on disk, if it has been read and not changed since. It can be taken once.
+    pub fn take_loaded<T: 'static>(&self) -> Option<T> {
+        self.loaded.take(&self.key())
     }
 
     /// A key for what is made of the file. It changes with the content.
@@ -48,7 +54,10 @@ pub fn key_of_file(path: &Path) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::declare::{Assets, Resources};
+    use crate::{
+        declare::{Assets, Resources},
+        memory::Reservation,
+    };
 
     #[test]
     fn the_key_of_a_file_changes_with_its_size() {
@@ -76,5 +85,22 @@ mod tests {
         assert!(old.key() != new.key() && old.key() == file(&shared, "a").key() && old.content::<u16>().is_none());
         let disk = file(&Assets::default(), "a");
         assert!(disk.content::<u8>().is_none() && disk.key() == key_of_file(&folder.path().join("a")));
+    }
+
+    #[test]
+    fn what_has_been_read_is_taken_once_unless_the_file_has_changed() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("a");
+        fs::write(&path, "disk").expect("it is written");
+        let read = Assets::default();
+        let taken = || Resources::new(folder.path()).with_assets(read.clone()).file("a").take_loaded::<u8>();
+        read.hand_over(key_of_file(&path), 9u8, Reservation::none());
+        assert_eq!([taken(), taken()], [Some(9), None]);
+        read.hand_over(key_of_file(&path), 9u8, Reservation::none());
+        read.forget_loaded();
+        assert_eq!(taken(), None);
+        read.hand_over(key_of_file(&path), 9u8, Reservation::none());
+        fs::write(&path, "changed").expect("it is written");
+        assert_eq!(taken(), None);
     }
 }

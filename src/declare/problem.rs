@@ -1,6 +1,6 @@
 //! Errors of values, with their paths.
 use super::{path::Path, value::Family};
-use crate::quote;
+use crate::{progress::Cancelled, quote};
 
 /// Something wrong in a description.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -22,6 +22,11 @@ impl Problem {
     /// `at` as [`Path::of`] reads it.
     pub fn at(at: &str, message: impl Into<String>, label: impl Into<String>) -> Problem {
         Problem { path: Path::of(at), message: message.into(), label: label.into(), help: String::new(), part: None }
+    }
+
+    /// The end of a compile that was asked to stop.
+    pub fn cancelled(cancelled: Cancelled) -> Problem {
+        Problem::at("", cancelled.to_string(), "the scene was not opened")
     }
 
     /// The problem of an undefined name; `known` are the defined ones.

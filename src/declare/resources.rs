@@ -11,12 +11,13 @@ use super::{
     Assets, NamedFile, Problem,
     memo::{Kept, Memo, PartReport},
 };
-use crate::memory::Reservation;
+use crate::{memory::Reservation, progress::Progress};
 
 /// The folder of relative paths, the memory reserved so far, and the slow parts.
 pub struct Resources {
     folder: PathBuf,
     assets: Assets,
+    progress: Progress,
     memory: RefCell<Reservation>,
     /// Parts of the previous compile.
     before: Memo,
@@ -46,6 +47,7 @@ impl Resources {
         Resources {
             folder: folder.into(),
             assets: Assets::default(),
+            progress: Progress::default(),
             memory: RefCell::new(Reservation::none()),
             before,
             now: RefCell::default(),
@@ -58,9 +60,19 @@ impl Resources {
         Resources { assets, ..self }
     }
 
+    /// The same, but reports its progress, and can be cancelled.
+    pub fn with_progress(self, progress: Progress) -> Resources {
+        Resources { progress, ..self }
+    }
+
+    /// The progress of the compile.
+    pub fn progress(&self) -> &Progress {
+        &self.progress
+    }
+
     /// A file that a description names.
     pub fn file(&self, named: &str) -> NamedFile {
-        NamedFile::new(self.path(named), self.assets.asset(named))
+        NamedFile::new(self.path(named), self.assets.asset(named), self.assets.loaded())
     }
 
     /// A path that a description names.

@@ -12,7 +12,10 @@ use super::{
     identity::same_map,
     mesh::{Mesh, MeshData},
 };
-use crate::declare::Precision;
+use crate::{
+    declare::Precision,
+    progress::{Cancelled, Progress, Stage},
+};
 
 /// The trees of the meshes of a scene.
 #[derive(Clone, Default)]
@@ -46,6 +49,7 @@ pub(super) struct MeshBuilder<'a> {
     uses: HashMap<*const MeshData, usize>,
     before: Option<&'a MeshTrees>,
     precision: Precision,
+    progress: &'a Progress,
     pub trees: MeshTrees,
     /// Whether some mesh has the tree of another pose.
     pub have_moved: bool,
@@ -58,37 +62,41 @@ impl<'a> MeshBuilder<'a> {
         shapes: impl Iterator<Item = (&'s Shape, &'s Motion)>,
         before: Option<&'a MeshTrees>,
         precision: Precision,
+        progress: &'a Progress,
     ) -> MeshBuilder<'a> {
-        let mut uses = HashMap::new();
+        let (mut uses, mut triangles) = (HashMap::new(), 0);
         for (shape, motion) in shapes {
             if let Shape::Mesh { data, .. } = shape {
+                let uses = uses.entry(Arc::as_ptr(data)).or_insert(0);
+                triangles += if *uses == 0 { data.triangles.len() as u64 } else { 0 };
                 // What moves needs a space of its own as well.
-                *uses.entry(Arc::as_ptr(data)).or_insert(0) += if motion.0.is_empty() { 1 } else { 2 };
+                *uses += if motion.0.is_empty() { 1 } else { 2 };
             }
         }
-        MeshBuilder { uses, before, precision, trees: MeshTrees::default(), have_moved: false, times: Vec::new() }
+        progress.expect(Stage::Trees, triangles);
+        MeshBuilder { uses, before, precision, progress, trees: MeshTrees::default(), have_moved: false, times: Vec::new() }
     }
 
     /// The mesh with its tree, and the map from there to world space. A mesh with a single instance is built in world space.
-    pub fn place(&mut self, data: &Arc<MeshData>, map: &DAffine3) -> (Arc<Mesh>, DAffine3) {
+    pub fn place(&mut self, data: &Arc<MeshData>, map: &DAffine3) -> Result<(Arc<Mesh>, DAffine3), Cancelled> {
         let is_single = self.uses.get(&Arc::as_ptr(data)).is_none_or(|uses| *uses == 1);
         let pose = if is_single { *map } else { DAffine3::IDENTITY };
         let still = if is_single { DAffine3::IDENTITY } else { *map };
         if let Some(tree) = self.known(|trees| trees.find(data, &pose)) {
-            return (self.take_over(tree), still);
+            return Ok((self.take_over(tree), still));
         }
         if self.precision == Precision::Interactive
             && let Some(tree) = self.known(|trees| trees.in_any_pose(data))
         {
             self.have_moved = true;
             let moved = *map * tree.pose.inverse();
-            return (self.take_over(tree), moved);
+            return Ok((self.take_over(tree), moved));
         }
         let start = Instant::now();
-        let mesh = Arc::new(Mesh::new(&data.transformed(&pose)));
+        let mesh = Arc::new(Mesh::build(&data.transformed(&pose), self.progress)?);
         self.times.push(Some(start.elapsed()));
         self.trees.0.push(MeshTree { data: data.clone(), pose, mesh: mesh.clone() });
-        (mesh, still)
+        Ok((mesh, still))
     }
 
     /// The tree that `find` finds among those of this compile, or of the one before.

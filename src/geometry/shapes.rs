@@ -21,6 +21,7 @@ use super::{
 use crate::{
     declare::Precision,
     math::{F, Lanes, M, Pick, U, V},
+    progress::{Cancelled, Progress},
 };
 
 /// All shapes of a scene.
@@ -47,7 +48,7 @@ pub struct Shapes {
 impl Shapes {
     /// Builds all shapes. Their pieces are numbered in order. `near` is a point in the middle of the scene.
     pub fn new<'a>(shapes: impl Iterator<Item = (&'a Shape, &'a Motion)> + Clone, near: DVec3) -> Shapes {
-        Shapes::after(None, Precision::Exact, shapes, near).0
+        Shapes::after(None, Precision::Exact, shapes, near, &Progress::default()).expect("nobody cancels").0
     }
 
     /// The same; trees of meshes are those of the shapes `before` where `precision` allows it. Also returns the time that each of these
@@ -57,12 +58,13 @@ impl Shapes {
         precision: Precision,
         shapes: impl Iterator<Item = (&'a Shape, &'a Motion)> + Clone,
         near: DVec3,
-    ) -> (Shapes, Vec<Option<Duration>>) {
-        let mut meshes = MeshBuilder::new(shapes.clone(), before.map(|before| &before.meshes), precision);
+        progress: &Progress,
+    ) -> Result<(Shapes, Vec<Option<Duration>>), Cancelled> {
+        let mut meshes = MeshBuilder::new(shapes.clone(), before.map(|before| &before.meshes), precision, progress);
         let mut all = Shapes { near, ..Shapes::default() };
         let mut objects = Vec::new();
         for (shape, motion) in shapes {
-            let kind = all.push(shape, motion, &mut meshes, near);
+            let kind = all.push(shape, motion, &mut meshes, near)?;
             objects.push(Object { bounds: shape.bounds(motion), kind });
         }
         let [mut few, many] = few_and_many(objects);
@@ -77,7 +79,7 @@ impl Shapes {
         }
         all.objects = (!many.is_empty()).then(|| Objects::new(&many, near));
         (all.meshes, all.have_moved_meshes) = (meshes.trees, meshes.have_moved);
-        (all, meshes.times)
+        Ok((all, meshes.times))
     }
 
     /// Number of trees of meshes; meshes in the same pose share theirs.
@@ -111,19 +113,25 @@ impl Shapes {
     }
 
     /// Adds the pieces of a shape to the tables, but not to lists or trees.
-    fn push<'a>(&mut self, shape: &'a Shape, motion: &Motion, meshes: &mut MeshBuilder, near: DVec3) -> Kind<'a> {
+    fn push<'a>(
+        &mut self,
+        shape: &'a Shape,
+        motion: &Motion,
+        meshes: &mut MeshBuilder,
+        near: DVec3,
+    ) -> Result<Kind<'a>, Cancelled> {
         let first = self.tables.len() as u32;
         let (body, still) = match shape {
             Shape::Mesh { data, map, .. } => {
                 self.has_elements = true;
-                let (mesh, still) = meshes.place(data, map);
+                let (mesh, still) = meshes.place(data, map)?;
                 self.dropped += mesh.dropped();
                 (Body::Mesh(mesh), still)
             }
             Shape::Isosurface { surface, map } => (Body::Isosurface(surface.clone()), *map),
             _ if motion.0.is_empty() => {
                 self.tables.push_shape(shape, near);
-                return Kind::Analytic { first, shape };
+                return Ok(Kind::Analytic { first, shape });
             }
             _ => {
                 let (mut tables, mut list) = <(Box<Tables>, Box<Lists>)>::default();
@@ -138,7 +146,7 @@ impl Shapes {
             self.tables.push_instance(index);
         }
         self.instances.push(Instance::new(first, body, still, motion, shape));
-        Kind::Instance(index as u32)
+        Ok(Kind::Instance(index as u32))
     }
 
     /// The triangles of a mesh in the order of its elements.

@@ -28,6 +28,7 @@ pub use self::{
 };
 use crate::{
     declare::Assets,
+    progress::Progress,
     scene::{SceneError, description::SceneDescription},
 };
 
@@ -54,6 +55,8 @@ pub struct ImportOptions {
     pub variant: Option<String>,
     /// Whether files outside the folder of the scene may be read.
     pub allow_outside: bool,
+    /// Shows how far the reader is, and cancels it.
+    pub progress: Progress,
 }
 
 /// Whether a file is a scene of another program, by its name.

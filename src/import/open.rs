@@ -20,11 +20,15 @@ pub struct Opened {
 /// Reads and compiles a scene file of Noisefall or of another program, a mesh file, or the scene in an image file.
 pub fn open(path: &Path, options: &ImportOptions) -> Result<Opened, SceneError> {
     if !is_foreign(path) {
-        return Ok(Opened { scene: scene::load(path)?, remarks: Remarks::default(), description: None });
+        return Ok(Opened {
+            scene: scene::load_watched(path, &options.progress)?,
+            remarks: Remarks::default(),
+            description: None,
+        });
     }
     let Imported { description, assets, remarks } = read(path, options)?;
     let description = Arc::new(description);
-    let mut scene = description.build_with(path, assets)?;
+    let mut scene = description.build_watched(path, assets, &options.progress)?;
     let described = description.clone();
     scene.source = SceneText::new(Box::new(move || new_text(&described)));
     Ok(Opened { scene, remarks, description: Some(description) })

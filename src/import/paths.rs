@@ -5,7 +5,7 @@ use std::{
 };
 
 use super::ImportOptions;
-use crate::quote;
+use crate::{progress::Progress, quote};
 
 /// The folder of a scene. Files outside it are refused unless the user allows them: a scene from elsewhere must not read what it
 /// likes.
@@ -16,6 +16,8 @@ pub struct Folder {
     /// The same without links.
     root: PathBuf,
     allow_outside: bool,
+    /// The progress of the reader.
+    pub progress: Progress,
 }
 
 impl Folder {
@@ -24,7 +26,7 @@ impl Folder {
         let parent = scene.parent().filter(|folder| !folder.as_os_str().is_empty());
         let typed = parent.unwrap_or(Path::new(".")).to_owned();
         let root = typed.canonicalize().unwrap_or_else(|_| typed.clone());
-        Folder { typed, root, allow_outside: options.allow_outside }
+        Folder { typed, root, allow_outside: options.allow_outside, progress: options.progress.clone() }
     }
 
     /// The file at a path that the scene names. It exists, and lies within the folder, links followed. The message of an error does

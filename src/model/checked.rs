@@ -1,4 +1,6 @@
 //! Meshes that do not come from a file.
+use rayon::prelude::*;
+
 use super::{Model, normals};
 
 impl Model {
@@ -17,10 +19,11 @@ impl Model {
         if self.triangles.is_empty() {
             return Err("the mesh is empty: it has no faces".to_owned());
         }
-        if let Some(index) = self.triangles.iter().flatten().find(|index| **index as usize >= count) {
+        let missing = |triangle: &[u32; 3]| triangle.iter().find(|index| **index as usize >= count).copied();
+        if let Some(index) = self.triangles.par_iter().find_map_first(missing) {
             return Err(format!("vertex {index} does not exist: there are {count}, counted from 0"));
         }
-        if let Some(at) = self.vertices.iter().position(|vertex| !vertex.iter().all(|x| x.is_finite())) {
+        if let Some(at) = self.vertices.par_iter().position_first(|vertex| !vertex.iter().all(|x| x.is_finite())) {
             return Err(format!("vertex {at} is not finite"));
         }
         let lengths = [self.normals.as_ref().map(Vec::len), self.uvs.as_ref().map(Vec::len), self.colours.as_ref().map(Vec::len)];

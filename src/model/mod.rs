@@ -20,16 +20,18 @@ mod weld;
 
 use std::{
     fmt,
-    io::{ErrorKind, Read},
+    fs::File,
+    io::{ErrorKind, Read, Seek},
     path::{Path, PathBuf},
 };
 
-pub use normals::smooth_normals;
+pub use normals::{smooth_normals, smooth_normals_watched};
 pub use ply::encode as encode_ply;
 
 use crate::{
     file::open_regular,
     memory::{Reservation, Size, TooMuch, reserve},
+    progress::{Cancelled, Progress, Stage},
     quote,
 };
 
@@ -85,6 +87,9 @@ pub enum ModelFormatError {
     /// The size exceeds the memory that is left.
     #[error(transparent)]
     TooMuch(#[from] TooMuch),
+    /// The reader was asked to stop.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
     /// The file violates its format at this place.
     #[error("{0}: {1}")]
     Broken(Place, String),
@@ -126,6 +131,13 @@ pub struct Parts {
     pub list: Vec<Part>,
 }
 
+/// A file without materials.
+impl From<Model> for Parts {
+    fn from(model: Model) -> Parts {
+        Parts { libraries: Vec::new(), list: vec![Part { material: None, model }] }
+    }
+}
+
 /// The faces of a material.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Part {
@@ -156,45 +168,67 @@ pub fn is_flat(path: &Path) -> bool {
 
 /// Reads a mesh file of any supported format.
 pub fn read(path: &Path) -> Result<Model, ModelError> {
-    let model = bytes(path).and_then(|(bytes, _room)| decode(&bytes, Named::of(path)));
-    model.map_err(|problem| ModelError { path: path.to_owned(), problem })
+    read_watched(path, &Progress::default())
+}
+
+/// The same, with progress and cancellation.
+pub fn read_watched(path: &Path, progress: &Progress) -> Result<Model, ModelError> {
+    read_file(path, progress, decode).map_err(|problem| ModelError { path: path.to_owned(), problem })
 }
 
 /// Reads a mesh file as one mesh per material. Only OBJ files have several.
-pub fn read_parts(path: &Path) -> Result<Parts, ModelError> {
-    let parts = bytes(path).and_then(|(bytes, _room)| decode_parts(&bytes, Named::of(path)));
-    parts.map_err(|problem| ModelError { path: path.to_owned(), problem })
+pub fn read_parts(path: &Path, progress: &Progress) -> Result<Parts, ModelError> {
+    read_file(path, progress, decode_parts).map_err(|problem| ModelError { path: path.to_owned(), problem })
 }
 
-/// Reads a file, and reserves memory for it.
-fn bytes(path: &Path) -> Result<(Vec<u8>, Reservation), ModelFormatError> {
-    let file = open_regular(path)?;
+/// Reads a file: while its bytes come, if its format allows that, or else as a whole by `decode`.
+fn read_file<T: From<Model>>(
+    path: &Path,
+    progress: &Progress,
+    decode: impl Fn(&[u8], Option<Named>, &Progress) -> Result<T, ModelFormatError>,
+) -> Result<T, ModelFormatError> {
+    let mut file = open_regular(path)?;
     let length = file.metadata()?.len();
     if length > LARGEST_FILE {
         return Err(ModelFormatError::TooLarge);
     }
+    progress.expect(Stage::Files, length);
+    if let Some(model) = ply::read_rows(&mut file, length, progress)? {
+        return completed(model).map(T::from);
+    }
+    file.rewind()?;
+    let (bytes, _room) = bytes(file, length, progress)?;
+    decode(&bytes, Named::of(path), progress)
+}
+
+/// Reads the bytes of a file, and reserves memory for them.
+fn bytes(mut file: File, length: u64, progress: &Progress) -> Result<(Vec<u8>, Reservation), ModelFormatError> {
+    /// Bytes between two reports of progress.
+    const BLOCK: u64 = 1 << 24;
     let room = reserve(format_args!("{} of the file", Size(length)), length)?;
     let mut bytes = Vec::with_capacity(length as usize);
-    // The file may grow meanwhile.
-    file.take(length).read_to_end(&mut bytes)?;
+    // The file may grow meanwhile, or shrink.
+    for start in (0..length).step_by(BLOCK as usize) {
+        (&mut file).take(BLOCK.min(length - start)).read_to_end(&mut bytes)?;
+        progress.advance(BLOCK)?;
+    }
     Ok((bytes, room))
 }
 
-fn decode(bytes: &[u8], named: Option<Named>) -> Result<Model, ModelFormatError> {
+fn decode(bytes: &[u8], named: Option<Named>, progress: &Progress) -> Result<Model, ModelFormatError> {
     completed(match named {
-        _ if ply::is_ply(bytes) => ply::decode(bytes)?,
-        Some(Named::Obj) => obj::decode(bytes)?,
+        _ if ply::is_ply(bytes) => ply::decode(bytes, progress)?,
+        Some(Named::Obj) => obj::decode(bytes, progress)?,
         Some(Named::Stl) => stl::decode(bytes)?,
         None => return Err(ModelFormatError::NotAModel),
     })
 }
 
-fn decode_parts(bytes: &[u8], named: Option<Named>) -> Result<Parts, ModelFormatError> {
+fn decode_parts(bytes: &[u8], named: Option<Named>, progress: &Progress) -> Result<Parts, ModelFormatError> {
     if named != Some(Named::Obj) || ply::is_ply(bytes) {
-        let model = decode(bytes, named)?;
-        return Ok(Parts { libraries: Vec::new(), list: vec![Part { material: None, model }] });
+        return decode(bytes, named, progress).map(Parts::from);
     }
-    let Parts { libraries, list } = obj::decode_parts(bytes)?;
+    let Parts { libraries, list } = obj::decode_parts(bytes, progress)?;
     let complete = |part: Part| completed(part.model).map(|model| Part { material: part.material, model });
     let list: Vec<Part> = list.into_iter().map(complete).collect::<Result<_, _>>()?;
     if list.is_empty() { Err(ModelFormatError::Empty) } else { Ok(Parts { libraries, list }) }

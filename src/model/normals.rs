@@ -1,7 +1,9 @@
 //! Vertex normals, for meshes whose files have none or too few.
-use std::collections::HashMap;
-
 use glam::{DVec3, Vec3};
+use rayon::prelude::*;
+
+use super::weld;
+use crate::progress::{Cancelled, Progress, Stage};
 
 /// A sum of weighted unit vectors shorter than this fraction of the weights is the rounding error of vectors that cancel.
 const CANCELLED: f64 = 1e-6;
@@ -15,55 +17,79 @@ const CANCELLED: f64 = 1e-6;
 /// not be visible in the shading. A vertex whose triangle normals cancel, such as on both sides of a sheet, gets the normal of
 /// one of them. A vertex with only degenerate triangles gets +y.
 pub fn smooth_normals(vertices: &[[f32; 3]], triangles: &[[u32; 3]]) -> Vec<[f32; 3]> {
-    let places = places(vertices);
+    smooth_normals_watched(vertices, triangles, &Progress::default()).expect("nobody cancels")
+}
+
+/// The same, with progress, which counts triangles, and cancellation.
+pub fn smooth_normals_watched(
+    vertices: &[[f32; 3]],
+    triangles: &[[u32; 3]],
+    progress: &Progress,
+) -> Result<Vec<[f32; 3]>, Cancelled> {
+    progress.expect(Stage::Meshes, triangles.len() as u64);
+    let places = weld::firsts(vertices);
+    progress.check()?;
     let mut sums = vec![(DVec3::ZERO, 0.0); vertices.len()];
-    for_each_corner(vertices, triangles, |vertex, normal, angle| {
+    for_each_corner(vertices, triangles, progress, |vertex, normal, angle| {
         let (sum, weight) = &mut sums[places[vertex] as usize];
         *sum += normal * angle;
         *weight += angle;
-    });
+    })?;
     let is_known = |(sum, weight): (DVec3, f64)| sum.length() > CANCELLED * weight;
     let mut normals: Vec<DVec3> =
         sums.into_iter().map(|sum| if is_known(sum) { sum.0.normalize() } else { DVec3::ZERO }).collect();
-    for_each_corner(vertices, triangles, |vertex, normal, _| {
-        let known = &mut normals[places[vertex] as usize];
-        if *known == DVec3::ZERO {
-            *known = normal;
-        }
-    });
+    if places.iter().any(|place| normals[*place as usize] == DVec3::ZERO) {
+        for_each_corner(vertices, triangles, progress, |vertex, normal, _| {
+            let known = &mut normals[places[vertex] as usize];
+            if *known == DVec3::ZERO {
+                *known = normal;
+            }
+        })?;
+    }
     let of_place = |place: &u32| normals[*place as usize].as_vec3().try_normalize().unwrap_or(Vec3::Y).to_array();
-    places.iter().map(of_place).collect()
+    Ok(places.par_iter().map(of_place).collect())
 }
 
 /// Normalises the normals of a file. Missing normals, which are zero, become smooth ones.
 pub(super) fn complete(normals: &mut [[f32; 3]], vertices: &[[f32; 3]], triangles: &[[u32; 3]]) {
+    const MISSING: [f32; 3] = [0.0; 3];
     let unit = |normal: [f32; 3]| DVec3::from(normal.map(f64::from)).try_normalize().map(|unit| unit.as_vec3().to_array());
-    let mut smooth = None;
-    for (vertex, normal) in normals.iter_mut().enumerate() {
-        let replacement = || smooth.get_or_insert_with(|| smooth_normals(vertices, triangles))[vertex];
-        *normal = unit(*normal).unwrap_or_else(replacement);
+    normals.par_iter_mut().for_each(|normal| *normal = unit(*normal).unwrap_or(MISSING));
+    if normals.contains(&MISSING) {
+        let smooth = smooth_normals(vertices, triangles);
+        let missing = normals.iter_mut().zip(smooth).filter(|(normal, _)| **normal == MISSING);
+        missing.for_each(|(normal, smooth)| *normal = smooth);
     }
-}
-
-/// Returns for each vertex the first one at the same position.
-fn places(vertices: &[[f32; 3]]) -> Vec<u32> {
-    let mut firsts = HashMap::with_capacity(vertices.len());
-    // Adding zero makes −0 the same as 0.
-    let first = |(i, vertex): (usize, &[f32; 3])| *firsts.entry(vertex.map(|x| (x + 0.0).to_bits())).or_insert(i as u32);
-    vertices.iter().enumerate().map(first).collect()
 }
 
 /// Calls a function for each corner of the triangles that are not degenerate, with its vertex, the triangle's unit normal and the
-/// angle.
-fn for_each_corner(vertices: &[[f32; 3]], triangles: &[[u32; 3]], mut call: impl FnMut(usize, DVec3, f64)) {
-    for triangle in triangles {
-        let corners = triangle.map(|vertex| vertex as usize);
-        let [a, b, c] = corners.map(|vertex| DVec3::from(vertices[vertex].map(f64::from)));
-        let doubled = (b - a).cross(c - a);
-        let Some(normal) = doubled.try_normalize() else { continue };
-        let area = doubled.length();
-        let angle = |to_one: DVec3, to_other: DVec3| area.atan2(to_one.dot(to_other));
-        let angles = [angle(b - a, c - a), angle(c - b, a - b), angle(a - c, b - c)];
-        corners.into_iter().zip(angles).for_each(|(vertex, angle)| call(vertex, normal, angle));
+/// angle. The order is that of the triangles.
+fn for_each_corner(
+    vertices: &[[f32; 3]],
+    triangles: &[[u32; 3]],
+    progress: &Progress,
+    mut call: impl FnMut(usize, DVec3, f64),
+) -> Result<(), Cancelled> {
+    /// Triangles whose normals and angles are computed on all threads, and then used.
+    const AT_ONCE: usize = 1 << 15;
+    let mut facets = Vec::new();
+    for triangles in triangles.chunks(AT_ONCE) {
+        triangles.par_iter().map(|triangle| facet(vertices, triangle)).collect_into_vec(&mut facets);
+        for (triangle, facet) in triangles.iter().zip(&facets) {
+            let Some((normal, angles)) = facet else { continue };
+            triangle.iter().zip(angles).for_each(|(vertex, angle)| call(*vertex as usize, *normal, *angle));
+        }
+        progress.advance(triangles.len() as u64)?;
     }
+    Ok(())
+}
+
+/// The unit normal of a triangle and its angles; `None` if it is degenerate.
+fn facet(vertices: &[[f32; 3]], triangle: &[u32; 3]) -> Option<(DVec3, [f64; 3])> {
+    let [a, b, c] = triangle.map(|vertex| DVec3::from(vertices[vertex as usize].map(f64::from)));
+    let doubled = (b - a).cross(c - a);
+    let normal = doubled.try_normalize()?;
+    let area = doubled.length();
+    let angle = |to_one: DVec3, to_other: DVec3| area.atan2(to_one.dot(to_other));
+    Some((normal, [angle(b - a, c - a), angle(c - b, a - b), angle(a - c, b - c)]))
 }

@@ -1,12 +1,16 @@
 //! Numbers in mesh files, in every notation that other readers accept.
-use std::borrow::Cow;
-
 /// Parses a real number, which may be infinite or NaN. `None` if the word is not a number.
 ///
 /// Accepts Rust's notation, exponents after `d` as in Fortran, and a sign before the exponent, as in `3.1+e2`, where readers like
 /// C's `strtod` stop before the sign.
 pub fn real(word: &str) -> Option<f32> {
-    let word = if word.contains(['d', 'D']) { Cow::from(word.replace(['d', 'D'], "e")) } else { Cow::from(word) };
+    word.parse().ok().or_else(|| unusual(word))
+}
+
+/// The same for notations that Rust does not have.
+#[cold]
+fn unusual(word: &str) -> Option<f32> {
+    let word = word.replace(['d', 'D'], "e");
     word.parse().ok().or_else(|| mantissa(&word)?.parse().ok())
 }
 

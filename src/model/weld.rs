@@ -47,17 +47,22 @@ pub fn distinct<C: Copy + Ord + Sync>(corners: &[C], places: usize, place: impl 
 /// Bytes per position while [`positions`] runs.
 pub const WELDING: u64 = 28;
 
-/// Returns the distinct positions in the order in which they come first, and for each position its index among them. −0 equals 0.
-pub fn positions(all: &[[f32; 3]]) -> (Vec<[f32; 3]>, Vec<u32>) {
+/// Returns for each position the index of the first one that equals it. −0 equals 0.
+pub fn firsts(all: &[[f32; 3]]) -> Vec<u32> {
     let key = |(index, position): (usize, &[f32; 3])| (position.map(|x| (x + 0.0).to_bits()), index as u32);
     let mut keys: Vec<([u32; 3], u32)> = all.par_iter().enumerate().map(key).collect();
     keys.par_sort_unstable();
-    // First each position's first equal, and then the number of that.
-    let mut numbers = vec![0; all.len()];
+    let mut firsts = vec![0; all.len()];
     for same in keys.chunk_by(|a, b| a.0 == b.0) {
-        same.iter().for_each(|(_, index)| numbers[*index as usize] = same[0].1);
+        same.iter().for_each(|(_, index)| firsts[*index as usize] = same[0].1);
     }
-    drop(keys);
+    firsts
+}
+
+/// Returns the distinct positions in the order in which they come first, and for each position its index among them. −0 equals 0.
+pub fn positions(all: &[[f32; 3]]) -> (Vec<[f32; 3]>, Vec<u32>) {
+    // First each position's first equal, and then the number of that.
+    let mut numbers = firsts(all);
     let mut kept = Vec::new();
     for index in 0..all.len() {
         let first = numbers[index] as usize;

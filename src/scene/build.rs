@@ -12,6 +12,7 @@ use crate::{
     declare::{self, Assets, Precision, Problem},
     light::emission::radiance::Radiance,
     material::Material,
+    progress::Progress,
     shape::ShapeKind,
 };
 
@@ -32,14 +33,19 @@ impl SceneDescription {
     /// Checks the description as the reader of scene files does, and compiles it. Files that it names are looked for in `folder`.
     pub fn build(&self, folder: &Path) -> Result<Scene, SceneError> {
         let text = self.to_text();
-        let files = Files { folder, assets: Assets::default() };
+        let files = Files { folder, ..Files::default() };
         self.compiled(SceneText::new(Box::new(move || text)), Path::new("scene"), files, None)
     }
 
     /// The same for the scene of a file in another format, which errors name. Files are looked for in `assets` and in the folder of the
     /// file. The text of the scene is written at its first use.
     pub fn build_with(self: &Arc<Self>, file: &Path, assets: Assets) -> Result<Scene, SceneError> {
-        let files = Files { folder: file.parent().unwrap_or(Path::new("")), assets };
+        self.build_watched(file, assets, &Progress::default())
+    }
+
+    /// The same, with progress and cancellation.
+    pub fn build_watched(self: &Arc<Self>, file: &Path, assets: Assets, progress: &Progress) -> Result<Scene, SceneError> {
+        let files = Files { folder: file.parent().unwrap_or(Path::new("")), assets, progress: progress.clone() };
         self.compiled(self.later_text(), file, files, None)
     }
 
@@ -63,7 +69,7 @@ impl SceneDescription {
     /// # Ok::<(), noisefall::SceneError>(())
     /// ```
     pub fn rebuild(self: &Arc<Self>, folder: &Path, before: &Scene, precision: Precision) -> Result<Scene, SceneError> {
-        let files = Files { folder, assets: before.assets.clone() };
+        let files = Files { folder, assets: before.assets.clone(), ..Files::default() };
         self.compiled(self.later_text(), Path::new("scene"), files, Some(Before { scene: before, precision }))
     }
 

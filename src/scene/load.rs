@@ -5,11 +5,12 @@ use super::{
     Scene,
     carried::load_carried,
     diagnostic::{SceneError, SourceText},
-    parse::parse,
+    parse::parse_watched,
 };
 use crate::{
     file::open_regular,
     image::{PNG, looks_like},
+    progress::Progress,
 };
 
 /// Maximum size of a scene file, bytes. Larger files are rejected before they are read.
@@ -21,10 +22,15 @@ const OPENABLE: &str = "scenes are TOML, glTF, GLB, Mitsuba XML or PBRT files; m
 
 /// Reads and compiles a scene file, or the scene in an image file.
 pub fn load(path: &Path) -> Result<Scene, SceneError> {
+    load_watched(path, &Progress::default())
+}
+
+/// The same, with progress and cancellation.
+pub fn load_watched(path: &Path, progress: &Progress) -> Result<Scene, SceneError> {
     if let Some(carried) = load_carried(path) {
         return carried;
     }
-    parse(&path.display().to_string(), read_text(path)?)
+    parse_watched(&path.display().to_string(), read_text(path)?, progress)
 }
 
 /// The text of a scene file, which is not parsed.

@@ -55,7 +55,7 @@ pub use self::{
     estimator::{Estimator, power_heuristic},
     lamp::LampInstance,
     legend::Legend,
-    load::{LARGEST_FILE, load, read_text},
+    load::{LARGEST_FILE, load, load_watched, read_text},
     material_instance::{BlendParts, MaterialInstance, Properties},
     object::Object,
     parse::{BUILT_IN, built_in, describe, parse},

@@ -15,8 +15,8 @@ use super::{
     wording::in_plain_words,
 };
 use crate::{
-    declare::Assets,
     memory::{Size, reserve},
+    progress::Progress,
 };
 
 /// For longer texts with syntax errors only the first one is reported.
@@ -39,6 +39,11 @@ pub fn built_in() -> Scene {
 
 /// Compiles the text of a scene file. `name` is its name in errors; paths in the file are relative to the folder of `name`.
 pub fn parse(name: &str, text: String) -> Result<Scene, SceneError> {
+    parse_watched(name, text, &Progress::default())
+}
+
+/// The same, with progress and cancellation.
+pub fn parse_watched(name: &str, text: String, progress: &Progress) -> Result<Scene, SceneError> {
     let source = SourceText { name: name.to_owned(), text };
     let (description, damage, mut errors) = understood(&source)?;
     let nothing = || SceneError::of_file(Path::new(name), "this is not a scene", "a scene is one TOML file");
@@ -48,7 +53,7 @@ pub fn parse(name: &str, text: String) -> Result<Scene, SceneError> {
         return Err(SceneError::of_all(errors).unwrap_or_else(nothing));
     }
     let folder = Path::new(name).parent().unwrap_or(Path::new(""));
-    let files = Files { folder, assets: Assets::default() };
+    let files = Files { folder, progress: progress.clone(), ..Files::default() };
     let text = source.text.clone();
     match compile(&description, SceneText::new(Box::new(move || text)), files, &damage, None) {
         Ok(scene) if errors.is_empty() => return Ok(scene),

@@ -12,7 +12,8 @@ use crate::{
         MeshData, Shape,
         mesh::generate::{heightfield, torus_knot},
     },
-    model::{Model, is_flat, read, smooth_normals},
+    memory,
+    model::{Model, is_flat, read_watched, smooth_normals, smooth_normals_watched},
     quote,
 };
 
@@ -22,7 +23,7 @@ const MADE_TRIANGLE: u64 = 110;
 const VERTEX: u64 = 32;
 const COLOUR: u64 = 16;
 const TRIANGLE: u64 = 12;
-const SMOOTHING: u64 = 120;
+const SMOOTHING: u64 = 64;
 /// Range of the number of triangles of a procedural mesh.
 const MOST_TRIANGLES: u32 = 50_000_000;
 const MOST_QUADS: u32 = (MOST_TRIANGLES / 2).isqrt();
@@ -222,17 +223,25 @@ fn reserve(resources: &Resources, key: &str, triangles: u64) -> Result<(), Probl
 }
 
 fn from_file(resources: &Resources, file: &NamedFile, smooth: bool) -> Result<MeshData, Problem> {
-    let model = match file.content::<Model>() {
-        Some(model) => Model::clone(&model).checked().map_err(|problem| format!("{}: {problem}", quote::path(file.path()))),
-        None => read(file.path()).map_err(|error| error.to_string()),
+    let progress = resources.progress();
+    let model = match (file.content::<Model>(), file.take_loaded()) {
+        (Some(model), _) => Model::clone(&model).checked().map_err(|problem| format!("{}: {problem}", quote::path(file.path()))),
+        (None, Some(model)) => Ok(model),
+        (None, None) => read_watched(file.path(), progress).map_err(|error| error.to_string()),
     };
     let model = model.map_err(|message| Problem::at("path", message, "this mesh cannot be used"))?;
     let Model { vertices, triangles, normals, uvs, colours } = model;
-    let smoothing = if smooth && normals.is_none() { SMOOTHING } else { 0 };
     let colouring = if colours.is_some() { COLOUR } else { 0 };
-    let bytes = (VERTEX + smoothing + colouring) * vertices.len() as u64 + TRIANGLE * triangles.len() as u64;
+    let bytes = (VERTEX + colouring) * vertices.len() as u64 + TRIANGLE * triangles.len() as u64;
     resources.reserve("path", format_args!("{} vertices and {} triangles", vertices.len(), triangles.len()), bytes)?;
-    let normals = smooth.then(|| normals.unwrap_or_else(|| smooth_normals(&vertices, &triangles)));
+    let normals = match normals.filter(|_| smooth) {
+        None if smooth => {
+            let room = memory::reserve(format_args!("normals of {} vertices", vertices.len()), SMOOTHING * vertices.len() as u64);
+            let _room = room.map_err(|error| Problem::at("path", error.to_string(), "too much memory"))?;
+            Some(smooth_normals_watched(&vertices, &triangles, progress).map_err(Problem::cancelled)?)
+        }
+        normals => normals,
+    };
     let mut colours = colours.unwrap_or_default();
     // Textures of vertex colours count on their range. NaN becomes 0.
     colours.as_flattened_mut().iter_mut().for_each(|x| *x = if *x > 0.0 { x.min(1.0) } else { 0.0 });

@@ -71,7 +71,8 @@ impl Export<'_> {
             true => {
                 self.sheared += 1;
                 let linear = DAffine3 { translation: DVec3::ZERO, ..*map };
-                let mesh = self.mesh(key(Triangles::Sheared(self.sheared)), name, || Arc::new(data().transformed(&linear)))?;
+                let mesh = self
+                    .mesh(key(Triangles::Sheared(self.sheared)), name, || Arc::new(data().transformed(&linear).into_owned()))?;
                 (mesh, DAffine3::from_translation(map.translation))
             }
         };

@@ -6,6 +6,7 @@ use super::{Bvh, Leaves, NONE, Slabs, Stack, traverse};
 use crate::{
     geometry::bounds::Bounds,
     math::{One, V},
+    progress::{Cancelled, Progress, Stage},
 };
 
 fn boxes(count: usize, rng: &mut SmallRng) -> Vec<Bounds> {
@@ -89,5 +90,20 @@ fn every_box_that_is_met_is_shown() {
             let lost = boxes.iter().zip(marks.shown).position(|(bounds, shown)| !shown && meets(bounds, o, d));
             assert_eq!(lost, None, "{o:?} {d:?}");
         }
+    }
+}
+
+#[test]
+fn progress_counts_the_boxes_and_a_cancelled_build_has_no_tree() {
+    let line = |count: usize| (0..count).map(|i| Bounds::of_points([[i as f32, (i * i % 97) as f32, 0.0]]));
+    // Few are counted at the end, and many on the way.
+    for count in [0, 5, 40_000] {
+        let progress = Progress::default();
+        progress.expect(Stage::Trees, count as u64 + 1);
+        let built = Bvh::build_watched::<4>(line(count), &progress);
+        assert_eq!(built.map(|(_, order)| order), Ok(Bvh::build::<4>(line(count)).1), "{count}");
+        assert_eq!(progress.fraction(), count as f64 / (count + 1) as f64);
+        progress.cancel();
+        assert_eq!(Bvh::build_watched::<4>(line(count), &progress).err(), Some(Cancelled), "{count}");
     }
 }

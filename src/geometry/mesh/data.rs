@@ -1,7 +1,8 @@
 //! Vertices and triangles of a mesh, before its tree is built.
-use std::sync::Arc;
+use std::{borrow::Cow, sync::Arc};
 
 use glam::{DAffine3, DVec3, Vec3};
+use rayon::prelude::*;
 
 use crate::geometry::bounds::Bounds;
 
@@ -40,22 +41,22 @@ impl MeshData {
     }
 
     /// The image of the mesh under a map. The front stays the front, even if the map mirrors.
-    pub fn transformed(&self, map: &DAffine3) -> MeshData {
+    pub fn transformed(&self, map: &DAffine3) -> Cow<'_, MeshData> {
         if *map == DAffine3::IDENTITY {
-            return self.clone();
+            return Cow::Borrowed(self);
         }
         let mirrors = map.matrix3.determinant() < 0.0;
         let covector = map.matrix3.inverse().transpose();
         let point = |p: &[f32; 3]| map.transform_point3(Vec3::from(*p).as_dvec3()).as_vec3().to_array();
         let normal = |n: &[f32; 3]| (covector * Vec3::from(*n).as_dvec3()).normalize_or_zero().as_vec3().to_array();
         let turned = |&[a, b, c]: &[u32; 3]| if mirrors { [a, c, b] } else { [a, b, c] };
-        MeshData {
-            vertices: self.vertices.iter().map(point).collect(),
-            triangles: self.triangles.iter().map(turned).collect(),
-            normals: self.normals.iter().map(normal).collect(),
+        Cow::Owned(MeshData {
+            vertices: self.vertices.par_iter().map(point).collect(),
+            triangles: self.triangles.par_iter().map(turned).collect(),
+            normals: self.normals.par_iter().map(normal).collect(),
             uvs: self.uvs.clone(),
             colours: self.colours.clone(),
-        }
+        })
     }
 
     /// Whether a point lies inside a closed mesh, that is, whether a ray from it crosses the mesh an odd number of times.

@@ -18,10 +18,11 @@ mod surface;
 mod tests;
 mod toward;
 
-use std::sync::Arc;
+use std::{borrow::Cow, sync::Arc};
 
 use fearless_simd::Simd;
 use fearless_simd_macros::simd;
+use rayon::prelude::*;
 
 use self::{
     block::{Block, Shear, Shears},
@@ -35,7 +36,10 @@ use super::{
     bounds::Bounds,
     bvh::{Bvh, Leaves, NONE, Slabs, Stack, traverse},
 };
-use crate::math::{F, Lanes, MAX_LANES, One, U, V};
+use crate::{
+    math::{F, Lanes, MAX_LANES, One, U, V},
+    progress::{Cancelled, Progress},
+};
 
 /// Limit of coordinates: products of larger ones could overflow.
 const LARGEST: f32 = 1e11;
@@ -102,16 +106,29 @@ impl Rays {
 }
 
 impl Mesh {
-    /// Builds a mesh. Drops degenerate triangles, and those with coordinates that are not finite or beyond 10¹¹.
+    /// [`Mesh::build`] without progress.
+    #[cfg(test)]
     pub fn new(data: &MeshData) -> Mesh {
+        Mesh::build(data, &Progress::default()).expect("nobody cancels")
+    }
+
+    /// Builds a mesh. Drops degenerate triangles, and those with coordinates that are not finite or beyond 10¹¹. Progress counts
+    /// triangles.
+    pub fn build(data: &MeshData, progress: &Progress) -> Result<Mesh, Cancelled> {
         let corners = |triangle: [u32; 3]| triangle.map(|vertex| data.vertices[vertex as usize]);
-        let kept: Vec<[u32; 3]> = data.triangles.iter().copied().filter(|&triangle| has_area(corners(triangle))).collect();
+        let is_kept = |triangle: &[u32; 3]| has_area(corners(*triangle));
+        // Almost all meshes keep all triangles.
+        let kept: Cow<[[u32; 3]]> = match data.triangles.par_iter().all(is_kept) {
+            true => Cow::Borrowed(&data.triangles),
+            false => data.triangles.iter().copied().filter(is_kept).collect(),
+        };
         let boxes = kept.iter().map(|&triangle| Bounds::of_points(corners(triangle)));
-        let (bvh, order) = Bvh::build::<{ block::SIZE }>(boxes);
+        let (bvh, order) = Bvh::build_watched::<{ block::SIZE }>(boxes, progress)?;
 
         let mut blocks = Vec::with_capacity(order.len() / block::SIZE);
         let mut triangles = Vec::with_capacity(kept.len());
         for leaf in order.chunks_exact(block::SIZE) {
+            progress.check()?;
             let first = triangles.len();
             let members = leaf.iter().filter(|&&number| number != NONE).map(|&number| kept[number as usize]);
             triangles.extend(members.map(|[a, b, c]| [a, b, c, 0].map(f32::from_bits)));
@@ -121,7 +138,7 @@ impl Mesh {
         let (vertices, normals) = rows(data);
         let (is_smooth, has_uvs) = (!data.normals.is_empty(), !data.uvs.is_empty());
         let dropped = data.triangles.len() - kept.len();
-        Mesh { bvh, blocks, triangles, vertices, normals, colours: data.colours.clone(), is_smooth, has_uvs, dropped }
+        Ok(Mesh { bvh, blocks, triangles, vertices, normals, colours: data.colours.clone(), is_smooth, has_uvs, dropped })
     }
 
     /// The first triangle along o + td with 0 < t < `t_max`: t, or `t_max` if there is none, and the triangle's number or `NONE`.

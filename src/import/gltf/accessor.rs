@@ -1,11 +1,16 @@
 //! Accessors: columns of numbers in the buffers.
 use std::borrow::Cow;
 
+use rayon::prelude::*;
+
 use super::{
     buffers::Buffers,
     document::{Accessor, Document, Index, Sparse, element},
     refusal::Found,
 };
+
+/// Elements that a thread decodes at a time, at least.
+const AT_ONCE: usize = 1 << 12;
 
 /// The type of a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -110,24 +115,24 @@ impl<'a> Column<'a> {
         })
     }
 
-    fn decoded<T: Copy + Default, const N: usize, const B: usize>(
-        &self,
-        picks: &Picks,
-        number: impl Fn([u8; B]) -> T,
-    ) -> Vec<[T; N]> {
-        let element = |at: usize| {
-            let bytes = &self.bytes[at * self.stride..][..N * B];
-            let mut numbers = [T::default(); N];
-            for (number_here, code) in numbers.iter_mut().zip(bytes.chunks_exact(B)) {
-                let mut array = [0; B];
-                array.copy_from_slice(code);
-                *number_here = number(array);
-            }
-            numbers
+    /// The column of triples of numbers, one after the other, if it has a number to an element and no gaps. A rest is left out.
+    pub fn triples(&self) -> Option<Column<'_>> {
+        let is_packed = self.width == 1 && self.stride == self.component.bytes();
+        let triples = || Column { stride: 3 * self.stride, count: self.count / 3, width: 3, ..self.borrowed() };
+        is_packed.then(triples)
+    }
+
+    fn decoded<T, const N: usize, const B: usize>(&self, picks: &Picks, number: impl Fn([u8; B]) -> T + Sync) -> Vec<[T; N]>
+    where
+        T: Send,
+    {
+        let element = |at: usize| -> [T; N] {
+            let codes = self.bytes[at * self.stride..][..N * B].as_chunks::<B>().0;
+            std::array::from_fn(|i| number(codes[i]))
         };
         match picks {
-            Picks::First(count) => (0..*count).map(element).collect(),
-            Picks::These(list) => list.iter().map(|at| element(*at as usize)).collect(),
+            Picks::First(count) => (0..*count).into_par_iter().with_min_len(AT_ONCE).map(element).collect(),
+            Picks::These(list) => list.par_iter().with_min_len(AT_ONCE).map(|at| element(*at as usize)).collect(),
         }
     }
 }

@@ -8,7 +8,12 @@ use super::{
     document::{Buffer, BufferView, Document, Index, element},
     refusal::{Found, Refusal},
 };
-use crate::{file::open_regular, import::Folder, memory::Reservation};
+use crate::{
+    file::open_regular,
+    import::Folder,
+    memory::Reservation,
+    progress::{Progress, Stage},
+};
 
 /// Bytes that decoded data may take beyond a factor of the files.
 const FACTOR: u64 = 3;
@@ -24,8 +29,8 @@ pub struct Buffers {
 
 impl Buffers {
     /// Reads all buffers. `length` is that of the scene file, bytes.
-    pub fn read(document: &Document, blob: Option<Vec<u8>>, length: u64, folder: &Folder) -> Found<Buffers> {
-        let mut files = Files { folder, known: HashMap::new(), room: Reservation::none(), length };
+    pub fn read(document: &Document, blob: Option<Vec<u8>>, length: u64, folder: &Folder, progress: &Progress) -> Found<Buffers> {
+        let mut files = Files { folder, progress, known: HashMap::new(), room: Reservation::none(), length };
         let mut blob = blob.map(Rc::new);
         let mut data = Vec::new();
         for (place, buffer) in document.buffers.iter().enumerate() {
@@ -87,6 +92,7 @@ fn long_enough(bytes: Rc<Vec<u8>>, buffer: &Buffer) -> Found<Rc<Vec<u8>>> {
 /// Files that buffers name. Each is read once.
 struct Files<'a> {
     folder: &'a Folder,
+    progress: &'a Progress,
     known: HashMap<PathBuf, Rc<Vec<u8>>>,
     room: Reservation,
     /// Bytes of all files.
@@ -107,7 +113,8 @@ impl Files<'_> {
         let mut file = open_regular(&path).map_err(unreadable)?;
         let length = file.metadata().map_err(unreadable)?.len();
         self.room.grow("the bytes of a buffer", length)?;
-        let bytes = Rc::new(take(&mut file, length)?);
+        self.progress.expect(Stage::Files, length);
+        let bytes = Rc::new(take(&mut file, length, self.progress)?);
         self.length += length;
         self.known.insert(path, bytes.clone());
         Ok(bytes)

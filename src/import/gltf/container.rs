@@ -12,6 +12,7 @@ use super::{
 use crate::{
     file::open_regular,
     memory::{Reservation, reserve},
+    progress::{Progress, Stage},
 };
 
 const MAGIC: u32 = u32::from_le_bytes(*b"glTF");
@@ -36,7 +37,7 @@ pub struct Container {
 }
 
 /// Reads a file. Its first bytes determine the container, not its name.
-pub fn open(path: &Path) -> Found<Container> {
+pub fn open(path: &Path, progress: &Progress) -> Found<Container> {
     let unreadable = |error: std::io::Error| match error.kind() {
         ErrorKind::NotFound => Refusal::new("there is no such file", "check the path"),
         _ => Refusal::new(format!("cannot be read: {error}"), "a scene is a .gltf or .glb file"),
@@ -44,23 +45,24 @@ pub fn open(path: &Path) -> Found<Container> {
     let mut file = open_regular(path).map_err(unreadable)?;
     let length = file.metadata().map_err(unreadable)?.len();
     let room = reserve("the bytes of the file", length)?;
+    progress.expect(Stage::Files, length);
     let mut head = [0; 12];
     let is_binary = length >= 12 && file.read_exact(&mut head).is_ok() && word(&head, 0) == MAGIC;
     if !is_binary {
         file.seek(SeekFrom::Start(0)).map_err(unreadable)?;
-        let json = take(&mut file, length)?;
+        let json = take(&mut file, length, progress)?;
         return Ok(Container { document: parse(&json)?, blob: None, length, room });
     }
     match word(&head, 1) {
         2 => {}
         version => return Err(refused_version(&version.to_string())),
     }
-    let (document, blob) = chunks(&mut file, length - 12)?;
+    let (document, blob) = chunks(&mut file, length - 12, progress)?;
     Ok(Container { document, blob, length, room })
 }
 
 /// The chunks of a binary file whose header has been read.
-fn chunks(file: &mut File, mut left: u64) -> Found<(Document, Option<Vec<u8>>)> {
+fn chunks(file: &mut File, mut left: u64, progress: &Progress) -> Found<(Document, Option<Vec<u8>>)> {
     let (mut document, mut blob) = (None, None);
     while left >= 8 && (document.is_none() || blob.is_none()) {
         let mut head = [0; 8];
@@ -71,8 +73,8 @@ fn chunks(file: &mut File, mut left: u64) -> Found<(Document, Option<Vec<u8>>)> 
             return Err(format!("a chunk of {length} bytes goes beyond the end of the file").into());
         }
         match word(&head, 1) {
-            JSON if document.is_none() => document = Some(parse(&take(file, length)?)?),
-            BINARY if blob.is_none() => blob = Some(take(file, length)?),
+            JSON if document.is_none() => document = Some(parse(&take(file, length, progress)?)?),
+            BINARY if blob.is_none() => blob = Some(take(file, length, progress)?),
             _ => {
                 file.seek_relative(length as i64).map_err(|error| format!("cannot be read: {error}"))?;
             }
@@ -88,11 +90,17 @@ fn word(bytes: &[u8], place: usize) -> u32 {
 }
 
 /// Reads bytes that the file is known to have.
-pub fn take(file: &mut File, length: u64) -> Found<Vec<u8>> {
+pub fn take(file: &mut File, length: u64, progress: &Progress) -> Found<Vec<u8>> {
+    /// Bytes between two reports of progress.
+    const BLOCK: u64 = 1 << 24;
     let mut bytes = Vec::new();
     let size = usize::try_from(length).map_err(|_| "the file is too large")?;
     bytes.try_reserve_exact(size).map_err(|_| format!("there is no memory for {length} bytes"))?;
-    file.take(length).read_to_end(&mut bytes).map_err(|error| format!("cannot be read: {error}"))?;
+    for start in (0..length).step_by(BLOCK as usize) {
+        let block = BLOCK.min(length - start);
+        file.take(block).read_to_end(&mut bytes).map_err(|error| format!("cannot be read: {error}"))?;
+        progress.advance(block)?;
+    }
     if bytes.len() < size {
         return Err("the file ends too early".into());
     }

@@ -49,7 +49,7 @@ use crate::{quote, scene::SceneError};
 /// them.
 pub fn read(path: &Path, options: &ImportOptions) -> Result<Imported, SceneError> {
     let file = path.file_name().map_or_else(|| "glTF".to_owned(), |name| quote::piece(&name.to_string_lossy()));
-    container::open(path)
+    container::open(path, &options.progress)
         .and_then(|container| translated(container, &Folder::new(path, options), options, &file))
         .map_err(|refusal| refusal.of_file(path))
 }
@@ -60,7 +60,7 @@ fn translated(container: Container, folder: &Folder, options: &ImportOptions, fi
     let mut to = Imported::default();
     check_extensions(&document, &mut to, file)?;
     let variant = options.variant.as_deref().map(|name| variant(&document, name)).transpose()?;
-    let buffers = Buffers::read(&document, blob, length, folder)?;
+    let buffers = Buffers::read(&document, blob, length, folder, &options.progress)?;
     let poses = match options.time.filter(|time| time.is_finite()) {
         Some(time) => animation::poses(&document, &buffers, time)?,
         None => Poses::default(),

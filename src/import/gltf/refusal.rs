@@ -1,7 +1,7 @@
 //! Why a file is refused.
 use std::path::Path;
 
-use crate::{memory::TooMuch, scene::SceneError};
+use crate::{memory::TooMuch, progress::Cancelled, scene::SceneError};
 
 /// The reason why a file is refused, and what helps.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,6 +37,12 @@ impl From<String> for Refusal {
 impl From<&str> for Refusal {
     fn from(message: &str) -> Refusal {
         message.to_owned().into()
+    }
+}
+
+impl From<Cancelled> for Refusal {
+    fn from(cancelled: Cancelled) -> Refusal {
+        Refusal::new(cancelled.to_string(), "open the file again")
     }
 }
 

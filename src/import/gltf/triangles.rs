@@ -1,4 +1,6 @@
 //! Triangles of primitives, and the vertices that they use.
+use rayon::prelude::*;
+
 use super::{accessor::Picks, refusal::Found};
 
 /// What a primitive draws.
@@ -46,7 +48,7 @@ impl Mode {
 ///
 /// Primitives often share one large list of vertices. Each must not get a copy of the whole.
 pub fn compact(triangles: &mut [[u32; 3]], count: usize) -> Found<Picks> {
-    let Some(greatest) = triangles.iter().flatten().copied().max() else { return Ok(Picks::First(0)) };
+    let Some(greatest) = triangles.par_iter().flatten_iter().copied().max() else { return Ok(Picks::First(0)) };
     if greatest as usize >= count {
         return Err(format!("a triangle names vertex {greatest}; there are {count}").into());
     }

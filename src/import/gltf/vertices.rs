@@ -2,6 +2,7 @@
 use std::{collections::HashMap, rc::Rc};
 
 use glam::{DAffine3, DMat3, DVec3, Vec3};
+use rayon::prelude::*;
 
 use super::{
     accessor::{Column, Picks},
@@ -51,12 +52,12 @@ impl<'a> Vertices<'a> {
         if !deformation.joints.is_empty() {
             self.bend(primitive, &picks, &deformation.joints, &mut model)?;
         }
-        if let Some(at) = model.vertices.iter().position(|vertex| vertex.iter().any(|x| !x.is_finite())) {
+        if let Some(at) = model.vertices.par_iter().position_first(|vertex| vertex.iter().any(|x| !x.is_finite())) {
             return Err(format!("vertex {at} has coordinates that are not finite").into());
         }
         if let Some(normals) = &mut model.normals {
             // A normal without direction is left out: the surface has the one of the triangle there.
-            normals.iter_mut().for_each(|n| *n = Vec3::from(*n).try_normalize().unwrap_or(Vec3::ZERO).to_array());
+            normals.par_iter_mut().for_each(|n| *n = Vec3::from(*n).try_normalize().unwrap_or(Vec3::ZERO).to_array());
         }
         Ok(Some(model))
     }
@@ -86,6 +87,9 @@ impl<'a> Vertices<'a> {
             Some(index) => {
                 let column = self.column(index)?;
                 self.buffers.spend(corner * column.count as u64, "triangles")?;
+                if let Some(triples) = column.triples().filter(|_| mode == Mode::Triangles) {
+                    return triples.wholes::<3>(&Picks::First(triples.count));
+                }
                 column.wholes::<1>(&Picks::First(column.count))?.into_flattened()
             }
             None => {

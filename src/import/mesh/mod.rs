@@ -25,8 +25,9 @@ use glam::DVec3;
 use self::{library::Library, material::Appearance, textures::Textures};
 use super::{Folder, ImportOptions, Imported, Names, studio};
 use crate::{
-    declare::Textured,
+    declare::{Textured, key_of_file},
     material::Lambertian,
+    memory::{Size, TooMuch, reserve},
     model::{Model, Part, is_flat, read_parts},
     quote,
     scene::{
@@ -40,7 +41,9 @@ use crate::{
 /// Reads the file.
 pub fn read(path: &Path, options: &ImportOptions) -> Result<Imported, SceneError> {
     const HELP: &str = "a mesh is an OBJ, PLY or STL file";
-    let parts = read_parts(path).map_err(|error| SceneError::of_file(path, error.problem.to_string(), HELP))?;
+    let key = key_of_file(&path.with_file_name(path.file_name().unwrap_or_default()));
+    let parts =
+        read_parts(path, &options.progress).map_err(|error| SceneError::of_file(path, error.problem.to_string(), HELP))?;
     let file = path.file_name().map_or_else(|| "mesh".to_owned(), |name| quote::piece(&name.to_string_lossy()));
     let folder = Folder::new(path, options);
     let mut to = Imported::default();
@@ -50,6 +53,7 @@ pub fn read(path: &Path, options: &ImportOptions) -> Result<Imported, SceneError
     let bounds = bounds.unwrap_or([DVec3::ZERO; 2]);
     let mut objects = Objects {
         path,
+        key,
         file: &file,
         size: bounds[0].distance(bounds[1]),
         is_alone: parts.list.len() == 1,
@@ -58,7 +62,9 @@ pub fn read(path: &Path, options: &ImportOptions) -> Result<Imported, SceneError
         names: Names::default(),
         meshes: Names::default(),
     };
-    parts.list.into_iter().for_each(|part| objects.add(part, &mut to));
+    for part in parts.list {
+        objects.add(part, &mut to).map_err(|error| SceneError::of_file(path, error.to_string(), "raise the memory limit"))?;
+    }
     studio::frame(&mut to.description, bounds);
     to.remarks.add(&*file, "no camera", "a camera that shows everything", "the view is not the author's");
     if to.description.objects.iter().all(|object| object.emission.is_none()) {
@@ -76,6 +82,8 @@ fn bounds(model: &Model) -> [DVec3; 2] {
 /// Makes the objects and their materials.
 struct Objects<'a> {
     path: &'a Path,
+    /// Key of the file, for its content.
+    key: String,
     file: &'a str,
     /// Diagonal of the bounding box, metres.
     size: f64,
@@ -87,7 +95,7 @@ struct Objects<'a> {
 }
 
 impl Objects<'_> {
-    fn add(&mut self, part: Part, to: &mut Imported) {
+    fn add(&mut self, part: Part, to: &mut Imported) -> Result<(), TooMuch> {
         let wanted = part.material.as_deref().unwrap_or_default();
         let name = self.names.unique(wanted, "material");
         let Appearance { material, emission } = match self.library.find(wanted) {
@@ -97,7 +105,12 @@ impl Objects<'_> {
         to.description.materials.insert(name.clone(), material);
         let is_faceted = is_flat(self.path);
         let (file, smooth) = match self.path.file_name().and_then(|name| name.to_str()).filter(|_| self.is_alone) {
-            Some(file) => (file.to_owned(), None),
+            Some(file) => {
+                let bytes = part.model.bytes();
+                let memory = reserve(format_args!("{} of a mesh", Size(bytes)), bytes)?;
+                to.assets.hand_over(std::mem::take(&mut self.key), part.model, memory);
+                (file.to_owned(), None)
+            }
             None => {
                 let path = format!("meshes/{}.ply", self.meshes.unique(&file_name(wanted), "mesh"));
                 to.assets.insert(path.clone(), part.model);
@@ -112,6 +125,7 @@ impl Objects<'_> {
             emission,
             ..ObjectDescription::default()
         });
+        Ok(())
     }
 
     /// The material of faces without one: grey, or the colours of the vertices.

@@ -3,21 +3,11 @@ use rayon::prelude::*;
 
 use super::{
     super::{ModelFormatError, polygon::Polygon},
+    corner::{Corner, corner, plain_corner},
     lists::{Counts, Lists},
-    text::{Chunks, LineError, rest, words},
+    text::{ChunkError, Chunks, Words, rest, words},
 };
-use crate::{memory::Reservation, quote};
-
-/// Marks a missing texture coordinate or normal of a corner.
-pub const NONE: u32 = u32::MAX;
-
-/// A corner of a face: indices into the lists.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Corner {
-    pub place: u32,
-    pub uv: u32,
-    pub normal: u32,
-}
+use crate::memory::{Reservation, TooMuch};
 
 /// A line `usemtl`, by the numbers of corners, triangles and polygons before it.
 #[derive(Clone, Copy)]
@@ -76,15 +66,15 @@ impl<'a> Faces<'a> {
         chunk: usize,
         lists: &Lists,
         mut before: Counts,
-    ) -> Result<(Faces<'a>, Reservation), LineError> {
+    ) -> Result<(Faces<'a>, Reservation), ChunkError> {
         let (mut faces, mut room) = (Faces::default(), Reservation::none());
-        for (number, line) in chunks.lines(chunk) {
+        for (number, line) in chunks.lines(chunk)? {
             let mut words = words(line);
             match words.next() {
                 Some("v") => before.places += 1,
                 Some("vt") => before.uvs += 1,
                 Some("vn") => before.normals += 1,
-                Some("f") => faces.add(lists, &before, words, &mut room).map_err(|reason| (number, reason))?,
+                Some("f") => faces.add(lists, &before, words, &mut room).map_err(|reason| ChunkError::Line(number, reason))?,
                 Some("usemtl") => faces.switch(rest(line)),
                 Some("mtllib") => faces.libraries.push(rest(line)),
                 _ => {}
@@ -114,17 +104,14 @@ impl<'a> Faces<'a> {
         self.switches.push(Switch { material, corner, triangle, polygon });
     }
 
-    fn add<'w>(
-        &mut self,
-        lists: &Lists,
-        before: &Counts,
-        words: impl Iterator<Item = &'w str>,
-        room: &mut Reservation,
-    ) -> Result<(), String> {
+    fn add(&mut self, lists: &Lists, before: &Counts, words: Words, room: &mut Reservation) -> Result<(), String> {
         let first = self.corners.len() as u32;
-        for word in words {
-            let corner = corner(lists, before, word)?;
-            room.push(&mut self.corners, corner, "corners").map_err(|error| error.to_string())?;
+        if !self.add_plain(lists, before, words.rest, room).map_err(|error| error.to_string())? {
+            self.corners.truncate(first as usize);
+            for word in words {
+                let corner = corner(lists, before, word)?;
+                room.push(&mut self.corners, corner, "corners").map_err(|error| error.to_string())?;
+            }
         }
         let end = self.corners.len() as u32;
         if end - first < 3 {
@@ -139,32 +126,15 @@ impl<'a> Faces<'a> {
             .try_for_each(|triangle| room.push(&mut self.triangles, triangle, "triangles"))
             .map_err(|error| error.to_string())
     }
-}
 
-/// Reads `place`, `place/uv`, `place//normal` or `place/uv/normal`.
-fn corner(lists: &Lists, before: &Counts, word: &str) -> Result<Corner, String> {
-    let mut parts = word.split('/');
-    let mut index = |what, count, before| match parts.next() {
-        None | Some("") => Ok(NONE),
-        Some(part) => position(part, what, count, before),
-    };
-    let place = index("vertex", lists.places.len(), before.places)?;
-    let uv = index("texture coordinate", lists.uvs.len(), before.uvs)?;
-    let normal = index("normal", lists.normals.len(), before.normals)?;
-    if place == NONE || parts.next().is_some() {
-        return Err(format!("{} is not a corner: `vertex/texture coordinate/normal`", quote::bytes(word.as_bytes())));
+    /// Adds the corners of a line that holds nothing unusual. Else returns false, perhaps after some of them.
+    fn add_plain(&mut self, lists: &Lists, before: &Counts, line: &str, room: &mut Reservation) -> Result<bool, TooMuch> {
+        let mut rest = line.as_bytes().trim_ascii();
+        while !rest.is_empty() {
+            let Some((corner, after)) = plain_corner(lists, before, rest) else { return Ok(false) };
+            room.push(&mut self.corners, corner, "corners")?;
+            rest = after.trim_ascii_start();
+        }
+        Ok(true)
     }
-    Ok(Corner { place, uv, normal })
-}
-
-/// Resolves an index into a list of `count`. The file counts from 1, or with negative numbers back from the `before` elements of
-/// earlier lines.
-fn position(index: &str, what: &str, count: usize, before: usize) -> Result<u32, String> {
-    let number: i64 = index.parse().map_err(|_| format!("{} is not a {what}'s number", quote::bytes(index.as_bytes())))?;
-    let position = if number < 0 { before as i64 + number } else { number - 1 };
-    if (0..count as i64).contains(&position) {
-        return Ok(position as u32);
-    }
-    let there = if number < 0 { format!("{before} before this line") } else { format!("{count}, counted from 1") };
-    Err(format!("{what} {number} does not exist: there are {there}"))
 }

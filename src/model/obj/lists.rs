@@ -3,7 +3,7 @@ use rayon::prelude::*;
 
 use super::{
     super::{ModelFormatError, number},
-    text::{Chunks, LineError, words},
+    text::{ChunkError, Chunks, Words, words},
 };
 use crate::{math::colour::linear_from_srgb, memory::Reservation, quote};
 
@@ -58,10 +58,10 @@ impl Lists {
         Ok((lists, counts))
     }
 
-    fn of_chunk(chunks: &Chunks, chunk: usize) -> Result<(Lists, Reservation), LineError> {
+    fn of_chunk(chunks: &Chunks, chunk: usize) -> Result<(Lists, Reservation), ChunkError> {
         let (mut lists, mut room) = (Lists::default(), Reservation::none());
-        for (number, line) in chunks.lines(chunk) {
-            lists.add(words(line), &mut room).map_err(|reason| (number, reason))?;
+        for (number, line) in chunks.lines(chunk)? {
+            lists.add(words(line), &mut room).map_err(|reason| ChunkError::Line(number, reason))?;
         }
         Ok((lists, room))
     }
@@ -79,7 +79,7 @@ impl Lists {
         Ok(())
     }
 
-    fn add<'a>(&mut self, mut words: impl Iterator<Item = &'a str> + Clone, room: &mut Reservation) -> Result<(), String> {
+    fn add(&mut self, mut words: Words, room: &mut Reservation) -> Result<(), String> {
         match words.next() {
             Some("v") => {
                 let (place, rest) = place(words)?;

@@ -6,6 +6,7 @@
 //!
 //! Chunks of whole lines are read at the same time, twice: first their lists, whose lengths say what negative indices refer to, and
 //! then their faces. The result does not depend on the chunks.
+mod corner;
 mod faces;
 mod lists;
 mod parts;
@@ -15,25 +16,31 @@ mod text;
 
 use std::borrow::Cow;
 
+use rayon::prelude::*;
+
 use self::{
-    faces::{Corner, Faces, NONE},
+    corner::{Corner, NONE},
+    faces::Faces,
     lists::{Lists, WHITE},
     text::Chunks,
 };
 use super::{Model, ModelFormatError, Part, Parts, polygon, weld::distinct};
-use crate::memory::{Reservation, reserve};
+use crate::{
+    memory::{Reservation, reserve},
+    progress::{Progress, Stage},
+};
 
 /// Reads the file as one mesh.
-pub(super) fn decode(bytes: &[u8]) -> Result<Model, ModelFormatError> {
-    read(bytes, |lists, faces| {
+pub(super) fn decode(bytes: &[u8], progress: &Progress) -> Result<Model, ModelFormatError> {
+    read(bytes, progress, |lists, faces| {
         let count = lists.places.len();
         model(lists, faces, count, |corner| corner.place as usize)
     })
 }
 
 /// Reads the file as one mesh per material.
-pub(super) fn decode_parts(bytes: &[u8]) -> Result<Parts, ModelFormatError> {
-    read(bytes, |lists, faces| {
+pub(super) fn decode_parts(bytes: &[u8], progress: &Progress) -> Result<Parts, ModelFormatError> {
+    read(bytes, progress, |lists, faces| {
         let libraries = faces.libraries.iter().map(|library| (*library).to_owned()).collect();
         let (mut local, _room) = parts::local_table(lists)?;
         let mut list = Vec::new();
@@ -46,15 +53,23 @@ pub(super) fn decode_parts(bytes: &[u8]) -> Result<Parts, ModelFormatError> {
     })
 }
 
-fn read<T>(bytes: &[u8], make: impl Fn(&Lists, Faces) -> Result<T, ModelFormatError>) -> Result<T, ModelFormatError> {
+fn read<T>(
+    bytes: &[u8],
+    progress: &Progress,
+    make: impl Fn(&Lists, Faces) -> Result<T, ModelFormatError>,
+) -> Result<T, ModelFormatError> {
+    /// How often the lines are read.
+    const PASSES: u64 = 2;
     let mut room = Reservation::none();
     let text = &text::decode(bytes)?;
-    let chunks = Chunks::new(text);
+    progress.expect(Stage::Files, PASSES * text.len() as u64);
+    let chunks = Chunks::new(text, progress);
     let (lists, before) = Lists::read(&chunks, &mut room)?;
     if let Cow::Owned(copy) = text {
         room.grow("copies of what is not UTF-8", copy.len() as u64)?;
     }
     let faces = Faces::read(&chunks, &lists, &before, &mut room)?;
+    progress.check()?;
     make(&lists, faces)
 }
 
@@ -67,15 +82,29 @@ fn model(lists: &Lists, faces: Faces, places: usize, place: impl Fn(&Corner) -> 
     let bytes = CORNER + if lists.colours.is_empty() { 0 } else { COLOUR };
     let _more = reserve(format_args!("{} corners", corners.len()), bytes * corners.len() as u64)?;
     polygon::cut(&mut triangles, &polygons, |corner| lists.places[corners[corner as usize].place as usize]);
-    let (distinct, vertices) = distinct(&corners, places, place);
+    let has_attributes = !lists.uvs.is_empty() || !lists.normals.is_empty();
+    let (distinct, vertices) = if has_attributes { distinct(&corners, places, place) } else { used(&corners, places, place) };
     drop(corners);
-    triangles.as_flattened_mut().iter_mut().for_each(|corner| *corner = vertices[*corner as usize]);
+    triangles.par_iter_mut().for_each(|corners| *corners = corners.map(|corner| vertices[corner as usize]));
     let uvs = attribute(&distinct, &lists.uvs, |corner| corner.uv);
     let normals = attribute(&distinct, &lists.normals, |corner| corner.normal);
     let vertices = distinct.iter().map(|corner| lists.places[corner.place as usize]).collect();
     let colour = |corner: &Corner| lists.colours.get(corner.place as usize).copied().unwrap_or(WHITE);
     let colours = (!lists.colours.is_empty()).then(|| distinct.iter().map(colour).collect());
     Ok(Model { vertices, triangles, normals, uvs, colours })
+}
+
+/// The result of [`distinct`] for corners that are positions only.
+fn used(corners: &[Corner], places: usize, place: impl Fn(&Corner) -> usize + Sync) -> (Vec<Corner>, Vec<u32>) {
+    // First the position in the file, and then the number.
+    let mut numbers = vec![NONE; places];
+    corners.iter().for_each(|corner| numbers[place(corner)] = corner.place);
+    let mut distinct = Vec::new();
+    for number in numbers.iter_mut().filter(|number| **number != NONE) {
+        distinct.push(Corner { place: *number, uv: NONE, normal: NONE });
+        *number = distinct.len() as u32 - 1;
+    }
+    (distinct, corners.par_iter().map(|corner| numbers[place(corner)]).collect())
 }
 
 /// Looks up an attribute of each corner, 0 where it is missing; `None` if all corners lack it.

@@ -3,7 +3,8 @@ use std::collections::HashMap;
 
 use super::{
     super::{ModelFormatError, polygon::Polygon},
-    faces::{Corner, Faces, Switch},
+    corner::Corner,
+    faces::{Faces, Switch},
     lists::Lists,
 };
 use crate::memory::reserve;

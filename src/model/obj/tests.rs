@@ -1,13 +1,17 @@
 //! Chunks: the result does not depend on their size.
-use super::{Faces, Lists, text::Chunks};
-use crate::memory::Reservation;
+use super::{super::ModelFormatError, Faces, Lists, text::Chunks};
+use crate::{
+    memory::Reservation,
+    progress::{Cancelled, Progress},
+};
 
 const TEXT: &str = "# a comment \\\nv 0 0 0 1 0 0\nv 1 0 0\\\n\\\n\n\n 0.5 0.5 0.5\nv 1 1 0\nvt 0 0\nvt 1 1\nvn 0 0 1\nf -1 -2 \\\n-3\nusemtl a\nv 0 1 0\n\
     v 2 2 2 0 1 0\nf 1/1 2/2 3/-1 4/-2 5/1\nvn 1 0 0\nf 1//-1 2//-2 -1//1\nusemtl b\nmtllib c\nf 5 4 3\n";
 
 /// Everything that chunks of a size hold, as text.
 fn read(text: &str, size: usize) -> String {
-    let chunks = Chunks::of(text, size);
+    let progress = Progress::default();
+    let chunks = Chunks::of(text, size, &progress);
     assert_eq!(chunks.list.concat(), text);
     let mut room = Reservation::none();
     let (lists, before) = match Lists::read(&chunks, &mut room) {
@@ -44,4 +48,12 @@ fn errors_have_the_line_of_the_file() {
         assert!(whole.starts_with("line 20: "), "{whole}");
         (0..text.len()).for_each(|size| assert_eq!(read(&text, size), whole, "{size} bytes"));
     }
+}
+
+#[test]
+fn reading_ends_when_it_is_cancelled() {
+    let progress = Progress::default();
+    assert!(super::decode(TEXT.as_bytes(), &progress).is_ok());
+    progress.cancel();
+    assert_eq!(super::decode(TEXT.as_bytes(), &progress), Err(ModelFormatError::Cancelled(Cancelled)));
 }

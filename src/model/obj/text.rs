@@ -1,58 +1,78 @@
 //! The text of an OBJ file: chunks, lines and words.
 use std::borrow::Cow;
 
+use memchr::memchr;
+
 use super::super::{ModelFormatError, Place};
+use crate::progress::{Cancelled, Progress};
 
 /// Bytes of a chunk, about.
 const CHUNK: usize = 1 << 22;
 
 /// Decodes the file. Comments and names may be in any superset of ASCII; bytes that are not UTF-8 are replaced.
 pub fn decode(bytes: &[u8]) -> Result<Cow<'_, str>, ModelFormatError> {
-    if let Some(at) = bytes.iter().position(|byte| *byte == 0) {
+    if let Some(at) = memchr(0, bytes) {
         let lines = bytes[..at].iter().filter(|byte| **byte == b'\n').count();
         return Err(Place::Line(lines + 1).broken("this is not text in an encoding that extends ASCII"));
     }
-    Ok(String::from_utf8_lossy(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)))
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    Ok(str::from_utf8(bytes).map_or_else(|_| String::from_utf8_lossy(bytes), Cow::Borrowed))
 }
 
 /// The text in chunks of whole lines, which are read at the same time.
 pub struct Chunks<'a> {
     pub list: Vec<&'a str>,
     /// End of a line. Some old files have only carriage returns.
-    end: char,
+    end: u8,
+    progress: &'a Progress,
 }
 
-/// An error in a line of a chunk, counted from 1.
-pub type LineError = (usize, String);
+/// Why a chunk is not read.
+pub enum ChunkError {
+    /// An error in a line of the chunk, counted from 1.
+    Line(usize, String),
+    Cancelled(Cancelled),
+}
+
+impl From<Cancelled> for ChunkError {
+    fn from(cancelled: Cancelled) -> ChunkError {
+        ChunkError::Cancelled(cancelled)
+    }
+}
 
 impl<'a> Chunks<'a> {
-    pub fn new(text: &'a str) -> Chunks<'a> {
-        Chunks::of(text, CHUNK)
+    pub fn new(text: &'a str, progress: &'a Progress) -> Chunks<'a> {
+        Chunks::of(text, CHUNK, progress)
     }
 
     /// Chunks of at least `size` bytes, except for the last one.
-    pub fn of(text: &'a str, size: usize) -> Chunks<'a> {
-        let end = if text.contains('\n') { '\n' } else { '\r' };
+    pub fn of(text: &'a str, size: usize, progress: &'a Progress) -> Chunks<'a> {
+        let end = if text.contains('\n') { b'\n' } else { b'\r' };
         let (mut list, mut rest) = (Vec::new(), text);
         while !rest.is_empty() {
-            let (chunk, after) = rest.split_at(boundary(rest.as_bytes(), size, end as u8));
+            let (chunk, after) = rest.split_at(boundary(rest.as_bytes(), size, end));
             list.push(chunk);
             rest = after;
         }
-        Chunks { list, end }
+        Chunks { list, end, progress }
     }
 
-    /// The lines of a chunk with their numbers in it, counted from 1.
-    pub fn lines(&self, chunk: usize) -> Lines<'a> {
-        Lines { rest: self.list[chunk], number: 1, end: self.end }
+    /// The lines of a chunk with their numbers in it, counted from 1. Fails if the reader is asked to stop.
+    pub fn lines(&self, chunk: usize) -> Result<Lines<'a>, Cancelled> {
+        self.progress.advance(self.list[chunk].len() as u64)?;
+        Ok(Lines { rest: self.list[chunk], number: 1, end: self.end })
     }
 
     /// The results of all chunks, or the first error, by its line in the file.
-    pub fn all<T>(&self, results: Vec<Result<T, LineError>>) -> Result<Vec<T>, ModelFormatError> {
-        let located = |(chunk, result): (usize, Result<T, LineError>)| {
-            result.map_err(|(line, reason)| {
-                let before: usize = self.list[..chunk].iter().map(|chunk| chunk.matches(self.end).count()).sum();
-                Place::Line(before + line).broken(reason)
+    pub fn all<T>(&self, results: Vec<Result<T, ChunkError>>) -> Result<Vec<T>, ModelFormatError> {
+        let located = |(chunk, result): (usize, Result<T, ChunkError>)| {
+            result.map_err(|error| match error {
+                ChunkError::Line(line, reason) => {
+                    let lines = |chunk: &&str| chunk.bytes().filter(|byte| *byte == self.end).count();
+                    let before: usize = self.list[..chunk].iter().map(lines).sum();
+                    Place::Line(before + line).broken(reason)
+                }
+                ChunkError::Cancelled(cancelled) => cancelled.into(),
             })
         };
         results.into_iter().enumerate().map(located).collect()
@@ -62,7 +82,7 @@ impl<'a> Chunks<'a> {
 /// The end of the first line at or after `size` that the next line does not continue.
 fn boundary(bytes: &[u8], size: usize, end: u8) -> usize {
     let mut start = size.min(bytes.len());
-    while let Some(length) = bytes[start..].iter().position(|byte| *byte == end) {
+    while let Some(length) = memchr(end, &bytes[start..]) {
         let line = &bytes[start..start + length];
         start += length + 1;
         // An empty line belongs to the one before it if that is continued.
@@ -77,36 +97,65 @@ fn boundary(bytes: &[u8], size: usize, end: u8) -> usize {
 pub struct Lines<'a> {
     rest: &'a str,
     number: usize,
-    end: char,
+    end: u8,
 }
 
 impl<'a> Iterator for Lines<'a> {
     type Item = (usize, &'a str);
 
     fn next(&mut self) -> Option<(usize, &'a str)> {
-        let (text, first) = (self.rest, self.number);
+        let (text, first) = (self.rest.as_bytes(), self.number);
         let (mut end, mut is_continued) = (0, false);
         while end < text.len() {
             let start = end;
-            end = text[end..].find(self.end).map_or(text.len(), |length| end + length + 1);
+            end = memchr(self.end, &text[end..]).map_or(text.len(), |length| end + length + 1);
             self.number += 1;
-            let line = text[start..end].trim_end_matches(['\r', '\n']);
+            let last = text[start..end].iter().rev().find(|byte| !b"\r\n".contains(byte));
             // Empty lines do not end a continued one.
-            is_continued = if line.is_empty() { is_continued } else { line.ends_with('\\') };
+            is_continued = last.map_or(is_continued, |last| *last == b'\\');
             // Comments end in backslashes by chance, after the name of a directory.
-            if text.starts_with('#') || !is_continued {
+            if text[0] == b'#' || !is_continued {
                 break;
             }
         }
-        self.rest = &text[end..];
-        (end > 0).then(|| (first, &text[..end]))
+        let (line, rest) = self.rest.split_at(end);
+        self.rest = rest;
+        (end > 0).then_some((first, line))
     }
 }
 
-/// Splits a line into words, up to its comment.
-pub fn words(line: &str) -> impl Iterator<Item = &str> + Clone {
-    let line = line.split('#').next().unwrap_or_default();
-    line.split_ascii_whitespace().map(|word| word.trim_end_matches('\\')).filter(|word| !word.is_empty())
+/// The words of a line, up to its comment.
+#[derive(Clone)]
+pub struct Words<'a> {
+    /// The text after the last word.
+    pub rest: &'a str,
+}
+
+pub fn words(line: &str) -> Words<'_> {
+    Words { rest: line }
+}
+
+impl<'a> Iterator for Words<'a> {
+    type Item = &'a str;
+
+    #[inline]
+    fn next(&mut self) -> Option<&'a str> {
+        loop {
+            let bytes = self.rest.as_bytes();
+            let start = bytes.iter().position(|byte| !byte.is_ascii_whitespace()).unwrap_or(bytes.len());
+            // Almost all bytes fail the first test.
+            let is_end = |byte: &u8| *byte <= b'#' && (byte.is_ascii_whitespace() || *byte == b'#');
+            let length = bytes[start..].iter().position(is_end);
+            let end = length.map_or(bytes.len(), |length| start + length);
+            let word = &self.rest[start..end];
+            let word = if word.ends_with('\\') { word.trim_end_matches('\\') } else { word };
+            let is_last = bytes.get(end).is_none_or(|byte| *byte == b'#');
+            self.rest = if is_last { "" } else { &self.rest[end..] };
+            if !word.is_empty() || is_last {
+                return Some(word).filter(|word| !word.is_empty());
+            }
+        }
+    }
 }
 
 /// The text of a line after its first word, with spaces.

@@ -4,17 +4,19 @@
 //! be spread over lines in any way. Strips of triangles (`tristrips`) are read too. Colours of whole numbers are sRGB, those of fractions are linear; opacity is linear.
 mod bulk;
 mod header;
+mod stream;
 mod strips;
 mod values;
 mod write;
 
-use std::sync::LazyLock;
+use std::{io::Read, sync::LazyLock};
 
-pub use self::write::encode;
 use self::{
+    bulk::{BLOCK, Rows},
     header::{Element, Encoding, Header, Kind, Layout},
     values::{Binary, Text, Values},
 };
+pub use self::{stream::read as read_rows, write::encode};
 use super::{
     Model, ModelFormatError,
     polygon::{self, Polygon},
@@ -22,12 +24,18 @@ use super::{
 use crate::{
     math::colour::linear_from_srgb,
     memory::{Reservation, TooMuch},
+    progress::Progress,
 };
 
 /// Numbers of a vertex: position, normal, texture coordinates, colour and opacity.
 const NUMBERS: usize = 12;
 const FIRST_COLOUR: usize = 8;
 const OPACITY: usize = 11;
+/// Elements that are read between two reports of progress.
+const REPORT: u64 = 1 << 16;
+
+/// Layouts of the properties of a vertex, and the number that each is.
+type Slots = Vec<(Layout, Option<usize>)>;
 
 /// Whether the file begins with the signature of PLY.
 pub(super) fn is_ply(bytes: &[u8]) -> bool {
@@ -35,16 +43,16 @@ pub(super) fn is_ply(bytes: &[u8]) -> bool {
     line.is_some_and(|line| line.trim_ascii_end().eq_ignore_ascii_case(b"ply"))
 }
 
-pub(super) fn decode(bytes: &[u8]) -> Result<Model, ModelFormatError> {
+pub(super) fn decode(bytes: &[u8], progress: &Progress) -> Result<Model, ModelFormatError> {
     let header = Header::read(bytes)?;
     match header.encoding {
-        Encoding::Text => read(&header, Text::new(bytes, header.end, header.lines)),
-        Encoding::Binary { big_endian: false } => read(&header, Binary::<false>::new(bytes, header.end)),
-        Encoding::Binary { big_endian: true } => read(&header, Binary::<true>::new(bytes, header.end)),
+        Encoding::Text => read(&header, Text::new(bytes, header.end, header.lines), progress),
+        Encoding::Binary { big_endian: false } => read(&header, Binary::<false>::new(bytes, header.end), progress),
+        Encoding::Binary { big_endian: true } => read(&header, Binary::<true>::new(bytes, header.end), progress),
     }
 }
 
-fn read(header: &Header, mut values: impl Values) -> Result<Model, ModelFormatError> {
+fn read(header: &Header, mut values: impl Values, progress: &Progress) -> Result<Model, ModelFormatError> {
     let mut model = Model::default();
     let mut polygons = Vec::new();
     let mut room = Reservation::none();
@@ -54,8 +62,8 @@ fn read(header: &Header, mut values: impl Values) -> Result<Model, ModelFormatEr
         match element.name.as_str() {
             // Else any count of elements that are nothing would be counted through.
             _ if element.properties.is_empty() => {}
-            "vertex" => read_vertices(element, &mut values, &mut model, &mut room)?,
-            "face" => read_faces(element, vertices, &mut values, (&mut model.triangles, &mut polygons), &mut room)?,
+            "vertex" => read_vertices(element, &mut values, &mut model, &mut room, progress)?,
+            "face" => read_faces(element, vertices, &mut values, (&mut model.triangles, &mut polygons), &mut room, progress)?,
             "tristrips" => strips::read(element, vertices, &mut values, &mut model.triangles, &mut room)?,
             _ => skip(element, &mut values)?,
         }
@@ -95,30 +103,46 @@ fn slot(name: &str) -> Option<usize> {
     names.iter().position(|names| names.contains(&name.as_str()))
 }
 
-fn read_vertices(
-    element: &Element,
-    values: &mut impl Values,
-    model: &mut Model,
-    room: &mut Reservation,
-) -> Result<(), ModelFormatError> {
+fn slots(element: &Element) -> Slots {
     let mut is_there = [false; NUMBERS];
     // Of properties that mean the same the first counts.
     let mut wanted = |name: &str| slot(name).filter(|slot| !std::mem::replace(&mut is_there[*slot], true));
-    let slots: Vec<(Layout, Option<usize>)> = element.properties.iter().map(|p| (p.layout, wanted(&p.name))).collect();
-    if values.block(0).is_some() {
-        let numbers = is_there.iter().filter(|there| **there).count() as u64 + 1;
-        room.grow(format_args!("{} vertices", element.count), numbers.saturating_mul(4 * element.count))?;
+    element.properties.iter().map(|p| (p.layout, wanted(&p.name))).collect()
+}
+
+/// Reserves memory for vertices that are read in bulk.
+fn reserve_vertices(element: &Element, slots: &Slots, room: &mut Reservation) -> Result<(), TooMuch> {
+    let numbers = slots.iter().filter(|(_, slot)| slot.is_some()).count() as u64 + 1;
+    room.grow(format_args!("{} vertices", element.count), numbers.saturating_mul(4 * element.count))
+}
+
+fn read_vertices<V: Values>(
+    element: &Element,
+    values: &mut V,
+    model: &mut Model,
+    room: &mut Reservation,
+    progress: &Progress,
+) -> Result<(), ModelFormatError> {
+    let slots = slots(element);
+    if let Some(bytes) = values.bytes_left() {
+        reserve_vertices(element, &slots, room)?;
+        let mut rows = Rows { bytes: bytes.take(bytes.len() as u64), block: BLOCK };
+        if let Some(vertices) = bulk::vertices::<V>(element, &slots, &mut rows, progress)? {
+            *model = Model { triangles: std::mem::take(&mut model.triangles), ..vertices };
+            let length = bytes.len() as u64 - rows.bytes.limit();
+            return values.skip(Kind::U8, length);
+        }
     }
-    if let Some((vertices, length)) = bulk::vertices(element, &slots, values) {
-        *model = Model { triangles: std::mem::take(&mut model.triangles), ..vertices };
-        return values.skip(Kind::U8, length);
-    }
+    let is_there: [bool; NUMBERS] = std::array::from_fn(|number| slots.iter().any(|(_, slot)| *slot == Some(number)));
     let mut normals = is_there[3..6].iter().all(|there| *there).then(Vec::new);
     let mut uvs = is_there[6..FIRST_COLOUR].iter().all(|there| *there).then(Vec::new);
     let mut colours = is_there[FIRST_COLOUR..OPACITY].iter().all(|there| *there).then(Vec::new);
     let mut vertex = [0.0; NUMBERS];
     vertex[OPACITY] = 1.0;
     for index in 0..element.count {
+        if index.is_multiple_of(REPORT) {
+            progress.check()?;
+        }
         read_vertex(&slots, values, &mut vertex).map_err(|problem| in_element(problem, &element.name, index))?;
         let [x, y, z, nx, ny, nz, u, v, red, green, blue, opacity] = vertex;
         room.push(&mut model.vertices, [x, y, z], "vertices")?;
@@ -167,20 +191,28 @@ fn linear(number: f32, kind: Kind, slot: usize) -> f32 {
     }
 }
 
-fn read_faces(
+fn read_faces<V: Values>(
     element: &Element,
     vertices: u64,
-    values: &mut impl Values,
+    values: &mut V,
     (triangles, polygons): (&mut Vec<[u32; 3]>, &mut Vec<Polygon>),
     room: &mut Reservation,
+    progress: &Progress,
 ) -> Result<(), ModelFormatError> {
-    if let Some((found, length)) = bulk::triangles(element, vertices, values) {
-        room.grow(format_args!("{} triangles", found.len()), size_of_val(&found[..]) as u64)?;
-        // Strips may come first.
-        triangles.extend(found);
-        return values.skip(Kind::U8, length);
+    if let Some(bytes) = values.bytes_left() {
+        let mut rows = Rows { bytes: bytes.take(bytes.len() as u64), block: BLOCK };
+        if let Some(found) = bulk::triangles::<V>(element, vertices, &mut rows, progress)? {
+            room.grow(format_args!("{} triangles", found.len()), size_of_val(&found[..]) as u64)?;
+            // Strips may come first.
+            triangles.extend(found);
+            let length = bytes.len() as u64 - rows.bytes.limit();
+            return values.skip(Kind::U8, length);
+        }
     }
     for index in 0..element.count {
+        if index.is_multiple_of(REPORT) {
+            progress.check()?;
+        }
         let first = triangles.len() as u32;
         for property in &element.properties {
             let read = match property.layout {

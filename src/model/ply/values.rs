@@ -23,14 +23,20 @@ pub trait Values {
 
     fn skip(&mut self, kind: Kind, count: u64) -> Result<(), ModelFormatError>;
 
-    /// The next bytes of binary values, if there are that many.
-    fn block(&self, length: usize) -> Option<&[u8]>;
+    /// The bytes to the end of the file, if values are binary.
+    fn bytes_left(&self) -> Option<&[u8]>;
 
     /// The number at the beginning of a block.
     fn number_at(block: &[u8], kind: Kind) -> f32;
 
     /// The whole number of an integer type at the beginning of a block.
     fn integer_at(block: &[u8], kind: Kind) -> i64;
+
+    /// A number of four bytes.
+    fn real(bytes: [u8; 4]) -> f32;
+
+    /// A whole number of four bytes. Negative ones become those beyond 2³¹.
+    fn whole(bytes: [u8; 4]) -> u32;
 }
 
 const ENDS: &str = "the file ends too early";
@@ -98,7 +104,7 @@ impl Values for Text<'_> {
         (0..count).try_for_each(|_| self.word("a value", |_| Some(())))
     }
 
-    fn block(&self, _: usize) -> Option<&[u8]> {
+    fn bytes_left(&self) -> Option<&[u8]> {
         None
     }
 
@@ -107,6 +113,14 @@ impl Values for Text<'_> {
     }
 
     fn integer_at(_: &[u8], _: Kind) -> i64 {
+        unreachable!("text has no blocks")
+    }
+
+    fn real(_: [u8; 4]) -> f32 {
+        unreachable!("text has no blocks")
+    }
+
+    fn whole(_: [u8; 4]) -> u32 {
         unreachable!("text has no blocks")
     }
 }
@@ -175,9 +189,8 @@ impl<const BIG_ENDIAN: bool> Values for Binary<'_, BIG_ENDIAN> {
         Ok(())
     }
 
-    #[inline]
-    fn block(&self, length: usize) -> Option<&[u8]> {
-        self.rest.get(..length)
+    fn bytes_left(&self) -> Option<&[u8]> {
+        Some(self.rest)
     }
 
     #[inline]
@@ -190,5 +203,15 @@ impl<const BIG_ENDIAN: bool> Values for Binary<'_, BIG_ENDIAN> {
     fn integer_at(block: &[u8], kind: Kind) -> i64 {
         let mut value = Binary::<BIG_ENDIAN> { rest: block, length: 0 };
         value.integer(kind).expect("a block holds whole rows")
+    }
+
+    #[inline(always)]
+    fn real(bytes: [u8; 4]) -> f32 {
+        if BIG_ENDIAN { f32::from_be_bytes(bytes) } else { f32::from_le_bytes(bytes) }
+    }
+
+    #[inline(always)]
+    fn whole(bytes: [u8; 4]) -> u32 {
+        if BIG_ENDIAN { u32::from_be_bytes(bytes) } else { u32::from_le_bytes(bytes) }
     }
 }

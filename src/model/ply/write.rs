@@ -54,7 +54,7 @@ fn header(model: &Model, columns: &[Column]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::ply::decode;
+    use crate::{model::ply::decode, progress::Progress};
 
     #[test]
     fn reading_gives_the_same_bits() {
@@ -65,11 +65,11 @@ mod tests {
             uvs: Some(vec![[0.1, 0.7], [-3.5, 2.0], [0.0, 1.0]]),
             colours: None,
         };
-        let read = decode(&encode(&model).expect("there is room")).expect("it is a mesh");
+        let read = decode(&encode(&model).expect("there is room"), &Progress::default()).expect("it is a mesh");
         let bits = |model: &Model| model.vertices.iter().flatten().map(|x| x.to_bits()).collect::<Vec<_>>();
         assert_eq!((bits(&read), &read), (bits(&model), &model));
         let bare = Model { normals: None, uvs: None, ..model };
-        assert_eq!(decode(&encode(&bare).expect("there is room")).expect("it is a mesh"), bare);
+        assert_eq!(decode(&encode(&bare).expect("there is room"), &Progress::default()).expect("it is a mesh"), bare);
     }
 
     #[test]

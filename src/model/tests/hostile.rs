@@ -5,6 +5,7 @@ use super::{
     super::{Model, Named, decode, decode_parts},
     stl,
 };
+use crate::progress::Progress;
 
 const OBJ: &str = "# a square\nv 0 0 0\nv 1 0 0 1\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 1\nvn 0 0 1\nvn 0 1 0\n\
     f 1/1/1 2/2/1 3/1/2 \\\n 4/2/1\ng a\nf -1//-1 -2//-2 -3//-1\nf 1 2 3\n";
@@ -84,11 +85,11 @@ fn check(model: &Model) {
 #[test]
 fn mutated_files_are_read_or_refused() {
     let files = [OBJ.as_bytes().to_vec(), text_ply(), binary_ply(false), binary_ply(true)];
-    files.iter().for_each(|file| check(&decode(file, Some(Named::Obj)).expect("it is a mesh")));
+    files.iter().for_each(|file| check(&decode(file, Some(Named::Obj), &Progress::default()).expect("it is a mesh")));
     let (mut random, mut read) = (SmallRng::seed_from_u64(1), 0);
     for i in 0..10_000 {
         let file = mutated(&files[i % files.len()], &mut random);
-        if let Ok(model) = decode(&file, Some(Named::Obj)) {
+        if let Ok(model) = decode(&file, Some(Named::Obj), &Progress::default()) {
             check(&model);
             // A triangle takes 6 bytes and a vertex of its own 2 at least: nothing comes from a claim alone.
             assert!(6 * model.triangles.len() <= 4 * file.len() && model.vertices.len() <= file.len());
@@ -102,7 +103,9 @@ fn mutated_files_are_read_or_refused() {
 #[test]
 fn cut_files_are_read_or_refused_at_every_length() {
     for file in [OBJ.as_bytes().to_vec(), text_ply(), binary_ply(false), binary_ply(true)] {
-        (0..file.len()).filter_map(|length| decode(&file[..length], Some(Named::Obj)).ok()).for_each(|model| check(&model));
+        (0..file.len())
+            .filter_map(|length| decode(&file[..length], Some(Named::Obj), &Progress::default()).ok())
+            .for_each(|model| check(&model));
     }
 }
 
@@ -112,7 +115,7 @@ fn mutated_stl_files_are_read_or_refused() {
     let (mut random, mut read) = (SmallRng::seed_from_u64(2), 0);
     for i in 0..6_000 {
         let file = mutated(&files[i % files.len()], &mut random);
-        if let Ok(model) = decode(&file, Some(Named::Stl)) {
+        if let Ok(model) = decode(&file, Some(Named::Stl), &Progress::default()) {
             check(&model);
             assert!(12 * model.triangles.len() <= file.len() && model.vertices.len() <= file.len());
             read += 1;
@@ -120,7 +123,9 @@ fn mutated_stl_files_are_read_or_refused() {
     }
     assert!((600..5400).contains(&read), "{read} could be read");
     for file in files {
-        (0..file.len()).filter_map(|length| decode(&file[..length], Some(Named::Stl)).ok()).for_each(|model| check(&model));
+        (0..file.len())
+            .filter_map(|length| decode(&file[..length], Some(Named::Stl), &Progress::default()).ok())
+            .for_each(|model| check(&model));
     }
 }
 
@@ -130,7 +135,8 @@ fn the_parts_of_mutated_files_have_the_triangles_of_the_whole() {
     let (mut random, mut read) = (SmallRng::seed_from_u64(3), 0);
     for _ in 0..4_000 {
         let file = mutated(text.as_bytes(), &mut random);
-        let (whole, parts) = (decode(&file, Some(Named::Obj)), decode_parts(&file, Some(Named::Obj)));
+        let (whole, parts) =
+            (decode(&file, Some(Named::Obj), &Progress::default()), decode_parts(&file, Some(Named::Obj), &Progress::default()));
         assert_eq!(whole.as_ref().err(), parts.as_ref().err());
         let (Ok(whole), Ok(parts)) = (whole, parts) else { continue };
         parts.list.iter().for_each(|part| check(&part.model));
@@ -148,6 +154,6 @@ fn elements_without_properties_are_not_counted_through() {
             "ply\nformat ascii 1.0\nelement {name} 18446744073709551615\nelement vertex 3\nproperty float x\nproperty float y\n\
              property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0 1 0 0 0 1 0 3 0 1 2\n"
         );
-        assert_eq!(decode(text.as_bytes(), None).expect("it is a mesh").triangles, [[0, 1, 2]], "{name}");
+        assert_eq!(decode(text.as_bytes(), None, &Progress::default()).expect("it is a mesh").triangles, [[0, 1, 2]], "{name}");
     }
 }

@@ -13,14 +13,15 @@ use std::{
 };
 
 use super::{LARGEST_FILE, Model, Named, decode, read};
+use crate::progress::Progress;
 
 /// The error of an OBJ file, or of a PLY file if the first line says so.
 fn refusal(bytes: &[u8]) -> String {
-    decode(bytes, Some(Named::Obj)).expect_err("it is broken").to_string()
+    decode(bytes, Some(Named::Obj), &Progress::default()).expect_err("it is broken").to_string()
 }
 
 fn model(bytes: &[u8]) -> Model {
-    decode(bytes, Some(Named::Obj)).expect("it is a mesh")
+    decode(bytes, Some(Named::Obj), &Progress::default()).expect("it is a mesh")
 }
 
 fn message(path: &Path) -> String {

@@ -3,9 +3,10 @@ use super::{
     super::{Named, Parts, decode_parts},
     model,
 };
+use crate::progress::Progress;
 
 fn parts(text: &str) -> Parts {
-    decode_parts(text.as_bytes(), Some(Named::Obj)).expect("it is a mesh")
+    decode_parts(text.as_bytes(), Some(Named::Obj), &Progress::default()).expect("it is a mesh")
 }
 
 const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
@@ -46,5 +47,5 @@ fn other_formats_are_one_part() {
         property list uchar int vertex_indices\nend_header\n0 0 0 1 0 0 0 1 0 3 0 1 2";
     let Parts { libraries, list } = parts(ply);
     assert!(libraries.is_empty() && list.len() == 1 && list[0].material.is_none());
-    assert!(decode_parts(b"v 0 0 0\nusemtl a\n", Some(Named::Obj)).is_err());
+    assert!(decode_parts(b"v 0 0 0\nusemtl a\n", Some(Named::Obj), &Progress::default()).is_err());
 }

@@ -3,13 +3,14 @@ use super::{
     super::{Model, Named, decode},
     model as obj,
 };
+use crate::progress::Progress;
 
 fn stl(bytes: &[u8]) -> Model {
-    decode(bytes, Some(Named::Stl)).expect("it is a mesh")
+    decode(bytes, Some(Named::Stl), &Progress::default()).expect("it is a mesh")
 }
 
 fn refusal(bytes: &[u8]) -> String {
-    decode(bytes, Some(Named::Stl)).expect_err("it is broken").to_string()
+    decode(bytes, Some(Named::Stl), &Progress::default()).expect_err("it is broken").to_string()
 }
 
 /// A binary file with the comment and the triangles.

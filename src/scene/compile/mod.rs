@@ -32,6 +32,7 @@ use crate::{
     image::{Encoding, read},
     light::{Background, Lamp},
     material::Materials,
+    progress::Progress,
     quote,
     shape::motion,
     texture::{TextureCompiler, Textures},
@@ -41,6 +42,14 @@ use crate::{
 pub struct Files<'a> {
     pub folder: &'a FilePath,
     pub assets: Assets,
+    /// Shows how far the compile is, and cancels it.
+    pub progress: Progress,
+}
+
+impl Default for Files<'_> {
+    fn default() -> Self {
+        Files { folder: FilePath::new(""), assets: Assets::default(), progress: Progress::default() }
+    }
 }
 
 /// Checks a description and builds the scene, or returns its problems except those that follow from `damage`. `source` is the text of
@@ -54,13 +63,14 @@ pub fn compile(
 ) -> Result<Scene, Vec<Problem>> {
     let start = Instant::now();
     let memo = before.map_or_else(Memo::default, |before| before.scene.memo.clone());
-    let Files { folder, assets } = files;
-    let resources = Resources::after(folder, memo).with_assets(assets.clone());
+    let Files { folder, assets, progress } = files;
+    let resources = Resources::after(folder, memo).with_assets(assets.clone()).with_progress(progress);
     let mut problems = Problems::new(damage);
     let parts = Parts::new(description, &resources, before, &mut problems);
     let Some(parts) = parts.filter(|_| problems.found.is_empty()) else { return Err(problems.found) };
     let mut scene = parts.build(description, source, resources, before).map_err(|problem| vec![problem])?;
     scene.compiled.took = start.elapsed();
+    assets.forget_loaded();
     scene.assets = assets;
     Ok(scene)
 }
@@ -136,7 +146,7 @@ impl Parts {
         let (lamp_instances, lamps): (Vec<_>, Vec<_>) = lamps.into_iter().unzip();
         reserve_tables(&resources, &objects, lamps.len())?;
         let owners = objects.iter().enumerate().flat_map(|(i, o)| vec![i as u32; o.shape.piece_count()]).collect();
-        let shapes = reuse::shapes(&objects, camera.look_at, before, &resources);
+        let shapes = reuse::shapes(&objects, camera.look_at, before, &resources)?;
         let lights = reuse::lights(&objects, &shapes, &lamps, background, before, &resources);
         tables.times_of_tables().iter().for_each(|took| resources.note("material tables", *took));
         let start = Instant::now();

@@ -7,7 +7,7 @@ use std::{
 use glam::DVec3;
 
 use crate::{
-    declare::{Precision, Resources},
+    declare::{Precision, Problem, Resources},
     geometry::{Shapes, same_point},
     light::{Background, Lamp, Lamps, Lights},
     scene::{Object, Scene},
@@ -25,7 +25,7 @@ pub struct Before<'a> {
 const MESH_TREES: &str = "mesh trees";
 
 /// The shapes of the objects. `near` is a point in the middle of the scene.
-pub fn shapes(objects: &[Object], near: DVec3, before: Option<Before>, resources: &Resources) -> Arc<Shapes> {
+pub fn shapes(objects: &[Object], near: DVec3, before: Option<Before>, resources: &Resources) -> Result<Arc<Shapes>, Problem> {
     const PART: &str = "shapes";
     if let Some(Before { scene, precision }) = before
         && (precision == Precision::Interactive || !scene.shapes.have_moved_meshes())
@@ -34,16 +34,18 @@ pub fn shapes(objects: &[Object], near: DVec3, before: Option<Before>, resources
     {
         resources.note(PART, None);
         (0..scene.shapes.count_mesh_trees()).for_each(|_| resources.note(MESH_TREES, None));
-        return scene.shapes.clone();
+        return Ok(scene.shapes.clone());
     }
     let start = Instant::now();
     let precision = before.map_or(Precision::Exact, |before| before.precision);
     let placed = objects.iter().map(|object| (&object.shape, &object.motion));
-    let (shapes, trees) = Shapes::after(before.map(|before| &*before.scene.shapes), precision, placed, near);
+    let before = before.map(|before| &*before.scene.shapes);
+    let made = Shapes::after(before, precision, placed, near, resources.progress());
+    let (shapes, trees) = made.map_err(Problem::cancelled)?;
     let of_trees: Duration = trees.iter().flatten().sum();
     resources.note(PART, Some(start.elapsed().saturating_sub(of_trees)));
     trees.into_iter().for_each(|took| resources.note(MESH_TREES, took));
-    Arc::new(shapes)
+    Ok(Arc::new(shapes))
 }
 
 /// The lights of the objects, and the lamps without surface. `shapes` are those of the same objects.

@@ -19,7 +19,7 @@ impl App {
         let seconds = now - *self.window.reading_since.get_or_insert(now);
         if seconds < PATIENCE {
             self.ctx.request_repaint_after(Duration::from_secs_f64(PATIENCE - seconds));
-        } else if loading::show(&self.ctx, &name, seconds) {
+        } else if loading::show(&self.ctx, &name, seconds, self.background.loader.progress()) {
             self.cancel_loading();
         }
     }

@@ -10,6 +10,7 @@ use std::{
 use noisefall::{
     edit::{Document, Recovery, Template},
     import::{self, ImportOptions, Opened, Remarks},
+    progress::Progress,
     render::truth::Reference,
     scene::{BUILT_IN, Camera, Scene, Truth, built_in, description::SceneDescription, parse},
 };
@@ -92,6 +93,8 @@ pub struct Loader {
     pending: Option<BackgroundTask<OpenResult>>,
     /// Name of what is being read.
     name: String,
+    /// The progress of the latest request.
+    progress: Progress,
     reference: Option<BackgroundTask<ReferenceResult>>,
     /// The scene of the command line.
     given: GivenScene,
@@ -99,7 +102,14 @@ pub struct Loader {
 
 impl Loader {
     pub fn new(ctx: &egui::Context) -> Loader {
-        Loader { ctx: ctx.clone(), pending: None, name: String::new(), reference: None, given: GivenScene::default() }
+        Loader {
+            ctx: ctx.clone(),
+            pending: None,
+            name: String::new(),
+            progress: Progress::default(),
+            reference: None,
+            given: GivenScene::default(),
+        }
     }
 
     /// Opens the scene of the command line.
@@ -110,9 +120,22 @@ impl Loader {
 
     /// Opens a scene file, or the built-in scene.
     pub fn open(&mut self, path: Option<PathBuf>) {
-        let scene = if self.is_given(path.as_deref()) { GivenScene { path, ..self.given.clone() } } else { path.into() };
+        let mut scene = if self.is_given(path.as_deref()) { GivenScene { path, ..self.given.clone() } } else { path.into() };
         self.name = scene.path.as_deref().map_or_else(|| BUILT_IN_NAME.to_owned(), file_name);
+        scene.options.progress = self.restart();
         self.pending = Some(BackgroundTask::start(&self.ctx, |_| open(scene)));
+    }
+
+    /// Cancels the request that is pending, and returns the progress of the next one.
+    fn restart(&mut self) -> Progress {
+        self.cancel();
+        self.progress = Progress::default();
+        self.progress.clone()
+    }
+
+    /// The progress of the pending request.
+    pub fn progress(&self) -> Option<&Progress> {
+        self.pending.is_some().then_some(&self.progress)
     }
 
     /// Whether a file is that of the command line, whose options it takes.
@@ -123,6 +146,7 @@ impl Loader {
 
     /// Begins a new scene.
     pub fn begin(&mut self, template: Template) {
+        self.cancel();
         template.title.clone_into(&mut self.name);
         self.pending = Some(BackgroundTask::start(&self.ctx, move |_| begin(template)));
     }
@@ -131,7 +155,8 @@ impl Loader {
     pub fn restore(&mut self, recovery: Recovery) {
         let is_given = self.is_given(recovery.origin.as_deref());
         self.name = recovery.file().map_or_else(|| "unsaved changes".to_owned(), file_name);
-        let options = if is_given { self.given.options.clone() } else { ImportOptions::default() };
+        let of_file = if is_given { self.given.options.clone() } else { ImportOptions::default() };
+        let options = ImportOptions { progress: self.restart(), ..of_file };
         self.pending = Some(BackgroundTask::start(&self.ctx, move |_| restore(&recovery, &options)));
     }
 
@@ -159,8 +184,9 @@ impl Loader {
         self.pending.is_some().then_some(&self.name)
     }
 
-    /// Abandons the scene that is being read. Returns whether there was one.
+    /// Cancels the pending request; no result will come. Returns whether there was one.
     pub fn cancel(&mut self) -> bool {
+        self.progress.cancel();
         self.pending.take().is_some()
     }
 
@@ -187,6 +213,13 @@ impl Loader {
     pub fn take_reference(&mut self) -> Option<ReferenceResult> {
         let failed = |_| Err("Reading the reference failed unexpectedly".to_owned());
         Some(BackgroundTask::take(&mut self.reference)?.unwrap_or_else(failed))
+    }
+}
+
+/// The thread must not go on for nobody.
+impl Drop for Loader {
+    fn drop(&mut self) {
+        self.cancel();
     }
 }
 
@@ -227,8 +260,10 @@ fn restore(recovery: &Recovery, options: &ImportOptions) -> OpenResult {
     let source = recovery.file().map_or_else(|| "recovered scene".to_owned(), |path| path.display().to_string());
     let scene = match &recovery.origin {
         // Its meshes and textures are in the original only.
-        Some(origin) => import::read(origin, options)
-            .and_then(|imported| Arc::new(document.description().clone()).build_with(origin, imported.assets)),
+        Some(origin) => import::read(origin, options).and_then(|imported| {
+            let description = Arc::new(document.description().clone());
+            description.build_watched(origin, imported.assets, &options.progress)
+        }),
         None => parse(&source, recovery.text.clone()),
     };
     let scene = scene.map_err(|error| error.report())?;

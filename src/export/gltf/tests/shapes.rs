@@ -138,7 +138,9 @@ fn unit_shapes_are_moved_to_their_place_and_keep_their_front() {
     for (shape, expected) in closed {
         let (unit, map) = unit(&shape).expect("it has one");
         let model = geometry::triangles(&unit, DVec3::ZERO).expect("it has triangles");
-        let data = MeshData { vertices: model.vertices, triangles: model.triangles, ..MeshData::default() }.transformed(&map);
+        let data = MeshData { vertices: model.vertices, triangles: model.triangles, ..MeshData::default() }
+            .transformed(&map)
+            .into_owned();
         assert!((volume(&data) / expected - 1.0).abs() < 2e-3, "{}", shape.name());
     }
     for (outline, mirrored) in [(Outline::Parallelogram, false), (Outline::Triangle, true), (Outline::Ellipse, true)] {
@@ -146,7 +148,9 @@ fn unit_shapes_are_moved_to_their_place_and_keep_their_front() {
         let front = edges[0].cross(edges[1]) * if mirrored { -1.0 } else { 1.0 };
         let (unit, map) = unit(&Shape::Flat { outline, origin: DVec3::ONE, edges, mirrored }).expect("it has one");
         let model = geometry::triangles(&unit, DVec3::ZERO).expect("it has triangles");
-        let data = MeshData { vertices: model.vertices, triangles: model.triangles, ..MeshData::default() }.transformed(&map);
+        let data = MeshData { vertices: model.vertices, triangles: model.triangles, ..MeshData::default() }
+            .transformed(&map)
+            .into_owned();
         let [a, b, c] = data.triangles[0].map(|i| Vec3::from(data.vertices[i as usize]).as_dvec3());
         assert!((b - a).cross(c - a).dot(front) > 0.0 && (b - a).dot(front).abs() < 1e-4, "{outline:?}");
     }

@@ -1,9 +1,11 @@
 //! Objects, cameras and light of mesh files.
 use super::{super::read, SQUARE, scene};
 use crate::{
-    import::{ImportOptions, Imported},
+    declare::Resources,
+    import::{ImportOptions, Imported, open},
     light::background::BackgroundDescription,
     model::Model,
+    progress::{Progress, Stage},
     scene::description::ShapeKind,
     shape::mesh::MeshSource,
 };
@@ -63,4 +65,34 @@ fn other_mesh_files_are_scenes_too() {
 fn colours_of_vertices_are_the_albedo_where_there_is_no_material() {
     let scene = scene("v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\nf 1 2 3\n", &[]);
     assert_eq!(scene.description.textures.keys().collect::<Vec<_>>(), ["vertex color"]);
+}
+
+#[test]
+fn the_mesh_of_a_file_is_read_once() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("a.obj");
+    std::fs::write(&path, format!("{SQUARE}f 1 2 3 4\n")).expect("it is written");
+    let scene = read(&path, &ImportOptions::default()).expect("it is a scene");
+    let taken = || Resources::new(folder.path()).with_assets(scene.assets.clone()).file("a.obj").take_loaded::<Model>();
+    assert_eq!(taken().expect("it is handed over"), crate::model::read(&path).expect("it is a mesh"));
+    assert!(taken().is_none());
+}
+
+#[test]
+fn opening_reports_its_stages_and_ends_when_it_is_cancelled() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("a.obj");
+    std::fs::write(&path, format!("{SQUARE}f 1 2 3 4\n")).expect("it is written");
+    let options = ImportOptions::default();
+    assert!(open(&path, &options).is_ok());
+    assert_eq!((options.progress.stage(), options.progress.fraction()), (Stage::Trees, 1.0));
+    options.progress.cancel();
+    let error = open(&path, &options).err().expect("it is cancelled").to_string();
+    assert!(error.ends_with("a.obj: cancelled"), "{error}");
+    // The compile ends as well.
+    let progress = Progress::default();
+    let imported = read(&path, &ImportOptions { progress: progress.clone(), ..options }).expect("it is a scene");
+    progress.cancel();
+    let compiled = std::sync::Arc::new(imported.description).build_watched(&path, imported.assets, &progress);
+    assert!(compiled.err().expect("it is cancelled").to_string().contains("cancelled"));
 }

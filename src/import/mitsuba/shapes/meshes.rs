@@ -6,7 +6,7 @@ use super::{
     Geometry, Placed, attributes,
 };
 use crate::{
-    model::{self, Model},
+    model::{Model, read_watched},
     scene::SceneError,
     shape::{Mesh, ShapeKind, mesh::MeshSource},
 };
@@ -41,7 +41,7 @@ fn file(import: &mut Import, element: Element, placed: Placed, flips_by_default:
         let key = format!("{} {flip_v} {face_normals} {wanted:?}", path.display());
         let name = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
         let file = import.shared_model(&key, &name, |import| {
-            let mut model = read(element, &path)?;
+            let mut model = read(import, element, &path)?;
             attributes::apply(import, element, &path, &mut model, placed.uses, face_normals)?;
             let variant = Variant { flip_v, face_normals };
             Ok(variant.of(model))
@@ -70,8 +70,9 @@ impl Variant {
 }
 
 /// Reads the file of a mesh.
-pub fn read(element: Element, path: &Path) -> Result<Model, SceneError> {
-    model::read(path).map_err(|error| element.error(error.to_string(), "this mesh cannot be used"))
+fn read(import: &Import, element: Element, path: &Path) -> Result<Model, SceneError> {
+    let read = read_watched(path, &import.files.folder.progress);
+    read.map_err(|error| element.error(error.to_string(), "this mesh cannot be used"))
 }
 
 /// A mesh in memory.
@@ -84,7 +85,7 @@ fn has_normals(import: &mut Import, element: Element, path: &Path) -> Result<boo
     if let Some(known) = import.known_normals.get(path) {
         return Ok(*known);
     }
-    let has_normals = read(element, path)?.normals.is_some();
+    let has_normals = read(import, element, path)?.normals.is_some();
     import.known_normals.insert(path.to_owned(), has_normals);
     Ok(has_normals)
 }

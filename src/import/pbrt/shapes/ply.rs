@@ -5,7 +5,7 @@ use super::{Areas, Built};
 use crate::{
     file::open_regular,
     import::pbrt::{import::Import, parameters::Entity, source::unpacked},
-    model::read,
+    model::read_watched,
     scene::SceneError,
 };
 
@@ -36,7 +36,8 @@ impl Import {
         let (bytes, _room) = unpacked(path).map_err(wrong)?;
         let mut file = tempfile::Builder::new().suffix(".ply").tempfile().map_err(|error| wrong(error.to_string()))?;
         std::io::Write::write_all(&mut file, &bytes).map_err(|error| wrong(error.to_string()))?;
-        let mut model = read(file.path()).map_err(|error| wrong(format!("`{name}`: {}", error.problem)))?;
+        let read = read_watched(file.path(), &self.files.folder.progress);
+        let mut model = read.map_err(|error| wrong(format!("`{name}`: {}", error.problem)))?;
         super::meshes::face_normals(&mut model);
         let smooth = model.normals.is_some();
         let described = self.new_files.add_model(name, model);

@@ -33,6 +33,21 @@ fn the_latest_request_wins_and_an_error_names_its_file() {
 }
 
 #[test]
+fn a_cancelled_request_has_no_result_and_its_reader_is_told() {
+    let mut loader = Loader::new(&egui::Context::default());
+    assert!(loader.progress().is_none());
+    loader.open(None);
+    let first = loader.progress().expect("it is opened").clone();
+    loader.open(Some("no/such/scene.toml".into()));
+    let second = loader.progress().expect("it is opened").clone();
+    assert!(first.is_cancelled() && !second.is_cancelled());
+    loader.cancel();
+    assert!(second.is_cancelled() && !loader.is_busy() && loader.progress().is_none() && loader.take().is_none());
+    loader.open(None);
+    assert!(wait(|| loader.take()).is_ok());
+}
+
+#[test]
 fn a_reference_that_is_read_for_another_scene_is_forgotten() {
     let mut loader = Loader::new(&egui::Context::default());
     let camera = built_in().camera;
