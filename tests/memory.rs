@@ -126,8 +126,8 @@ fn allocated_memory_is_counted() {
     assert_counted("texture", &file("texture.toml", &scene(16, textured)));
     assert_counted("sky", &file("sky.toml", &scene(16, "[background]\nimage = 'large.png'\n")));
 
-    assert_counted("knot", &file("knot.toml", &object("mesh = { knot = { triangles = 300000 } }")));
-    assert_counted("hills", &file("hills.toml", &object("mesh = { heightfield = { quads = 400 } }")));
+    assert_counted("knot", &file("knot.toml", &object("mesh = { knot = { triangles = 400000 } }")));
+    assert_counted("hills", &file("hills.toml", &object("mesh = { heightfield = { quads = 450 } }")));
     let field = "sphere_field = { count = 50000, bounds = { min = [-1, -1, -1], max = [1, 1, 1] } }";
     assert_counted("spheres", &file("spheres.toml", &object(field)));
     let lamps = format!("[[objects]]\nshape = {{ {field} }}\nemission = {{ radiance = 1 }}\n");
@@ -142,14 +142,14 @@ fn allocated_memory_is_counted() {
     assert_counted("many numbers", &file("numbers.toml", &format!("x = [{}1]", "1,".repeat(1 << 20))));
     assert_counted("many tables", &file("tables.toml", &"[[o]]\n".repeat(150_000)));
 
-    let vertices: String = (0..300_000).map(|i| format!("v {} {} {}\n", i % 7, i % 11, i % 13)).collect();
-    let faces: String = (1..=299_998).map(|i| format!("f {i} {} {}\n", i + 1, i + 2)).collect();
+    let vertices: String = (0..500_000).map(|i| format!("v {} {} {}\n", i % 7, i % 11, i % 13)).collect();
+    let faces: String = (1..=499_998).map(|i| format!("f {i} {} {}\n", i + 1, i + 2)).collect();
     file("large.obj", &(vertices + &faces));
     assert_counted("OBJ", &file("obj.toml", &object("mesh = { path = 'large.obj' }")));
-    let vertices: String = (0..300_000).map(|i| format!("{} {} {}\n", i % 7, i % 11, i % 13)).collect();
-    let faces: String = (0..299_998).map(|i| format!("3 {i} {} {}\n", i + 1, i + 2)).collect();
-    let header = "ply\nformat ascii 1.0\nelement vertex 300000\nproperty float x\nproperty float y\nproperty float z\n\
-        element face 299998\nproperty list uchar int vertex_indices\nend_header\n";
+    let vertices: String = (0..500_000).map(|i| format!("{} {} {}\n", i % 7, i % 11, i % 13)).collect();
+    let faces: String = (0..499_998).map(|i| format!("3 {i} {} {}\n", i + 1, i + 2)).collect();
+    let header = "ply\nformat ascii 1.0\nelement vertex 500000\nproperty float x\nproperty float y\nproperty float z\n\
+        element face 499998\nproperty list uchar int vertex_indices\nend_header\n";
     file("large.ply", &format!("{header}{vertices}{faces}"));
     assert_counted("PLY", &file("ply.toml", &object("mesh = { path = 'large.ply' }")));
 

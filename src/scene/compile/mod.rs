@@ -205,8 +205,9 @@ fn truth(description: &TruthDescription, resources: &Resources) -> Result<Truth,
 fn reserve_tables(resources: &Resources, objects: &[Object], lamps: usize) -> Result<(), Problem> {
     /// Bytes of an object that is not a mesh: in the tree of objects, in tables, and while those are built.
     const OBJECT: u64 = 1000;
-    /// Bytes per triangle for the tree of its mesh, including its construction.
-    const TRIANGLE: u64 = 220;
+    /// Bytes per triangle and per vertex for the tree of a mesh, including its construction.
+    const TRIANGLE: u64 = 160;
+    const VERTEX: u64 = 32;
     /// Bytes per light among many; each emitting triangle is a light.
     const LIGHT: u64 = 900;
     resources.reserve("", format_args!("{} objects", objects.len()), OBJECT * objects.len() as u64)?;
@@ -214,10 +215,10 @@ fn reserve_tables(resources: &Resources, objects: &[Object], lamps: usize) -> Re
     for object in objects {
         let count = match &object.shape {
             Shape::Mesh { data, .. } => {
-                let triangles = data.triangles.len() as u64;
+                let [triangles, vertices] = [data.triangles.len(), data.vertices.len()].map(|count| count as u64);
                 // Scenes that share a mesh share its tree. The room holds the data: its address is that of no other mesh.
                 resources.hold(format!("tree of {:p}", Arc::as_ptr(data)), || {
-                    resources.reserve("", format_args!("{triangles} triangles"), TRIANGLE * triangles)?;
+                    resources.reserve("", format_args!("{triangles} triangles"), TRIANGLE * triangles + VERTEX * vertices)?;
                     Ok(data.clone())
                 })?;
                 triangles
