@@ -152,7 +152,7 @@ fn mistakes_of_a_conversion_are_told_before_anything_is_written() {
     let onto_itself = shell.run(&["convert", "own.toml", "-o", "./own.toml"]);
     assert_eq!(onto_itself.status.code(), Some(2));
     assert!(text(&onto_itself.stderr).contains("would replace the scene itself"));
-    for (name, message) in [("a.blend", "must end in .toml or .xml"), ("nowhere/a.toml", "there is no folder")] {
+    for (name, message) in [("a.blend", "must end in .toml, .xml, .gltf or .glb"), ("nowhere/a.toml", "there is no folder")] {
         let done = shell.run(&["convert", &furnace, "-o", name]);
         assert_eq!(done.status.code(), Some(1));
         assert!(text(&done.stderr).contains(message), "{}", text(&done.stderr));

@@ -8,9 +8,8 @@ use rayon::prelude::*;
 
 use super::{
     super::{Model, ModelFormatError},
-    FIRST_COLOUR, NUMBERS, OPACITY, Slots,
     header::{Element, Kind, Layout},
-    linear,
+    slots::{FIRST_COLOUR, NUMBERS, OPACITY, Slots, linear},
     values::Values,
 };
 use crate::progress::{Cancelled, Progress};

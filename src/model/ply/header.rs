@@ -214,3 +214,8 @@ fn end_of_line(bytes: &[u8]) -> u8 {
 fn unknown(place: Place, line: &[u8]) -> ModelFormatError {
     place.broken(format!("{} is not a line of a PLY 1.0 header", quote::bytes(line)))
 }
+/// Whether the file begins with the signature of PLY.
+pub fn is_ply(bytes: &[u8]) -> bool {
+    let line = bytes.split(|byte| matches!(byte, b'\r' | b'\n')).next();
+    line.is_some_and(|line| line.trim_ascii_end().eq_ignore_ascii_case(b"ply"))
+}

@@ -4,16 +4,19 @@
 //! be spread over lines in any way. Strips of triangles (`tristrips`) are read too. Colours of whole numbers are sRGB, those of fractions are linear; opacity is linear.
 mod bulk;
 mod header;
+mod slots;
 mod stream;
 mod strips;
 mod values;
 mod write;
 
-use std::{io::Read, sync::LazyLock};
+use std::io::Read;
 
+pub(super) use self::header::is_ply;
 use self::{
     bulk::{BLOCK, Rows},
     header::{Element, Encoding, Header, Kind, Layout},
+    slots::{FIRST_COLOUR, NUMBERS, OPACITY, linear, reserve_vertices, slots},
     values::{Binary, Text, Values},
 };
 pub use self::{stream::read as read_rows, write::encode};
@@ -22,26 +25,12 @@ use super::{
     polygon::{self, Polygon},
 };
 use crate::{
-    math::colour::linear_from_srgb,
     memory::{Reservation, TooMuch},
     progress::Progress,
 };
 
-/// Numbers of a vertex: position, normal, texture coordinates, colour and opacity.
-const NUMBERS: usize = 12;
-const FIRST_COLOUR: usize = 8;
-const OPACITY: usize = 11;
 /// Elements that are read between two reports of progress.
 const REPORT: u64 = 1 << 16;
-
-/// Layouts of the properties of a vertex, and the number that each is.
-type Slots = Vec<(Layout, Option<usize>)>;
-
-/// Whether the file begins with the signature of PLY.
-pub(super) fn is_ply(bytes: &[u8]) -> bool {
-    let line = bytes.split(|byte| matches!(byte, b'\r' | b'\n')).next();
-    line.is_some_and(|line| line.trim_ascii_end().eq_ignore_ascii_case(b"ply"))
-}
 
 pub(super) fn decode(bytes: &[u8], progress: &Progress) -> Result<Model, ModelFormatError> {
     let header = Header::read(bytes)?;
@@ -81,39 +70,6 @@ fn check_count<V: Values>(element: &Element, values: &V) -> Result<(), ModelForm
         return Err(values.place().broken(format!("the remaining {left} bytes are too few for {count} of element `{name}`")));
     }
     Ok(())
-}
-
-/// The index of a property among the numbers of a vertex.
-fn slot(name: &str) -> Option<usize> {
-    let name = name.to_ascii_lowercase();
-    let names: [&[&str]; NUMBERS] = [
-        &["x"],
-        &["y"],
-        &["z"],
-        &["nx"],
-        &["ny"],
-        &["nz"],
-        &["s", "u", "texture_u"],
-        &["t", "v", "texture_v"],
-        &["red", "r", "diffuse_red"],
-        &["green", "g", "diffuse_green"],
-        &["blue", "b", "diffuse_blue"],
-        &["alpha", "a", "diffuse_alpha"],
-    ];
-    names.iter().position(|names| names.contains(&name.as_str()))
-}
-
-fn slots(element: &Element) -> Slots {
-    let mut is_there = [false; NUMBERS];
-    // Of properties that mean the same the first counts.
-    let mut wanted = |name: &str| slot(name).filter(|slot| !std::mem::replace(&mut is_there[*slot], true));
-    element.properties.iter().map(|p| (p.layout, wanted(&p.name))).collect()
-}
-
-/// Reserves memory for vertices that are read in bulk.
-fn reserve_vertices(element: &Element, slots: &Slots, room: &mut Reservation) -> Result<(), TooMuch> {
-    let numbers = slots.iter().filter(|(_, slot)| slot.is_some()).count() as u64 + 1;
-    room.grow(format_args!("{} vertices", element.count), numbers.saturating_mul(4 * element.count))
 }
 
 fn read_vertices<V: Values>(
@@ -175,20 +131,6 @@ fn read_vertex(
         }
     }
     Ok(())
-}
-
-/// Linear values of sRGB bytes.
-static LINEAR: LazyLock<[f32; 256]> =
-    LazyLock::new(|| std::array::from_fn(|byte| linear_from_srgb(byte as f64 / f64::from(u8::MAX)) as f32));
-
-/// A channel of a colour in linear light, or opacity.
-fn linear(number: f32, kind: Kind, slot: usize) -> f32 {
-    match kind.full() {
-        None => number,
-        Some(full) if slot == OPACITY => number / full,
-        Some(_) if kind == Kind::U8 => LINEAR[usize::from(number as u8)],
-        Some(full) => linear_from_srgb(f64::from(number / full)) as f32,
-    }
 }
 
 fn read_faces<V: Values>(

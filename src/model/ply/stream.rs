@@ -3,10 +3,9 @@ use std::io::{Read, Seek, SeekFrom};
 
 use super::{
     super::{Model, ModelFormatError},
-    Slots,
     bulk::{self, BLOCK, Rows},
-    header::{Element, Encoding, Header, Layout},
-    is_ply, reserve_vertices, slots,
+    header::{Element, Encoding, Header, Layout, is_ply},
+    slots::{Slots, reserve_vertices, slots},
     values::{Binary, Values},
 };
 use crate::{memory::Reservation, progress::Progress};

@@ -44,7 +44,8 @@ mod tests {
         assert!(found(&earlier));
         let renamed = SceneDescription { title: "Ball".to_owned(), ..SceneDescription::clone(&first) };
         assert!(earlier.of(&renamed).is_some(), "another title is no other image");
-        let [_, kept] = scenes;
+        let [gone, kept] = scenes;
+        drop(gone);
         assert!(earlier.of(&first).is_none());
         earlier.note(&second, &kept);
         assert_eq!(earlier.0.len(), 1);

@@ -29,6 +29,8 @@ fn the_parameters_are_in_sight_however_long_the_list_is() {
 #[test]
 fn the_handle_divides_the_room_and_stays_where_it_was_left() {
     let mut window = long_scene();
+    window.set_size(vec2(1280.0, 800.0));
+    window.run_steps(4);
     let top = |window: &Window| window.get_by_label("Parameters").rect().top();
     let before = top(&window);
     let handle = [1280.0 - 168.0, before - 7.0];

@@ -108,10 +108,10 @@ mod tests {
     fn fields() -> Fields {
         let draw = |ui: &mut Ui, state: &mut [f64; 2]| {
             let [first, second] = state;
-            let value = *first;
-            ui.add(Explained::new(DragValue::new(first), value).suffix(" m"));
-            let value = *second;
-            ui.add(Explained::new(DragValue::new(second), value));
+            for (number, name, unit) in [(first, "Length", " m"), (second, "Count", "")] {
+                let (label, value) = (ui.label(name).id, *number);
+                ui.add(Explained::new(DragValue::new(number), value).suffix(unit)).labelled_by(label);
+            }
         };
         Harness::builder().with_size(egui::vec2(400.0, 300.0)).build_ui_state(draw, [1.0, 2.0])
     }

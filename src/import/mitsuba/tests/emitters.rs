@@ -57,12 +57,10 @@ fn projectors_shine_pi_times_their_irradiance() {
 
 #[test]
 fn spots_with_a_picture_are_projectors_with_a_cone() {
-    let LampKind::Projector(projector) = lamp(
-        "<emitter type=\"spot\"><rgb name=\"intensity\" value=\"4, 2, 1\"/><float name=\"cutoff_angle\" value=\"25\"/>\
-        <texture name=\"texture\" type=\"bitmap\"><string name=\"filename\" value=\"textures/squares.png\"/></texture></emitter>",
-    ) else {
-        panic!("not a projector")
-    };
+    let text = "<scene version=\"3.0.0\"><emitter type=\"spot\"><rgb name=\"intensity\" value=\"4, 2, 1\"/><float name=\"cutoff_angle\" value=\"25\"/>\
+        <texture name=\"texture\" type=\"bitmap\"><string name=\"filename\" value=\"squares.png\"/></texture></emitter></scene>";
+    let imported = read_with(&[("squares.png", "")], text, &ImportOptions::default()).expect("it is valid");
+    let LampKind::Projector(projector) = &imported.description.lamps[0].kind else { panic!("not a projector") };
     assert_eq!((projector.scale, projector.tint), (4.0, [1.0, 0.5, 0.25]));
     assert_eq!((projector.angle, projector.inner, projector.fov, projector.aspect), (25.0, 18.75, 50.0, 1.0));
     assert_eq!((projector.up, projector.flat), (DVec3::NEG_Y, false));
