@@ -19,8 +19,9 @@ pub fn show(ui: &mut Ui, history: &mut History, latest: [Option<u64>; 2], has_re
     egui::Panel::right("convergence figures").resizable(false).exact_size(270.0).show(ui, |ui| {
         egui::ScrollArea::vertical().show(ui, |ui| {
             axis_choice(ui, history);
-            legend(ui, history, latest);
+            // Above the figures, whose lines break elsewhere as the numbers grow.
             file = buttons(ui, history, latest);
+            legend(ui, history, latest);
             if !has_reference {
                 ui.add_space(4.0);
                 ui.weak("Drop a reference EXR on the window to see the true error and the bias.");
@@ -92,6 +93,7 @@ fn buttons(ui: &mut Ui, history: &mut History, latest: [Option<u64>; 2]) -> Opti
             }
         });
     });
+    ui.add_space(4.0);
     file
 }
 
