@@ -33,8 +33,8 @@ fn the_handle_divides_the_room_and_stays_where_it_was_left() {
     window.run_steps(4);
     let top = |window: &Window| window.get_by_label("Parameters").rect().top();
     let before = top(&window);
-    let handle = [1280.0 - 168.0, before - 7.0];
-    let above = (0..14).map(|step| handle[1] - step as f32);
+    let handle = [1280.0 - 168.0, before];
+    let above = (0..20).map(|step| handle[1] - step as f32);
     // The line lies a few points above the title.
     let moved = above.into_iter().find(|y| {
         drag(&mut window, PointerButton::Primary, [handle[0], *y], [handle[0], *y - 150.0]);
