@@ -36,6 +36,7 @@ fn described(camera: &Camera, before: &CameraDescription) -> CameraDescription {
         fov: camera.projection.has_angle().then_some(camera.fov),
         resolution: camera.resolution,
         projection: camera.projection,
+        shift: camera.shift,
         lens: camera.lens,
         filter: camera.filter,
         shutter: camera.shutter.map(|shutter| [shutter.open, shutter.close]),

@@ -69,6 +69,7 @@ fn view(eye: DVec3, axis: DVec3) -> Camera {
         up: axis.any_orthonormal_vector(),
         fov: 90.0,
         projection: Projection::default(),
+        shift: [0.0; 2],
         lens: None,
         filter: Filter::Box,
         shutter: None,

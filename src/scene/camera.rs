@@ -10,7 +10,7 @@ use crate::{declare::check, sampling::Filter};
 pub struct Camera {
     /// Position, metres.
     pub eye: DVec3,
-    /// The point at the centre of the image, metres.
+    /// The point at the centre of the image without a shift, metres.
     pub look_at: DVec3,
     /// The direction that is up in the image, of any length.
     pub up: DVec3,
@@ -19,6 +19,9 @@ pub struct Camera {
     /// The projection.
     #[serde(default, alias = "orthographic", deserialize_with = "Projection::carried")]
     pub projection: Projection,
+    /// How far the image plane is shifted to the right and up, in widths of the image.
+    #[serde(default)]
+    pub shift: [f64; 2],
     /// The thin lens; `None` is a pinhole.
     pub lens: Option<Lens>,
     /// The pixel filter.
@@ -59,6 +62,9 @@ pub enum CameraError {
     /// The width of an orthographic image is out of range.
     #[error("the width of an orthographic image must lie between 1e-9 and 1e9 metres")]
     Width,
+    /// The shift is out of range.
+    #[error("the shift of the image must lie between -100 and 100 widths")]
+    Shift,
     /// The radius of the lens is out of range.
     #[error("the radius of a lens must lie between 0 and 1e9 metres")]
     LensRadius,
@@ -104,6 +110,9 @@ impl Camera {
     fn check_optics(&self) -> Result<(), CameraError> {
         if !check(&mut self.projection.clone()).is_empty() {
             return Err(CameraError::Width);
+        }
+        if !self.shift.iter().all(|shift| (-100.0..=100.0).contains(shift)) {
+            return Err(CameraError::Shift);
         }
         if let Some(lens) = self.lens {
             if !(0.0..=1e9).contains(&lens.radius) {

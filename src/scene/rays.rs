@@ -45,7 +45,8 @@ impl Camera {
         let [w, h] = self.resolution.map(f64::from);
         let half_width = self.projection.half_width(self.fov);
         let half_height = half_width * h / w;
-        let middle = self.projection.middle(forward);
+        let [shift_right, shift_up] = self.shift.map(|shift| 2.0 * half_width * shift);
+        let middle = self.projection.middle(forward) + right * shift_right + up * shift_up;
         let lens = self.lens.filter(|lens| lens.radius > 0.0);
         CameraRays {
             resolution: self.resolution,

@@ -44,6 +44,9 @@ impl Export<'_> {
         if !camera.motion.is_empty() || camera.shutter.is_some() {
             self.remark("the shutter and `motion`", "the image at time 0", "what moves is sharp");
         }
+        if camera.shift != [0.0; 2] {
+            self.remark("`shift`", "none", "the image shows another part of the scene");
+        }
         if camera.filter != CameraDescription::default().filter {
             self.remark("`filter`", "nothing", "the program chooses the filter");
         }

@@ -45,6 +45,9 @@ impl Export<'_> {
         }
         let element = match camera.projection {
             Projection::Orthographic(parallel) => {
+                if camera.shift != [0.0; 2] {
+                    self.remark("`shift` of an orthographic camera", "none", "the image shows another part of the scene");
+                }
                 let forward = (camera.look_at - camera.eye).normalize_or(glam::DVec3::NEG_Z);
                 // Its rays begin at the near plane.
                 let [eye, target] = [camera.eye, camera.look_at].map(|p| p - forward * NEAR);
@@ -57,6 +60,13 @@ impl Export<'_> {
                 let kind = if camera.lens.is_some() { "thinlens" } else { "perspective" };
                 let element = Element::plugin("sensor", kind).with(look_at(camera.eye, camera.look_at, camera.up));
                 let element = element.float("fov", camera.fov.unwrap_or(40.0)).text("fov_axis", "x");
+                let [width, height] = camera.resolution.map(f64::from);
+                let element = match camera.shift {
+                    [0.0, 0.0] => element,
+                    [right, up] => element
+                        .float("principal_point_offset_x", right)
+                        .float("principal_point_offset_y", -up * width / height),
+                };
                 match &camera.lens {
                     Some(lens) => element.float("aperture_radius", lens.radius.max(1e-9)).float("focus_distance", lens.focus),
                     None => element,

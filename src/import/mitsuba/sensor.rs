@@ -17,6 +17,21 @@ const LONGEST: i64 = 16_384;
 struct Film {
     size: [u32; 2],
     crop: [u32; 2],
+    /// Left and upper edge of the part.
+    offset: [i64; 2],
+}
+
+impl Film {
+    /// A film that is rendered whole.
+    fn whole(size: [u32; 2]) -> Film {
+        Film { size, crop: size, offset: [0; 2] }
+    }
+
+    /// The way from the middle of the film to that of its part, to the right and up, in widths of the part.
+    fn shift(&self) -> [f64; 2] {
+        let middle = |i: usize| self.offset[i] as f64 + 0.5 * (f64::from(self.crop[i]) - f64::from(self.size[i]));
+        [middle(0), -middle(1)].map(|way| way / f64::from(self.crop[0]))
+    }
 }
 
 impl Import {
@@ -49,11 +64,11 @@ impl Import {
         let half = (0.5 * angle).to_radians().tan() * f64::from(film.crop[0]) / width;
         let [eye, forward, up] = frame(element, map)?;
         element.ignore(&["near_clip", "far_clip"]);
-        for name in ["principal_point_offset_x", "principal_point_offset_y"] {
-            if element.number(name, 0.0)? != 0.0 {
-                self.remark_value(element, name, "0", "the picture is not shifted")?;
-            }
-        }
+        let [x, y] = [element.number("principal_point_offset_x", 0.0)?, element.number("principal_point_offset_y", 0.0)?];
+        // Fractions of the film that the scene moves to the left and up.
+        let [of_crop_right, of_crop_up] = film.shift();
+        let part = f64::from(film.crop[0]);
+        let shift = [of_crop_right + x * width / part, of_crop_up - y * height / part];
         let focus = element.number("focus_distance", 1.0)?.clamp(1e-9, 1e12);
         let radius = element.number("aperture_radius", 0.0)?.clamp(0.0, 1e9);
         let lens = (element.kind() == "thinlens" && radius > 0.0).then_some(Lens { radius, focus });
@@ -63,6 +78,7 @@ impl Import {
             up: Some(up),
             fov: Some((2.0 * half.atan().to_degrees()).clamp(0.001, 179.9)),
             projection: Projection::default(),
+            shift: shift.map(|shift| shift.clamp(-100.0, 100.0)),
             lens,
             ..self.description.camera.clone()
         };
@@ -85,6 +101,7 @@ impl Import {
             up: Some(up),
             fov: None,
             projection: Projection::orthographic(width.clamp(1e-9, 1e9)),
+            shift: film.shift(),
             lens: None,
             ..self.description.camera.clone()
         };
@@ -95,7 +112,7 @@ impl Import {
         let films = sensor.objects(&["film"])?;
         let Some((_, film)) = films.last() else {
             self.description.camera.filter = Filter::GAUSSIAN;
-            return Ok(Film { size: [WIDTH, HEIGHT], crop: [WIDTH, HEIGHT] });
+            return Ok(Film::whole([WIDTH, HEIGHT]));
         };
         film.ignore(&[
             "pixel_format",
@@ -117,14 +134,11 @@ impl Import {
         };
         let size = [side("width", WIDTH)?, side("height", HEIGHT)?];
         let crop = [side("crop_width", size[0])?.min(size[0]), side("crop_height", size[1])?.min(size[1])];
-        let offset = [film.integer("crop_offset_x")?.unwrap_or(0), film.integer("crop_offset_y")?.unwrap_or(0)];
-        let is_central = [0, 1].into_iter().all(|i| 2 * offset[i] + i64::from(crop[i]) == i64::from(size[i]));
+        let offset = |name: &str, i: usize| -> Result<i64, SceneError> {
+            Ok(film.integer(name)?.unwrap_or(0).clamp(0, i64::from(size[i] - crop[i])))
+        };
         self.filter(*film)?;
-        if is_central {
-            return Ok(Film { size, crop });
-        }
-        self.remark_value(*film, "crop_width", "the whole film", "the picture shows more than the crop")?;
-        Ok(Film { size, crop: size })
+        Ok(Film { size, crop, offset: [offset("crop_offset_x", 0)?, offset("crop_offset_y", 1)?] })
     }
 
     fn filter(&mut self, film: Element) -> Result<(), SceneError> {

@@ -124,14 +124,10 @@ fn screen_width(import: &mut Import, entity: &Entity) -> Result<f64, SceneError>
             return Err(entity.error("`screenwindow` has four numbers", "left, right, bottom and top"));
         };
         [width, height] = [(x1 - x0).abs(), (y1 - y0).abs()];
-        if (x0 + x1).abs() > EQUAL * width || (y0 + y1).abs() > EQUAL * height || x1 <= x0 || y1 <= y0 {
-            import.remark_parameter(
-                entity,
-                "screenwindow",
-                "a screen around the axis",
-                "the image shows another part of the scene",
-            );
+        if x1 <= x0 || y1 <= y0 {
+            import.remark_parameter(entity, "screenwindow", "a screen that is not mirrored", "the image is not mirrored");
         }
+        import.description.camera.shift = [x0 + x1, y0 + y1].map(|sum| (0.5 * sum / width).clamp(-100.0, 100.0));
     }
     if (width / height / (columns / rows) - 1.0).abs() > 1e-3 {
         let effect = "the image shows more or less at the top and bottom, and is not stretched";

@@ -23,6 +23,8 @@ pub struct CameraDescription {
     pub resolution: [u32; 2],
     /// Perspective or parallel rays.
     pub projection: Projection,
+    /// How far the image plane is shifted to the right and up, in widths of the image.
+    pub shift: [f64; 2],
     /// The thin lens; `None` is a pinhole.
     pub lens: Option<Lens>,
     /// The pixel filter.
@@ -42,6 +44,7 @@ impl Default for CameraDescription {
             fov: Some(40.0),
             resolution: [640, 480],
             projection: Projection::default(),
+            shift: [0.0; 2],
             lens: None,
             filter: Filter::default(),
             shutter: None,
@@ -91,6 +94,11 @@ impl Declare for CameraDescription {
     fn parameters(&mut self, p: &mut dyn Parameters) {
         const SHUTTER: Parameter =
             Parameter::new("shutter", "Times at which the shutter opens and closes, from 0 to 1 of the motion. Default: time 0.");
+        const SHIFT: Parameter = Parameter::new(
+            "shift",
+            "How far the image plane is shifted to the right and up, which keeps upright lines parallel, in widths of the image.",
+        )
+        .aliases("lens_shift");
         const MOTION: Parameter = Parameter::new("motion", "Transforms that move the camera from time 0 to 1.");
         p.point(&Self::EYE, &mut self.eye);
         p.point(&Self::LOOK_AT, &mut self.look_at);
@@ -98,6 +106,7 @@ impl Declare for CameraDescription {
         p.optional(&Self::FOV, &mut self.fov, || 40.0, |p, fov| p.number(&Self::FOV, fov, Range::linear(0.001, 179.9)));
         p.value(&Self::RESOLUTION, Value::Counts(&mut self.resolution));
         p.optional_choice(&Self::PROJECTION, Form::NameOrTable, &mut self.projection);
+        p.value(&SHIFT, Value::Pair(&mut self.shift));
         p.optional_table(&Self::LENS, &mut self.lens);
         p.optional_choice(&Self::FILTER, Form::NameOrTable, &mut self.filter);
         p.optional(&SHUTTER, &mut self.shutter, || [0.0, 1.0], |p, times| p.value(&SHUTTER, Value::Pair(times)));

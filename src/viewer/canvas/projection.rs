@@ -11,6 +11,7 @@ pub fn project(camera: &Camera, p: DVec3) -> Option<[f32; 2]> {
     let depth = way.dot(forward);
     let (half, scale) = (camera.projection.half_width(camera.fov), camera.projection.scale(depth)?);
     let (x, y) = (way.dot(right) * scale / half, way.dot(up) * scale / half);
+    let [x, y] = [x - 2.0 * camera.shift[0], y - 2.0 * camera.shift[1]];
     Some([(width * (1.0 + x) / 2.0) as f32, ((height - width * y) / 2.0) as f32])
 }
 
@@ -19,7 +20,9 @@ pub fn ray(camera: &Camera, [x, y]: [f32; 2]) -> [DVec3; 2] {
     let [right, up, forward] = camera.axes();
     let [width, height] = camera.resolution.map(f64::from);
     let half = camera.projection.half_width(camera.fov);
-    let across = (right * (2.0 * f64::from(x) - width) + up * (height - 2.0 * f64::from(y))) * (half / width);
+    let [shift_right, shift_up] = camera.shift.map(|shift| 2.0 * width * shift);
+    let (x, y) = (2.0 * f64::from(x) - width + shift_right, height - 2.0 * f64::from(y) + shift_up);
+    let across = (right * x + up * y) * (half / width);
     // Points at a depth lie across by the inverse of the scale, which is linear in the depth.
     let at = |depth: f64| camera.eye + forward * depth + across / camera.projection.scale(depth).unwrap_or(1.0);
     let (near, way) = (at(1.0), at(2.0) - at(1.0));
@@ -71,7 +74,7 @@ mod tests {
 
     fn camera(projection: Projection) -> Camera {
         let (eye, look_at) = (DVec3::new(1.0, 2.0, 3.0), DVec3::ZERO);
-        Camera { eye, look_at, fov: 40.0, projection, resolution: [300, 200], ..built_in().camera }
+        Camera { eye, look_at, fov: 40.0, projection, shift: [0.25, -0.5], resolution: [300, 200], ..built_in().camera }
     }
 
     #[test]
@@ -104,14 +107,15 @@ mod tests {
             let camera = camera(projection);
             let step = camera.axes()[0] * pixel_width(&camera, DVec3::ZERO);
             let [x, _] = project(&camera, step).expect("it is in front");
-            assert!((x - 151.0).abs() < 1e-3, "{projection:?}: {x}");
+            // A quarter of the width to the left of the middle.
+            assert!((x - 76.0).abs() < 1e-3, "{projection:?}: {x}");
         }
         assert_eq!(pixel_width(&camera(Projection::Perspective), DVec3::splat(1e3)), f64::INFINITY);
     }
 
     #[test]
     fn what_is_looked_at_lies_in_the_middle_and_edges_at_the_edge() {
-        let camera = camera(Projection::Perspective);
+        let camera = Camera { shift: [0.0; 2], ..camera(Projection::Perspective) };
         let [x, y] = project(&camera, DVec3::ZERO).expect("it is in front");
         assert!((x - 150.0).abs() < 1e-3 && (y - 100.0).abs() < 1e-3);
         let [right, _, forward] = camera.axes();

@@ -53,7 +53,7 @@ fn a_lens_keeps_its_radius_and_distance() {
 }
 
 #[test]
-fn a_crop_around_the_middle_narrows_the_view_and_others_are_reported() {
+fn a_crop_narrows_the_view_and_shifts_it() {
     let film = |offset: u32| {
         format!(
             "<sensor type=\"perspective\"><float name=\"fov\" value=\"90\"/><film type=\"hdrfilm\">\
@@ -65,8 +65,19 @@ fn a_crop_around_the_middle_narrows_the_view_and_others_are_reported() {
     let camera = scene(&film(25)).description.camera;
     assert_eq!((camera.resolution, camera.filter), ([50, 80], Filter::TENT));
     assert!(camera.fov.is_some_and(|fov| (fov - 2.0 * 0.5f64.atan().to_degrees()).abs() < 1e-9));
-    let imported = scene(&film(0));
-    assert_eq!((imported.description.camera.resolution, remarks(&imported).len()), ([100, 80], 1));
+    assert_eq!(camera.shift, [0.0, 0.0]);
+    let imported = scene(&film(40));
+    let camera = &imported.description.camera;
+    assert_eq!((camera.resolution, camera.shift, remarks(&imported).len()), ([50, 80], [0.3, 0.0], 0));
+}
+
+#[test]
+fn a_principal_point_shifts_the_image() {
+    let text = "<sensor type=\"perspective\"><float name=\"principal_point_offset_x\" value=\"0.25\"/>\
+        <float name=\"principal_point_offset_y\" value=\"0.5\"/><film type=\"hdrfilm\"><integer name=\"width\" value=\"100\"/>\
+        <integer name=\"height\" value=\"50\"/></film></sensor>";
+    // Mitsuba 3.9 shows the scene a quarter of the width to the left, and half of the height up.
+    assert_eq!(scene(text).description.camera.shift, [0.25, -0.25]);
 }
 
 #[test]
