@@ -2,7 +2,8 @@
 //!
 //! Every hit is at one of the two, with the probability of its weight, so that the mean is that of the sum of both BSDFs by weight
 //! (M. Pharr, W. Jakob and G. Humphreys, "Physically Based Rendering", 4th edition, section 10.5.2). The surface stage of the kernel
-//! therefore never sees a blend, only its parts (`integrator/passage.rs`).
+//! therefore never sees a blend, only its parts (`integrator/passage.rs`). A blend of diffuse surfaces is compiled to one of them, without
+//! a choice (`scene/compile/merge.rs`).
 use super::{Compile, CompiledMaterial, MaterialCompiler};
 use crate::declare::{Declare, Family, Kind, Parameter, Parameters, Problem, Range, Textured, Value};
 

@@ -146,14 +146,11 @@ impl<'a, 'b> MaterialCompiler<'a, 'b> {
 
     /// The largest value of any channel, at most 1.
     pub fn largest(&self, colour: ColourSource) -> f32 {
-        self.maximum(colour).into_iter().fold(0.0, f32::max).min(1.0)
+        self.textures.largest(colour)
     }
 
     /// The largest value of each channel.
     pub(super) fn maximum(&self, colour: ColourSource) -> [f32; 3] {
-        match colour {
-            ColourSource::Constant(colour) => colour,
-            ColourSource::Texture(id) => self.textures.textures.maximum(id),
-        }
+        self.textures.maximum(colour)
     }
 }

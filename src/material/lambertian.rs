@@ -6,6 +6,7 @@ use crate::{
     declare::{Declare, Kind, Parameter, Parameters, Problem, Range, Textured},
     math::{F, Lanes, One, Pick, V},
     sampling::Directions,
+    texture::{NumberSource, TextureCompiler},
 };
 
 /// A diffuse surface in a scene description.
@@ -42,6 +43,18 @@ impl Compile for Lambertian {
     fn compile(&self, compiler: &mut MaterialCompiler) -> Result<CompiledMaterial, Problem> {
         let albedo = compiler.colour(&ALBEDO, &self.albedo, &Range::REFLECTANCE)?;
         Ok(CompiledMaterial::new(Stage::Plain, albedo, compiler))
+    }
+}
+
+impl CompiledMaterial {
+    /// The mixture of two diffuse surfaces: the diffuse surface of their mixed albedo, because the BSDF is proportional to the albedo.
+    /// `None` for other kinds, and if the mixture needs too many lookups of textures.
+    pub fn mixed(&self, other: &CompiledMaterial, weight: NumberSource, textures: &mut TextureCompiler) -> Option<Self> {
+        if [self, other].iter().any(|part| part.stage != Stage::Plain) {
+            return None;
+        }
+        let colour = textures.mixture(self.colour, other.colour, weight)?;
+        Some(CompiledMaterial { colour, albedo: textures.largest(colour), ..self.clone() })
     }
 }
 

@@ -81,6 +81,20 @@ impl Materials {
         self.stages.len() as u32 - 1
     }
 
+    /// Gives the material `to` the constants and the stage of another one.
+    pub fn copy(&mut self, from: u32, to: u32) {
+        let [from, to] = [from, to].map(|number| number as usize);
+        let first = ROWS as usize * from;
+        self.rows.copy_within(first..first + ROWS as usize, ROWS as usize * to);
+        self.stages[to] = self.stages[from];
+    }
+
+    /// The constants of a material.
+    #[cfg(test)]
+    pub fn constants(&self, material: usize) -> &[[f32; 4]] {
+        &self.rows[ROWS as usize * material..][..ROWS as usize]
+    }
+
     /// Number of materials.
     pub fn len(&self) -> usize {
         self.stages.len()

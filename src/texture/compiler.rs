@@ -10,7 +10,7 @@ use crate::{
 /// Textures of textures may go this deep.
 const DEEPEST: usize = 64;
 /// A lookup may make so many of other textures. A product of a product of … with itself would make 2ⁿ.
-const MOST_LOOKUPS: u32 = 64;
+pub(super) const MOST_LOOKUPS: u32 = 64;
 
 /// A colour of the scene: constant or by a texture.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -187,5 +187,18 @@ impl<'a> TextureCompiler<'a> {
             ColourSource::Constant(colour) => colour,
             ColourSource::Texture(id) => self.textures.mean(id),
         }
+    }
+
+    /// The largest value of each channel.
+    pub fn maximum(&self, source: ColourSource) -> [f32; 3] {
+        match source {
+            ColourSource::Constant(colour) => colour,
+            ColourSource::Texture(id) => self.textures.maximum(id),
+        }
+    }
+
+    /// The largest value of any channel, at most 1.
+    pub fn largest(&self, source: ColourSource) -> f32 {
+        self.maximum(source).into_iter().fold(0.0, f32::max).min(1.0)
     }
 }

@@ -2,7 +2,8 @@
 use fearless_simd_macros::simd;
 
 use super::{
-    ColourSource, Found, NumberSource, Pattern, Summary, TextureCompiler, TextureCoordinates, Textures, Texturing, parts::finest,
+    ColourSource, Found, NumberSource, Pattern, Summary, Texture, TextureCompiler, TextureCoordinates, Textures, Texturing,
+    compiler::MOST_LOOKUPS, parts::finest,
 };
 use crate::{
     declare::{Declare, Kind, Parameter, Parameters, Problem, Range, Textured},
@@ -71,6 +72,23 @@ impl Mixture {
     fn most(&self, a: f32, b: f32, weight: f32) -> f32 {
         let end = a * (1.0 - weight) + b * weight;
         if let NumberSource::Constant(_) = self.weight { end } else { a.max(end) }
+    }
+}
+
+impl TextureCompiler<'_> {
+    /// The mixture of two colours: constant if everything is, or else a texture without a name. `None` if that needs too many lookups.
+    pub fn mixture(&mut self, a: ColourSource, b: ColourSource, weight: NumberSource) -> Option<ColourSource> {
+        if a == b {
+            return Some(a);
+        }
+        if let (ColourSource::Constant(a), ColourSource::Constant(b), NumberSource::Constant(weight)) = (a, b, weight) {
+            let [a, b, weight] = [a, b, [weight; 3]].map(|of| of.map(f64::from));
+            // Rounded once.
+            return Some(ColourSource::Constant([0, 1, 2].map(|i| (a[i] * (1.0 - weight[i]) + b[i] * weight[i]) as f32)));
+        }
+        let mixture = Mixture { a, b, weight };
+        let is_quick = mixture.summary(&self.textures).lookups <= MOST_LOOKUPS;
+        is_quick.then(|| ColourSource::Texture(self.push(Texture::Mix(mixture))))
     }
 }
 

@@ -191,12 +191,83 @@ fn a_blend_of_diffuse_surfaces_is_one_of_their_mean_albedo() {
         ))
     };
     let blended = lit("materials.top.blend = { first = 'inner', second = 'grey', weight = 0.4 }");
+    // Nothing is seen from behind, but a part with one side is not merged: each hit chooses a part.
+    let chosen = lit("materials.rear = { lambertian.albedo = [0.3, 0.3, 0.3], two_sided = false }
+                      materials.top.blend = { first = 'inner', second = 'rear', weight = 0.4 }");
+    assert_eq!([&blended, &chosen].map(|scene| scene.surfaces.blends.is_empty()), [true, false]);
     // (0.75 dark + 0.25 bright) 0.6 + 0.4 grey.
     let plain = lit("materials.top.lambertian.albedo = [0.3, 0.285, 0.315]");
     for estimator in Estimator::ALL {
         let of =
             |scene: &Scene, seed: u32| picture(scene, RenderSettings { seed, ..settings(estimator) }, LUMINANCE, 512).whole();
-        assert_within(of(&blended, 7).z_from(of(&plain, 8)), &format!("a blend, {}", estimator.name()));
+        for (scene, what) in [(&blended, "a merged blend"), (&chosen, "a blend")] {
+            assert_within(of(scene, 7).z_from(of(&plain, 8)), &format!("{what}, {}", estimator.name()));
+        }
+    }
+}
+
+/// A merged blend is no approximation: nothing but the description differs.
+#[test]
+fn a_merged_blend_has_the_bits_of_its_mixture_made_by_hand() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mesh = folder.path().join("painted.obj");
+    std::fs::write(&mesh, "v -2 0 2 1 0 0\nv 2 0 2 0 1 0\nv 0 0 -3 0 0 1\nf 1 2 3\n").expect("it is written");
+    let lit = |material: &str| {
+        scene(&format!(
+            "background.radiance = 0.2
+            camera = {{ eye = [0, 2, 4], look_at = [0, 0, 0], fov = 40, resolution = [16, 16] }}
+            textures.squares.checker = {{ even = 0.25, odd = 0.75, scale = 4 }}
+            textures.painted.vertex_color.channel = 'green'
+            textures.bumps.noise = {{ scale = 3.0, octaves = 2, low = 0.0, high = 1.0 }}
+            materials.dark.lambertian.albedo = [0.125, 0.25, 0.5]
+            materials.bright.lambertian.albedo = [0.875, 0.75, 0.5]
+            materials.tiles.lambertian.albedo = {{ texture = 'squares' }}
+            materials.gold.conductor = {{ f0 = [1.0, 0.75, 0.25], roughness = {{ texture = 'squares' }} }}
+            materials.pane.principled = {{ base_color = 0.5, coat_weight = 0.5, specular_roughness = 0.5 }}
+            {material}
+            {}[[objects]]
+            shape.sphere = {{ center = [0, 0.6, 0], radius = 0.6 }}
+            material = 'top'
+            [[objects]]
+            shape.mesh.path = '{}'
+            material = 'top'",
+            lamp(""),
+            mesh.display()
+        ))
+    };
+    let mix = |a: &str, b: &str, weight: &str| {
+        let mix = format!("textures.mixture.mix = {{ a = {a}, b = {b}, weight = {weight} }}");
+        format!("{mix}\nmaterials.top.lambertian.albedo = {{ texture = 'mixture' }}")
+    };
+    let [dark, bright, tiles] = ["[0.125, 0.25, 0.5]", "[0.875, 0.75, 0.5]", "{ texture = 'squares' }"];
+    let painted = "{ texture = 'painted' }";
+    let bump = "bump = { texture = 'bumps', height = 0.05 }";
+    for (blend, by_hand) in [
+        ("first = 'dark', second = 'bright', weight = 0.25", "materials.top.lambertian.albedo = [0.3125, 0.375, 0.5]".to_owned()),
+        ("first = 'tiles', second = 'bright', weight = 0.25", mix(tiles, bright, "0.25")),
+        ("first = 'dark', second = 'bright', weight = { texture = 'squares' }", mix(dark, bright, tiles)),
+        ("first = 'tiles', second = 'dark', weight = { texture = 'painted' }", mix(tiles, dark, painted)),
+        ("first = 'gold', second = 'dark', weight = 1", format!("materials.top.lambertian.albedo = {dark}")),
+        (
+            "first = 'gold', second = 'dark', weight = 0",
+            "materials.top.conductor = { f0 = [1.0, 0.75, 0.25], roughness = { texture = 'squares' } }".to_owned(),
+        ),
+        (
+            "first = 'gold', second = 'pane', weight = 1",
+            "materials.top.principled = { base_color = 0.5, coat_weight = 0.5, specular_roughness = 0.5 }".to_owned(),
+        ),
+    ] {
+        for more in
+            [String::new(), format!("materials.top.{bump}\nmaterials.top.two_sided = false\nmaterials.top.opacity = 0.75")]
+        {
+            let [blended, plain] =
+                [format!("materials.top.blend = {{ {blend} }}"), by_hand.clone()].map(|top| lit(&format!("{top}\n{more}")));
+            for estimator in Estimator::ALL {
+                let [of_blend, of_mixture] =
+                    [&blended, &plain].map(|scene| bits(scene, [16, 16], &settings(estimator), SimdLevel::best()));
+                assert!(of_blend == of_mixture, "{blend}, {}: the bits differ\n{more}", estimator.name());
+            }
+        }
     }
 }
 
@@ -234,22 +305,23 @@ fn leaves() -> Scene {
     load(concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/leaves.toml").as_ref()).expect("a shipped scene compiles")
 }
 
+/// The bits of an image of two samples per pixel.
+fn bits(scene: &Scene, resolution: [u32; 2], settings: &RenderSettings, level: SimdLevel) -> Vec<[u32; 3]> {
+    let rays = scene.rays(&Camera { resolution, ..scene.camera });
+    let mut film = Film::new(resolution);
+    let threads = Threads::new(2, level).expect("threads can be had");
+    threads.pass(PassJob { scene, rays: &rays, settings }, &mut film, 2, &|| false);
+    Frame::of_film(&film, 0, resolution, resolution).radiance.iter().map(|rgb| rgb.map(f32::to_bits)).collect()
+}
+
 #[test]
 fn every_simd_level_crosses_surfaces_alike() {
     const RESOLUTION: [u32; 2] = [48, 36];
     let scene = leaves();
-    let rays = scene.rays(&Camera { resolution: RESOLUTION, ..scene.camera });
     for estimator in Estimator::ALL {
         let settings = RenderSettings { reuse: Reuse::On, ..settings(estimator) };
-        let pictures: Vec<Vec<[u32; 3]>> = SimdLevel::available()
-            .into_iter()
-            .map(|level| {
-                let mut film = Film::new(RESOLUTION);
-                let threads = Threads::new(2, level).expect("threads can be had");
-                threads.pass(PassJob { scene: &scene, rays: &rays, settings: &settings }, &mut film, 2, &|| false);
-                Frame::of_film(&film, 0, RESOLUTION, RESOLUTION).radiance.iter().map(|rgb| rgb.map(f32::to_bits)).collect()
-            })
-            .collect();
+        let pictures: Vec<_> =
+            SimdLevel::available().into_iter().map(|level| bits(&scene, RESOLUTION, &settings, level)).collect();
         assert!(pictures.windows(2).all(|pair| pair[0] == pair[1]), "{}", estimator.name());
     }
 }

@@ -1,13 +1,14 @@
-//! Blends of a description: the names of their parts become numbers, and their properties are those of their parts.
+//! Blends of a description: the names of their parts become numbers, and their properties are those of their parts. Blends that are a
+//! single material become that material (`merge.rs`).
 use std::collections::BTreeMap;
 
-use super::{material::Numbers, problems::Problems};
+use super::{material::Numbers, merge::merged, problems::Problems};
 use crate::{
     declare::{Family, Path, Problem, Range},
-    material::{Material, blend::Blend},
+    material::{Material, Materials, blend::Blend},
     quote,
     scene::{BlendParts, MaterialInstance, description::MaterialDescription},
-    texture::TextureCompiler,
+    texture::{NumberSource, TextureCompiler},
 };
 
 /// Blends of blends may go this deep.
@@ -18,7 +19,8 @@ pub fn blends(
     described: &BTreeMap<String, MaterialDescription>,
     numbers: &Numbers,
     instances: &mut [MaterialInstance],
-    textures: &TextureCompiler,
+    textures: &mut TextureCompiler,
+    tables: &mut Materials,
     problems: &mut Problems,
 ) {
     let mut depths = Depths { described, numbers, known: BTreeMap::new(), open: Vec::new() };
@@ -35,28 +37,35 @@ pub fn blends(
         let Material::Blend(blend) = &material.kind else { continue };
         let number = *number as usize;
         let at = Path::of("materials").key(name);
-        problems.keep(&at, || link(blend, number, numbers, instances, textures));
+        problems.keep(&at, || link(blend, number, numbers, instances, textures, tables));
     }
 }
 
-/// Gives a blend its parts, which have theirs.
+/// Gives a blend its parts, which have theirs, or makes it the material that it is.
 fn link(
     blend: &Blend,
     number: usize,
     numbers: &Numbers,
     instances: &mut [MaterialInstance],
-    textures: &TextureCompiler,
+    textures: &mut TextureCompiler,
+    tables: &mut Materials,
 ) -> Result<(), Problem> {
     let within = |problem: Problem| problem.within(&Path::of("blend"));
     let weight = textures.number(&Blend::WEIGHT, &blend.weight, &Range::UNIT).map_err(within)?;
     // The problem of a part without a number has been reported.
     let part = |name: &String| numbers.get(name).copied().flatten();
     let (Some(first), Some(second)) = (part(&blend.first), part(&blend.second)) else { return Ok(()) };
-    let of_parts = instances[first as usize].properties.or(instances[second as usize].properties);
-    let instance = &mut instances[number];
-    if of_parts.transmits && instance.one_sided {
+    let parts = [first, second].map(|part| &instances[part as usize]);
+    let of_parts = parts[0].properties.or(parts[1].properties);
+    if of_parts.transmits && instances[number].one_sided {
         return Err(Problem::at("two_sided", "a blend with a material that transmits light has two sides", "remove this"));
     }
+    if let Some(merged) = merged(&instances[number], parts, weight, textures) {
+        instances[number] = merged;
+        tables.copy(if weight == NumberSource::Constant(1.0) { second } else { first }, number as u32);
+        return Ok(());
+    }
+    let instance = &mut instances[number];
     instance.blend = Some(BlendParts { materials: [first, second], weight });
     instance.properties = instance.properties.of_blend(of_parts);
     Ok(())
@@ -182,7 +191,7 @@ mod tests {
     #[test]
     fn equal_parts_share_a_row() {
         let level = |i: usize| {
-            let first = if i == 0 { "white".to_owned() } else { format!("level{}", i - 1) };
+            let first = if i == 0 { "glass".to_owned() } else { format!("level{}", i - 1) };
             format!("materials.level{i}.blend = {{ first = '{first}', second = '{first}' }}\n")
         };
         let levels: String = (0..15).map(level).collect();

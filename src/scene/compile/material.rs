@@ -17,6 +17,9 @@ use crate::{
 /// The numbers of materials by their names; `None` for those that are wrong.
 pub type Numbers = BTreeMap<String, Option<u32>>;
 
+/// The textures of normal maps by the paths of their files.
+type NormalMaps<'d> = BTreeMap<&'d str, u32>;
+
 /// All materials that can be used, and their numbers by name.
 pub fn materials(
     described: &BTreeMap<String, MaterialDescription>,
@@ -25,13 +28,15 @@ pub fn materials(
     problems: &mut Problems,
 ) -> (Vec<MaterialInstance>, Numbers) {
     let mut instances = Vec::new();
+    let mut normal_maps = BTreeMap::new();
     // Without a number: what is wrong with it has been said, and objects may name it.
     let mut numbers: Numbers = problems.damage.names("materials").map(|name| (name.to_owned(), None)).collect();
     for (name, material) in described {
         if problems.are_many() {
             break;
         }
-        let compiled = problems.keep(&Path::of("materials").key(name), || instance(name, material, textures, tables));
+        let compiled =
+            problems.keep(&Path::of("materials").key(name), || instance(name, material, &mut normal_maps, textures, tables));
         let number = compiled.map(|instance| {
             let number = tables.push(&instance.compiled);
             instances.push(instance);
@@ -42,14 +47,15 @@ pub fn materials(
     (instances, numbers)
 }
 
-fn instance(
+fn instance<'d>(
     name: &str,
-    described: &MaterialDescription,
+    described: &'d MaterialDescription,
+    normal_maps: &mut NormalMaps<'d>,
     textures: &mut TextureCompiler,
     tables: &mut Materials,
 ) -> Result<MaterialInstance, Problem> {
     let bump = described.bump.as_ref().map(|bump| Ok((textures.id("bump.texture", &bump.texture)?, bump.height as f32)));
-    let normal_map = described.normal_map.as_ref().map(|path| normal_map(path, textures));
+    let normal_map = described.normal_map.as_ref().map(|path| normal_map(path, normal_maps, textures));
     let opacity = opacity(described, textures)?;
     let compiled = tables.compile(&described.kind, textures)?;
     if compiled.stage.transmits() && described.two_sided == Some(false) {
@@ -75,10 +81,15 @@ fn opacity(described: &MaterialDescription, textures: &TextureCompiler) -> Resul
     Ok(if is_null { NumberSource::Constant(0.0) } else { opacity.unwrap_or(NumberSource::Constant(1.0)) })
 }
 
-/// A texture without a name, of normals.
-fn normal_map(path: &str, textures: &mut TextureCompiler) -> Result<u32, Problem> {
+/// A texture without a name, of normals. Materials share it.
+fn normal_map<'d>(path: &'d str, known: &mut NormalMaps<'d>, textures: &mut TextureCompiler) -> Result<u32, Problem> {
+    if let Some(id) = known.get(path) {
+        return Ok(*id);
+    }
     let picture = ImageTexture::read(textures.resources, "normal_map", path, Encoding::Linear)?;
-    Ok(textures.push(Texture::Image(ImagePattern::Plain(picture))))
+    let id = textures.push(Texture::Image(ImagePattern::Plain(picture)));
+    known.insert(path, id);
+    Ok(id)
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@ mod check;
 mod lamp;
 mod light;
 mod material;
+mod merge;
 mod object;
 mod problems;
 mod reuse;
@@ -111,7 +112,7 @@ impl Parts {
         let known = before.map(|before| Materials::after(&before.scene.surfaces.materials, before.precision));
         let mut tables = known.unwrap_or_default();
         let (mut materials, numbers) = materials(&description.materials, &mut textures, &mut tables, problems);
-        blends(&description.materials, &numbers, &mut materials, &textures, problems);
+        blends(&description.materials, &numbers, &mut materials, &mut textures, &mut tables, problems);
         let mut objects = objects(&description.objects, &numbers, &textures, resources, problems);
         objects.iter_mut().for_each(|object| light::see_through(object, &materials));
         let lamps = lamps(&description.lamps, resources, problems);
