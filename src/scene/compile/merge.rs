@@ -106,7 +106,7 @@ mod tests {
     fn textured_albedos_and_weights_become_a_texture_of_their_mean() {
         for (blend, mean, largest) in [
             ("first = 'tiles', second = 'bright', weight = 0.25", [0.59375, 0.5625, 0.5], 0.78125),
-            ("first = 'dark', second = 'bright', weight = { texture = 'squares' }", [0.5, 0.5, 0.5], 0.875),
+            ("first = 'dark', second = 'bright', weight = { texture = 'squares' }", [0.5, 0.5, 0.5], 0.6875),
         ] {
             let scene = scene(&format!("materials.top.blend = {{ {blend} }}"));
             let ColourSource::Texture(id) = top(&scene).compiled.colour else { panic!("{blend}: a texture") };
