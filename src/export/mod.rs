@@ -10,6 +10,7 @@
 //! | `notes.rs` | remarks by place |
 //! | `geometry.rs` | shapes in world space, and triangles that stand for them |
 //! | `textures.rs` | means and images of textures |
+//! | `substitutes.rs` | what stands for kinds that a format does not know |
 //!
 //! Another format is a file beside `toml.rs` and a line in [`check`]. What a format cannot say is a remark, as in the readers.
 mod file_names;
@@ -21,6 +22,7 @@ mod new_assets;
 mod notes;
 #[cfg(test)]
 mod round_trip;
+mod substitutes;
 mod textures;
 mod toml;
 

@@ -28,6 +28,11 @@ impl<'a> Colors<'a> {
         Colors { description, compiler }
     }
 
+    /// The compiled textures.
+    pub fn compiler(&self) -> &TextureCompiler<'a> {
+        &self.compiler
+    }
+
     fn id(&self, name: &str) -> Option<u32> {
         self.compiler.id("texture", name).ok()
     }
@@ -53,7 +58,7 @@ impl<'a> Colors<'a> {
         }
     }
 
-    /// Whether a texture depends on nothing but u and v.
+    /// Whether a texture is known to depend on nothing but u and v. Its mean stands for any other one.
     pub fn is_flat(&self, name: &str) -> bool {
         self.is_flat_within(name, DEEPEST)
     }
@@ -74,7 +79,7 @@ impl<'a> Colors<'a> {
             TextureKind::Product(product) => color(&product.a) && color(&product.b),
             TextureKind::Mix(mix) => color(&mix.a) && color(&mix.b) && number(&mix.weight),
             TextureKind::Ramp(ramp) => number(&ramp.input),
-            TextureKind::Noise(_) | TextureKind::VertexColor(_) => false,
+            _ => false,
         }
     }
 

@@ -6,7 +6,10 @@ use super::{
     super::geometry::upwards,
     context::{Export, table},
 };
-use crate::scene::{Projection, description::CameraDescription};
+use crate::{
+    declare::OneOf,
+    scene::{Projection, description::CameraDescription},
+};
 
 /// Distances between which other programs see things, metres.
 const NEAR: f64 = 1e-3;
@@ -19,15 +22,19 @@ pub fn add(export: &mut Export) {
         export.list_losses();
         let aspect = aspect(camera);
         let described = match camera.projection {
-            Projection::Perspective => {
-                let slope = (camera.fov.unwrap_or(40.0).to_radians() / 2.0).tan();
-                let angle = 2.0 * (slope / aspect).atan();
-                json!({ "type": "perspective", "perspective": { "yfov": angle, "aspectRatio": aspect, "znear": NEAR } })
-            }
             Projection::Orthographic(parallel) => {
                 let half = parallel.width / 2.0;
                 let sides = json!({ "xmag": half, "ymag": half / aspect, "znear": 0.0, "zfar": FAR });
                 json!({ "type": "orthographic", "orthographic": sides })
+            }
+            projection => {
+                if projection != Projection::Perspective {
+                    let found = format!("a projection `{}`", projection.name());
+                    export.remark(found, "a perspective", "the image has another shape");
+                }
+                let slope = (camera.fov.unwrap_or(40.0).to_radians() / 2.0).tan();
+                let angle = 2.0 * (slope / aspect).atan();
+                json!({ "type": "perspective", "perspective": { "yfov": angle, "aspectRatio": aspect, "znear": NEAR } })
             }
         };
         let index = export.document.add("cameras", described);

@@ -69,6 +69,11 @@ impl Export<'_> {
                 let (cone, power) = self.projector(lamp)?;
                 (cone, looking(eye, forward, upwards(forward, Some(map.transform_vector3(lamp.up)))), power)
             }
+            #[allow(unreachable_patterns, reason = "a kind that is added later")]
+            _ => {
+                let substitute = self.colors.lamp_substitute(lamp, &mut self.notes);
+                return substitute.map_or(Ok(()), |substitute| self.lamp(&substitute));
+            }
         };
         self.add_lamp(table(kind), &lamp.name, &place, power);
         Ok(())

@@ -91,6 +91,11 @@ impl Export<'_> {
             Material::Principled(principled) => self.principled(principled),
             Material::Blend(blend) => Base::transparent(self.blend(blend, one_sided, depth)),
             Material::Null(_) => Base::transparent(Element::plugin("bsdf", "null")),
+            #[allow(unreachable_patterns, reason = "a kind that is added later")]
+            other => {
+                let color = self.colors.diffuse_substitute(other, &mut self.notes);
+                Base::opaque(Element::plugin("bsdf", "diffuse").with(Element::color("reflectance", color)))
+            }
         }
     }
 

@@ -27,6 +27,7 @@ pub fn all(export: &mut Export) {
     let description = export.description;
     for (number, lamp) in description.lamps.iter().enumerate() {
         let (element, _) = export.at(notes::element("lamp", number, &lamp.name), |export| export.lamp(lamp));
+        let Some(element) = element else { continue };
         let id = export.id(&lamp.name, "lamp");
         export.scene.push(element.attribute("id", id));
     }
@@ -37,10 +38,10 @@ pub fn all(export: &mut Export) {
 }
 
 impl Export<'_> {
-    fn lamp(&mut self, lamp: &LampDescription) -> Element {
+    fn lamp(&mut self, lamp: &LampDescription) -> Option<Element> {
         let map = product(&lamp.transform).unwrap_or(DAffine3::IDENTITY);
         let point = |p: DVec3| map.transform_point3(p);
-        match &lamp.kind {
+        Some(match &lamp.kind {
             LampKind::Point(lamp) => Element::plugin("emitter", "point")
                 .point("position", point(lamp.position))
                 .with(Element::color("intensity", lamp.intensity)),
@@ -52,7 +53,12 @@ impl Export<'_> {
                 let up = map.transform_vector3(lamp.up);
                 self.projector(lamp, look_at(point(lamp.position), point(lamp.target), Some(up)))
             }
-        }
+            #[allow(unreachable_patterns, reason = "a kind that is added later")]
+            _ => {
+                let substitute = self.colors.lamp_substitute(lamp, &mut self.notes)?;
+                self.lamp(&substitute)?
+            }
+        })
     }
 
     fn spot(&mut self, lamp: &Spot, place: Element) -> Element {
@@ -107,6 +113,11 @@ impl Export<'_> {
                     .vector("sun_direction", sky.sun.normalize_or(DVec3::Y))
                     // Mitsuba's zenith is z.
                     .transform("to_world", &DAffine3::from_rotation_x(-FRAC_PI_2))
+            }
+            #[allow(unreachable_patterns, reason = "a kind that is added later")]
+            other => {
+                let mean = self.colors.background_substitute(other, &mut self.notes);
+                Element::plugin("emitter", "constant").with(Element::color("radiance", mean))
             }
         }
     }

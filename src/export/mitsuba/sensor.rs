@@ -1,7 +1,7 @@
 //! Camera, film, sampler and integrator.
 use super::{context::Export, emitters::look_at, markup::Element};
 use crate::{
-    declare::Textured,
+    declare::{OneOf, Textured},
     material::Material,
     sampling::{Filter, Sampler},
     scene::{Projection, Roulette, description::CameraDescription},
@@ -56,7 +56,11 @@ impl Export<'_> {
                 let scale = Element::new("scale").attribute("x", half.clone()).attribute("y", half);
                 Element::plugin("sensor", "orthographic").with(place.before(scale)).float("near_clip", NEAR)
             }
-            Projection::Perspective => {
+            projection => {
+                if projection != Projection::Perspective {
+                    let found = format!("a projection `{}`", projection.name());
+                    self.remark(found, "a perspective", "the image has another shape");
+                }
                 let kind = if camera.lens.is_some() { "thinlens" } else { "perspective" };
                 let element = Element::plugin("sensor", kind).with(look_at(camera.eye, camera.look_at, camera.up));
                 let element = element.float("fov", camera.fov.unwrap_or(40.0)).text("fov_axis", "x");
@@ -82,18 +86,27 @@ impl Export<'_> {
             Some(count) => sampler.integer("sample_count", count.into()),
             None => sampler,
         };
-        element.with(film(camera)).with(sampler)
+        element.with(self.film(camera)).with(sampler)
     }
-}
 
-fn film(camera: &CameraDescription) -> Element {
-    let filter = match camera.filter {
-        Filter::Box => Element::plugin("rfilter", "box"),
-        Filter::Tent(tent) => Element::plugin("rfilter", "tent").float("radius", short(tent.radius)),
-        Filter::Gaussian(gaussian) => Element::plugin("rfilter", "gaussian").float("stddev", short(gaussian.sigma)),
-    };
-    let [width, height] = camera.resolution.map(i64::from);
-    Element::plugin("film", "hdrfilm").integer("width", width).integer("height", height).text("pixel_format", "rgb").with(filter)
+    fn film(&mut self, camera: &CameraDescription) -> Element {
+        let filter = match camera.filter {
+            Filter::Tent(tent) => Element::plugin("rfilter", "tent").float("radius", short(tent.radius)),
+            Filter::Gaussian(gaussian) => Element::plugin("rfilter", "gaussian").float("stddev", short(gaussian.sigma)),
+            filter => {
+                if filter != Filter::Box {
+                    self.remark(format!("a filter `{}`", filter.name()), "a box", "edges have another softness");
+                }
+                Element::plugin("rfilter", "box")
+            }
+        };
+        let [width, height] = camera.resolution.map(i64::from);
+        Element::plugin("film", "hdrfilm")
+            .integer("width", width)
+            .integer("height", height)
+            .text("pixel_format", "rgb")
+            .with(filter)
+    }
 }
 
 /// The shortest decimal of a number in single precision.

@@ -15,7 +15,6 @@ use super::{
 use crate::{
     declare::Textured,
     geometry::{MeshData, Outline, Shape},
-    light::emission::EmissionSource,
     model::{Model, encode_ply},
     scene::description::{EmissionDescription, ObjectDescription},
 };
@@ -74,10 +73,10 @@ impl Export<'_> {
             self.remark("`two_sided` emission", "the front alone", "the back is dark");
         }
         let scale = emission.scale;
-        let radiance = match &emission.source {
-            EmissionSource::Radiance(radiance) => Element::color("radiance", radiance.radiance.map(|x| x * scale)),
-            EmissionSource::Texture(texture) if scale == 1.0 => self.color("radiance", &Textured::Texture(texture.name.clone())),
-            EmissionSource::Texture(texture) => self.scaled(&texture.name, scale),
+        let radiance = match self.colors.radiance(&emission.source, &mut self.notes) {
+            Textured::Constant(radiance) => Element::color("radiance", radiance.map(|x| x * scale)),
+            Textured::Texture(name) if scale != 1.0 => self.scaled(&name, scale),
+            texture => self.color("radiance", &texture),
         };
         Element::plugin("emitter", "area").with(radiance)
     }

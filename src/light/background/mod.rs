@@ -4,6 +4,7 @@
 //! [`Radiant`] that the renderer looks up.
 pub mod constant;
 pub mod image;
+mod mean;
 pub mod sky;
 
 use super::ReferencePoint;

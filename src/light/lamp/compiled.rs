@@ -126,6 +126,19 @@ impl Lamp {
         }
     }
 
+    /// The unit direction towards a lamp that is infinitely far away, and its irradiance, W/m².
+    pub(super) fn far_light(&self) -> Option<(DVec3, [f32; 3])> {
+        match self.source {
+            Source::At(_) => None,
+            Source::Towards(direction) => Some((direction, self.power)),
+        }
+    }
+
+    /// The same lamp at the origin.
+    pub(super) fn at_origin(self) -> Lamp {
+        Lamp { source: Source::At(DVec3::ZERO), ..self }
+    }
+
     /// The image that it casts.
     pub(super) fn image(&self) -> Option<&Arc<ImageTexture>> {
         match &self.shape {

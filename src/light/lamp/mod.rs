@@ -11,10 +11,12 @@
 //! | `compiled.rs` | a compiled lamp and its rows |
 //! | `beam.rs` | the light of lamps at points, in lanes |
 //! | `table.rs` | all lamps of a scene |
+//! | `plain.rs` | the lamp of the simplest kind with the power of another one |
 mod beam;
 mod compiled;
 pub mod directional;
 mod falloff;
+mod plain;
 pub mod point;
 pub mod projector;
 pub mod spot;

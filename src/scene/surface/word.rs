@@ -7,21 +7,22 @@ use crate::{
 /// Place of the stage.
 pub const STAGE_SHIFT: u32 = 16;
 /// Its bits, moved to the lowest place.
-pub const STAGE_MASK: u32 = 0xf;
+pub const STAGE_MASK: u32 = 0x1f;
+const _: () = assert!(Stage::COUNT <= STAGE_MASK as usize + 1, "the word has too few bits for all stages");
 /// Flag: the normal is reversed.
-pub const FLIPPED: u32 = 1 << 20;
+pub const FLIPPED: u32 = 1 << 21;
 /// Flag: only the front reflects.
-pub const ONE_SIDED: u32 = 1 << 21;
+pub const ONE_SIDED: u32 = 1 << 22;
 /// Flag: α is the square of its texture.
-pub const SQUARED: u32 = 1 << 22;
+pub const SQUARED: u32 = 1 << 23;
 /// Flag: the surface transmits and emits. Of lights, it samples only lamps without surface, because it would find its own back.
-pub const SELF_LIT: u32 = 1 << 23;
+pub const SELF_LIT: u32 = 1 << 24;
 /// Flag: black colours scatter light too; see [`crate::material::CompiledMaterial::scatters_where_black`].
-pub const SCATTERS_WHERE_BLACK: u32 = 1 << 24;
+pub const SCATTERS_WHERE_BLACK: u32 = 1 << 25;
 /// Flag: light that passes stays in its medium; see [`crate::material::CompiledMaterial::sheet`].
 pub const SHEET: u32 = 1 << 30;
 /// Flag: a blend. The first column of the row holds its index in [`super::Surfaces::blends`] as bits.
-pub const BLENDED: u32 = 1 << 25;
+pub const BLENDED: u32 = 1 << 26;
 /// Flag, set while rendering: the path hit the front.
 pub const FRONT: u32 = 1 << 31;
 

@@ -32,6 +32,8 @@ impl Export<'_> {
             }
             // Its opacity is 0. A blend of blends without end is black.
             Material::Null(_) | Material::Blend(_) => diffuse_of(&Textured::grey(0.0)),
+            #[allow(unreachable_patterns, reason = "a kind that is added later")]
+            other => diffuse_of(&Textured::Constant(self.colors.diffuse_substitute(other, &mut self.notes))),
         }
     }
 

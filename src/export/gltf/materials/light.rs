@@ -3,7 +3,6 @@ use serde_json::{Value, json};
 
 use super::Parts;
 use crate::{
-    declare::Textured,
     export::{ExportError, gltf::context::Export},
     light::emission::EmissionSource,
     scene::description::{EmissionDescription, MaterialDescription},
@@ -32,10 +31,7 @@ impl Export<'_> {
 
     /// Radiance as factor × texture × strength.
     pub(super) fn emission(&mut self, parts: &mut Parts, emission: &EmissionDescription) -> Result<(), ExportError> {
-        let radiance = match &emission.source {
-            EmissionSource::Radiance(radiance) => Textured::Constant(radiance.radiance),
-            EmissionSource::Texture(texture) => Textured::Texture(texture.name.clone()),
-        };
+        let radiance = self.colors.radiance(&emission.source, &mut self.notes);
         let mut part = [self.color(&radiance)];
         Parts::set(&mut parts.material, "emissiveTexture", self.map(&mut part)?);
         let [part] = part;

@@ -10,7 +10,7 @@ fn radiance(found: &Imported) -> [f64; 3] {
     let emission = found.description.objects[0].emission.as_ref().expect("it emits");
     match &emission.source {
         EmissionSource::Radiance(constant) => constant.radiance,
-        EmissionSource::Texture(_) => panic!("a constant"),
+        other => panic!("{other:?} is not constant"),
     }
 }
 
