@@ -23,6 +23,7 @@ pub mod fresnel;
 pub mod ggx;
 mod grazing;
 pub mod lambertian;
+mod lookup;
 mod materials;
 pub mod microfacets;
 pub mod mirror;
