@@ -14,7 +14,7 @@
 //! From inside, only the clear interface is there. Light that scatters more than once between facets is lost.
 //!
 //! The model does not conserve energy: the diffuse lobe does not know what the facets reflect, and clear coat and sheen add light.
-//! A white, rough surface reflects up to 1.5 times the light that arrives at grazing angles. Light between such surfaces can grow
+//! A white, rough surface reflects up to 1.6 times the light that arrives at grazing angles. Light between such surfaces can grow
 //! with every bounce, so that a closed room of them has no image without a cap of bounces. It is reciprocal.
 //!
 //! Mitsuba's sampling rates are not here: they have no effect on the image. An index of 1 reflects nothing but the clear coat, as

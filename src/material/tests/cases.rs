@@ -120,13 +120,13 @@ fn disney() -> impl Iterator<Item = Case> {
         (metal(0.0), conserving),
         (metal(0.5), conserving),
         (Disney { anisotropic: number(0.8), ..metal(0.5) }, conserving),
-        (base([1.0; 3], 0.1), 1.55),
-        (base([1.0; 3], 1.0), 1.55),
+        (base([1.0; 3], 0.1), 1.6),
+        (base([1.0; 3], 1.0), 1.6),
         (Disney { metallic: number(0.5), spec_tint: number(0.7), ..paint() }, 1.1),
         (Disney { sheen: number(1.0), sheen_tint: number(0.5), ..paint() }, 1.2),
         (Disney { flatness: number(1.0), ..paint() }, 1.2),
         (Disney { clearcoat: number(1.0), clearcoat_gloss: number(0.5), ..paint() }, 1.1),
-        (Disney { ior: 0.8, spec_tint: number(0.5), ..paint() }, 1.5),
+        (Disney { ior: 1.0, metallic: number(0.3), clearcoat: number(0.7), ..paint() }, conserving),
     ]
     .into_iter()
     .map(|(material, most)| {
