@@ -10,7 +10,7 @@ use super::{
 };
 use crate::math::{F, Lanes, M, Pick, U, V};
 
-/// The widths along x and along y of the local frame, each from [`SMOOTH`] to 1.
+/// The widths along x and along y of the local frame, at least [`SMOOTH`]; those of [`Widths::new`] and [`Widths::round`] are at most 1.
 #[derive(Clone, Copy)]
 pub struct Widths<L: Lanes> {
     x: F<L>,
@@ -30,6 +30,13 @@ impl<L: Lanes> Widths<L> {
     #[inline(always)]
     pub fn round(alpha: F<L>) -> Self {
         Widths { x: alpha, y: alpha }.clamped()
+    }
+
+    /// Given widths along x and along y.
+    #[inline(always)]
+    pub fn along(x: F<L>, y: F<L>) -> Self {
+        let least = x.splat(SMOOTH);
+        Widths { x: x.max(least), y: y.max(least) }
     }
 
     #[inline(always)]

@@ -18,11 +18,13 @@ mod conductor_fresnel;
 pub mod dielectric;
 mod dielectric_albedo;
 pub mod diffuse_transmission;
+pub mod disney;
 mod either_facets;
 pub mod fresnel;
 pub mod ggx;
 mod grazing;
 pub mod lambertian;
+mod lookup;
 mod materials;
 pub mod microfacets;
 pub mod mirror;
@@ -48,6 +50,7 @@ pub use self::{
     conductor_fresnel::Reflectance,
     dielectric::{Dielectric, DielectricBsdf},
     diffuse_transmission::DiffuseTransmission,
+    disney::Disney,
     lambertian::{Lambertian, LambertianBsdf},
     materials::{Local, Materials},
     microfacets::Distribution,
@@ -105,6 +108,7 @@ materials! {
     thin_dielectric::ThinDielectric => ThinDielectric,
     diffuse_transmission::DiffuseTransmission => DiffuseTransmission,
     principled::Principled => Principled PrincipledGlass,
+    disney::Disney => Disney DisneyGlass,
     blend::Blend => ,
     null::Null => ,
 }

@@ -142,7 +142,7 @@ impl Default for Principled {
 impl Kind for Principled {
     const KIND: Parameter =
         Parameter::new("principled", "OpenPBR Surface: diffuse base, metal or glass, with coat, fuzz and thin film.")
-            .aliases("openpbr disney standard_surface pbr uber");
+            .aliases("openpbr standard_surface pbr uber");
 }
 
 /// The stage of principled materials whose base transmits light.

@@ -89,6 +89,7 @@ impl Export<'_> {
             Material::RoughPlastic(plastic) => Base::opaque(self.rough_plastic(plastic)),
             Material::DiffuseTransmission(sheet) => Base::transparent(self.sheet(sheet)),
             Material::Principled(principled) => self.principled(principled),
+            Material::Disney(disney) => self.disney(disney),
             Material::Blend(blend) => Base::transparent(self.blend(blend, one_sided, depth)),
             Material::Null(_) => Base::transparent(Element::plugin("bsdf", "null")),
             #[allow(unreachable_patterns, reason = "a kind that is added later")]

@@ -1,6 +1,9 @@
-//! OpenPBR as Disney's principled BSDF: it undoes the translation of the reader.
+//! Disney's principled BSDF, and OpenPBR as that.
 use super::{bsdfs::Base, context::Export, markup::Element};
-use crate::{declare::Textured, material::principled::Principled};
+use crate::{
+    declare::Textured,
+    material::{Disney, principled::Principled},
+};
 
 /// The fraction of Disney's clear coat at `clearcoat = 1`.
 const COAT_SHARE: f64 = 0.25;
@@ -8,6 +11,31 @@ const COAT_SHARE: f64 = 0.25;
 const COAT_WIDTHS: [f64; 2] = [0.1, 0.001];
 
 impl Export<'_> {
+    /// Mitsuba's own.
+    pub fn disney(&mut self, disney: &Disney) -> Base {
+        const NONE: &Textured<f64> = &Textured::Constant(0.0);
+        let color = self.color("base_color", &disney.base_color);
+        let roughness = self.number("roughness", &disney.roughness);
+        let mut element = Element::plugin("bsdf", "principled").with_all([color, roughness]).float("eta", disney.ior);
+        for (name, number) in [
+            ("metallic", &disney.metallic),
+            ("anisotropic", &disney.anisotropic),
+            ("spec_tint", &disney.spec_tint),
+            ("spec_trans", &disney.spec_trans),
+            ("flatness", &disney.flatness),
+            ("sheen", &disney.sheen),
+            ("sheen_tint", &disney.sheen_tint),
+            ("clearcoat", &disney.clearcoat),
+            ("clearcoat_gloss", &disney.clearcoat_gloss),
+        ] {
+            if number != NONE {
+                element = element.with(self.number(name, number));
+            }
+        }
+        self.uses_coordinates |= disney.anisotropic != *NONE;
+        if disney.spec_trans == *NONE { Base::opaque(element) } else { Base::transparent(element) }
+    }
+
     pub fn principled(&mut self, material: &Principled) -> Base {
         let transmits = material.transmission_weight != Textured::Constant(0.0);
         let is_thin = material.thin_walled && transmits;

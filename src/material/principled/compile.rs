@@ -1,6 +1,10 @@
 //! Compiles a principled material.
 use super::{
-    super::{AlphaSource, Compile, CompiledMaterial, MaterialCompiler, Stage, ggx, refraction::FAINT},
+    super::{
+        AlphaSource, Compile, CompiledMaterial, MaterialCompiler, Stage, ggx,
+        lookup::{id, value},
+        refraction::FAINT,
+    },
     Principled, layout, parameters as of,
     point::{index, roughened},
 };
@@ -184,21 +188,5 @@ impl Sources {
         rows.extend(self.numbers.iter().map(|row| row.map(|source| value(source)[0])));
         rows.extend([self.colors, self.weights].iter().chain(&self.numbers).map(|row| row.map(id)));
         rows
-    }
-}
-
-/// The constant value; 0 of a texture.
-fn value(source: ColourSource) -> [f32; 3] {
-    match source {
-        ColourSource::Constant(value) => value,
-        ColourSource::Texture(_) => [0.0; 3],
-    }
-}
-
-/// The id of a texture plus 1, as bits; 0 of a constant.
-fn id(source: ColourSource) -> f32 {
-    match source {
-        ColourSource::Constant(_) => 0.0,
-        ColourSource::Texture(id) => f32::from_bits(id + 1),
     }
 }

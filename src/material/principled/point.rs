@@ -1,11 +1,11 @@
 //! A principled material at a point: what does not depend on directions.
 use super::{
-    super::{Local, Materials, missing_energy::LossTable, refraction::FAINT},
+    super::{Local, Materials, lookup::Lookup, missing_energy::LossTable, refraction::FAINT},
     facets::Facets,
     interface::{Film, Interface, dip, grey, mix},
     layout::{ANISOTROPIC, COAT, Constants, FILM, FUZZ, METAL, SHEET, TINTED, VARIES},
     thin_film::ThinFilm,
-    values::{Lookup, Values, values},
+    values::{Values, values},
 };
 use crate::math::{F, Lanes, M, Pick, V};
 

@@ -1,14 +1,11 @@
 //! The parameters of a principled material at surface points: constants, or lookups of its textures.
 use fearless_simd_macros::simd;
 
-use super::layout::{BASE, COATING, FIBRES, IDS_OF_COLORS, IDS_OF_WEIGHTS, INTERFERENCE, LAYERS, SPECULAR, TO_IDS, TRANSMISSION};
-use crate::{
-    math::{F, Lanes, Pick, U, V},
-    texture::{TextureCoordinates, Textures},
+use super::{
+    super::lookup::{Lookup, colour, number},
+    layout::{BASE, COATING, FIBRES, IDS_OF_COLORS, IDS_OF_WEIGHTS, INTERFERENCE, LAYERS, SPECULAR, TO_IDS, TRANSMISSION},
 };
-
-/// The textures of a scene, and the coordinates at which they are looked up.
-pub type Lookup<'a, L> = Option<(&'a Textures, TextureCoordinates<'a, L>)>;
+use crate::math::{F, Lanes, U, V};
 
 /// The parameters that textures may vary, with the names of the description, besides base color and specular roughness.
 #[derive(Clone, Copy)]
@@ -95,7 +92,10 @@ impl<L: Lanes> Reader<'_, L> {
     #[inline(always)]
     fn layer(&self, row: u32, colors: &[U<L>; 4], weights: &[U<L>; 4]) -> (V<L>, F<L>) {
         let [x, y, z, w] = self.row(row);
-        (self.colour(V { x, y, z }, colors[row as usize]), self.number(w, weights[row as usize]))
+        (
+            colour(self.l, V { x, y, z }, colors[row as usize], &self.lookup),
+            number(self.l, w, weights[row as usize], &self.lookup),
+        )
     }
 
     #[inline(always)]
@@ -105,26 +105,7 @@ impl<L: Lanes> Reader<'_, L> {
             return [a, b, c, d];
         }
         let [ids_a, ids_b, ids_c, ids_d] = self.ids(row + TO_IDS);
-        [self.number(a, ids_a), self.number(b, ids_b), self.number(c, ids_c), self.number(d, ids_d)]
-    }
-
-    #[inline(always)]
-    fn colour(&self, constant: V<L>, id: U<L>) -> V<L> {
-        let Some((textures, at)) = &self.lookup else { return constant };
-        let textured = !id.is(0);
-        if !textured.any() {
-            return constant;
-        }
-        textured.pick(textures.colour(self.l, id + u32::MAX, textured, at), constant)
-    }
-
-    #[inline(always)]
-    fn number(&self, constant: F<L>, id: U<L>) -> F<L> {
-        let Some((textures, at)) = &self.lookup else { return constant };
-        let textured = !id.is(0);
-        if !textured.any() {
-            return constant;
-        }
-        textured.pick(textures.height(self.l, id + u32::MAX, textured, at), constant)
+        let Reader { l, lookup, .. } = self;
+        [number(*l, a, ids_a, lookup), number(*l, b, ids_b, lookup), number(*l, c, ids_c, lookup), number(*l, d, ids_d, lookup)]
     }
 }

@@ -6,6 +6,7 @@ use super::super::{
     anisotropy::Widths,
     beckmann::Beckmann,
     conductor::{AnisotropicConductor, BeckmannConductor, ConductorBsdf},
+    disney::{Disney, DisneyBsdf},
     mirror::MirrorBsdf,
     plastic::PlasticBsdf,
     principled::{Principled, PrincipledBsdf},
@@ -38,6 +39,8 @@ pub struct Case {
     pub directions: Directions,
     /// Whether the albedo must be 1.
     pub lossless: bool,
+    /// Upper bound of the albedo: 1 and an error of quadrature, except for models that do not conserve energy.
+    pub most: f64,
     /// Whether light and viewer can be exchanged.
     pub reciprocal: bool,
     materials: Materials,
@@ -48,7 +51,7 @@ impl Case {
         let material = material.into();
         let name = format!("{material:?} {directions:?}");
         let materials = Materials::new(std::slice::from_ref(&material));
-        Case { name, alpha, material, directions, lossless, reciprocal: true, materials }
+        Case { name, alpha, material, directions, lossless, most: 1.0005, reciprocal: true, materials }
     }
 
     pub fn bsdf(&self) -> Any<'_> {
@@ -63,6 +66,7 @@ impl Case {
             Stage::Principled => Any::Principled(Principled::at(One, all, directions, &at)),
             Stage::BeckmannConductor => Any::BeckmannConductor(BeckmannConductor::at(One, all, directions, &at)),
             Stage::RoughPlastic => Any::RoughPlastic(RoughPlastic::at(One, all, directions, &at)),
+            Stage::Disney => Any::Disney(Disney::at(One, all, directions, &at)),
             Stage::AnisotropicConductor => Any::AnisotropicConductor(AnisotropicConductor::at(One, all, directions, &at)),
             _ => unreachable!("tested with the dielectrics"),
         }
@@ -100,7 +104,35 @@ pub fn cases() -> Vec<Case> {
     all.extend(beckmann_metals());
     all.extend(rough_plastics());
     all.extend(principled());
+    all.extend(disney());
     all
+}
+
+/// Disney's BSDF. Metals alone conserve energy; the most is reflected at grazing angles.
+fn disney() -> impl Iterator<Item = Case> {
+    let number = Textured::Constant;
+    let base =
+        |color: [f32; 3], roughness: f64| Disney { base_color: color.into(), roughness: number(roughness), ..Disney::default() };
+    let paint = || base([0.8, 0.3, 0.1], 0.4);
+    let metal = |roughness: f64| Disney { metallic: number(1.0), ..base([1.0, 0.5, 0.1], roughness) };
+    let conserving = 1.0005;
+    [
+        (metal(0.0), conserving),
+        (metal(0.5), conserving),
+        (Disney { anisotropic: number(0.8), ..metal(0.5) }, conserving),
+        (base([1.0; 3], 0.1), 1.6),
+        (base([1.0; 3], 1.0), 1.6),
+        (Disney { metallic: number(0.5), spec_tint: number(0.7), ..paint() }, 1.1),
+        (Disney { sheen: number(1.0), sheen_tint: number(0.5), ..paint() }, 1.2),
+        (Disney { flatness: number(1.0), ..paint() }, 1.2),
+        (Disney { clearcoat: number(1.0), clearcoat_gloss: number(0.5), ..paint() }, 1.1),
+        (Disney { ior: 1.0, metallic: number(0.3), clearcoat: number(0.7), ..paint() }, conserving),
+    ]
+    .into_iter()
+    .map(|(material, most)| {
+        let Textured::Constant(roughness) = material.roughness else { unreachable!("no textures here") };
+        Case { most, ..Case::new(material, (roughness * roughness).max(1e-3) as f32, Directions::Cosine, false) }
+    })
 }
 
 fn beckmann_metals() -> impl Iterator<Item = Case> {
@@ -185,6 +217,7 @@ pub enum Any<'a> {
     AnisotropicConductor(AnisotropicConductorBsdf<'a, One>),
     BeckmannConductor(AnisotropicConductorBsdf<'a, One, Beckmann<Widths<One>>>),
     RoughPlastic(RoughPlasticBsdf<'a, One>),
+    Disney(DisneyBsdf<One, false>),
 }
 
 impl Bsdf<One> for Any<'_> {
@@ -198,6 +231,7 @@ impl Bsdf<One> for Any<'_> {
             Any::AnisotropicConductor(bsdf) => bsdf.eval(wo, wi),
             Any::BeckmannConductor(bsdf) => bsdf.eval(wo, wi),
             Any::RoughPlastic(bsdf) => bsdf.eval(wo, wi),
+            Any::Disney(bsdf) => bsdf.eval(wo, wi),
         }
     }
 
@@ -211,6 +245,7 @@ impl Bsdf<One> for Any<'_> {
             Any::AnisotropicConductor(bsdf) => bsdf.sample(wo, u, lobe),
             Any::BeckmannConductor(bsdf) => bsdf.sample(wo, u, lobe),
             Any::RoughPlastic(bsdf) => bsdf.sample(wo, u, lobe),
+            Any::Disney(bsdf) => bsdf.sample(wo, u, lobe),
         }
     }
 }
@@ -284,6 +319,20 @@ pub fn mixed_principled() -> [Vec<Material>; 2] {
     [opaque.map(Material::from).into(), clear.map(Material::from).into()]
 }
 
+/// Opaque and clear materials of Disney's BSDF, four of each.
+pub fn mixed_disney() -> [Vec<Material>; 2] {
+    let number = Textured::Constant;
+    let plain = Disney::default;
+    let opaque = [
+        plain(),
+        Disney { metallic: number(0.7), anisotropic: number(0.6), spec_tint: number(0.5), ..plain() },
+        Disney { clearcoat: number(1.0), clearcoat_gloss: number(0.5), ior: 0.8, ..plain() },
+        Disney { sheen: number(0.6), sheen_tint: number(0.5), flatness: number(0.5), ..plain() },
+    ];
+    let clear = opaque.clone().map(|material| Disney { spec_trans: number(0.6), ..material });
+    [opaque.map(Material::from).into(), clear.map(Material::from).into()]
+}
+
 /// The colour that a texture may replace; white for types without.
 fn colour(material: &Material) -> [f32; 3] {
     let source = match material {
@@ -292,7 +341,7 @@ fn colour(material: &Material) -> [f32; 3] {
         | Material::RoughPlastic(RoughPlastic { albedo, .. }) => albedo,
         Material::Mirror(Mirror { reflectance }) => reflectance,
         Material::Conductor(Conductor { fresnel: Reflectance::Constant(f0) | Reflectance::Schlick(f0), .. }) => f0,
-        Material::Principled(Principled { base_color, .. }) => base_color,
+        Material::Principled(Principled { base_color, .. }) | Material::Disney(Disney { base_color, .. }) => base_color,
         _ => return [1.0; 3],
     };
     let Textured::Constant(colour) = source else { unreachable!("no textures here") };

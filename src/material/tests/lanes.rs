@@ -7,9 +7,10 @@ use super::{
         albedo_table::{Tabulated, build},
         conductor::BeckmannConductor,
         dielectric::TintedDielectric,
+        disney::{Disney, DisneyGlass},
         principled::{Principled, PrincipledGlass},
     },
-    cases::{local, mixed, mixed_facets, mixed_principled},
+    cases::{local, mixed, mixed_disney, mixed_facets, mixed_principled},
 };
 use crate::{
     math::{F, Lanes, MAX_LANES, SimdLevel, V, in_lanes},
@@ -67,6 +68,7 @@ fn any_number_of_lanes_gives_the_same_bits() {
     let [conductors, plastics] = mixed();
     let [opaque, clear] = mixed_principled();
     let [beckmann, rough, glass] = mixed_facets();
+    let [opaque_disney, clear_disney] = mixed_disney();
     assert!(are_alike::<Conductor>(&conductors), "conductors");
     assert!(are_alike::<Plastic>(&plastics), "plastics");
     assert!(are_alike::<BeckmannConductor>(&beckmann), "Beckmann conductors");
@@ -74,6 +76,8 @@ fn any_number_of_lanes_gives_the_same_bits() {
     assert!(are_alike::<TintedDielectric>(&glass), "tinted glass");
     assert!(are_alike::<Principled>(&opaque), "opaque principled materials");
     assert!(are_alike::<PrincipledGlass>(&clear), "clear principled materials");
+    assert!(are_alike::<Disney>(&opaque_disney), "opaque materials of Disney's BSDF");
+    assert!(are_alike::<DisneyGlass>(&clear_disney), "clear materials of Disney's BSDF");
 }
 
 /// Whether four materials of a kind have the same bits at every level.

@@ -14,9 +14,9 @@ use crate::{
 };
 
 /// Cosine and azimuth of a direction.
-type Angles = (f32, f32);
+pub(super) type Angles = (f32, f32);
 
-fn direction((cos, azimuth): Angles) -> V<One> {
+pub(super) fn direction((cos, azimuth): Angles) -> V<One> {
     let sin = ((1.0 - cos) * (1.0 + cos)).sqrt();
     V::splat(One, [sin * azimuth.cos(), sin * azimuth.sin(), cos])
 }
@@ -25,7 +25,7 @@ fn local(colour: [f32; 3], alpha: f32, front: bool) -> Local<One> {
     Local { material: U(0), colour: V::splat(One, colour), alpha: F(alpha), front: M(front) }
 }
 
-fn assert_close(found: V<One>, expected: [f32; 3], tolerance: f32, what: &str) {
+pub(super) fn assert_close(found: V<One>, expected: [f32; 3], tolerance: f32, what: &str) {
     for (found, expected) in found.lane(0).into_iter().zip(expected) {
         assert!((found - expected).abs() < tolerance * expected + 1e-6, "{what}: {found} {expected}");
     }

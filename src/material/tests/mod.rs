@@ -4,6 +4,7 @@ mod dielectric;
 mod dielectric_fixtures;
 mod dielectric_pdf;
 mod diffuse_transmission;
+mod disney;
 mod distribution;
 mod energy;
 mod fresnel;

@@ -48,6 +48,8 @@ fn every_kind_of_bsdf_has_its_stage() {
         ("principled.base_color = 0", Stage::Principled),
         ("principled = { transmission_weight = 0.5 }", Stage::PrincipledGlass),
         ("principled = { transmission_weight = 0.5, base_metalness = 1 }", Stage::Principled),
+        ("disney = { metallic = 1, clearcoat = 1 }", Stage::Disney),
+        ("disney = { spec_trans = { texture = 'squares' } }", Stage::DisneyGlass),
         ("diffuse_transmission = { reflectance = 0.5, transmittance = 0.5 }", Stage::DiffuseTransmission),
     ] {
         assert_eq!(stages(material), [stage], "{material}");
@@ -79,12 +81,15 @@ fn charts_are_for_textures_and_anisotropy_of_kinds_that_read_them() {
     for material in [
         "principled.base_metalness = { texture = 'squares' }",
         "principled.specular_roughness_anisotropy = 0.5",
+        "disney.metallic = { texture = 'squares' }",
+        "disney.anisotropic = 0.5",
         "conductor = { f0 = 0.5, roughness = 0.5, anisotropy = 0.5 }",
     ] {
         assert!(charted(material), "{material}");
     }
     for material in [
         "principled = {}",
+        "disney = {}",
         "principled = { base_color = { texture = 'squares' }, specular_roughness = { texture = 'squares' } }",
         "conductor = { f0 = 0.5, roughness = { texture = 'squares' } }",
     ] {

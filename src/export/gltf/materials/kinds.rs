@@ -16,6 +16,7 @@ impl Export<'_> {
     pub(super) fn principled(&mut self, kind: &Material) -> Principled {
         match kind {
             Material::Principled(principled) => principled.clone(),
+            Material::Disney(disney) => self.disney(disney),
             Material::Lambertian(diffuse) => diffuse_of(&diffuse.albedo),
             Material::Mirror(mirror) => {
                 self.grazing(&mirror.reflectance);

@@ -2,11 +2,12 @@
 //!
 //! | file | holds |
 //! |---|---|
-//! | `kinds.rs` | each kind as `principled` |
+//! | `kinds.rs`, `disney.rs` | each kind as `principled` |
 //! | `base.rs` | color, opacity, metal, roughness and interface |
 //! | `layers.rs` | transmission, coat, sheen, thin film and anisotropy |
 //! | `light.rs` | emission, sides, bumps |
 mod base;
+mod disney;
 mod kinds;
 mod layers;
 mod light;

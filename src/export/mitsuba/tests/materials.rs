@@ -12,8 +12,8 @@ use crate::{
         spot::{Falloff, Spot},
     },
     material::{
-        Conductor, Dielectric, Distribution, Lambertian, Material, Plastic, Reflectance, RoughPlastic, Roughness, blend::Blend,
-        null::Null, thin_dielectric::ThinDielectric,
+        Conductor, Dielectric, Disney, Distribution, Lambertian, Material, Plastic, Reflectance, RoughPlastic, Roughness,
+        blend::Blend, null::Null, thin_dielectric::ThinDielectric,
     },
     scene::description::{Bump, LampDescription, MaterialDescription, SceneDescription},
     shape::Sphere,
@@ -87,6 +87,23 @@ fn rough_plastics_of_mitsuba_come_back() {
         };
         let (found, remarks) = of(plain(case.clone()));
         assert_eq!(found.kind, case.into());
+        assert!(remarks.is_empty(), "{remarks:?}");
+    }
+}
+
+#[test]
+fn disney_comes_back() {
+    let half = || Textured::Constant(0.5);
+    let squares = || Textured::Texture("squares".to_owned());
+    let cases = [
+        Disney::default(),
+        Disney { base_color: Textured::Texture("squares".to_owned()), metallic: squares(), ior: 1.75, ..Disney::default() },
+        Disney { anisotropic: half(), sheen: half(), sheen_tint: half(), flatness: half(), ..Disney::default() },
+        Disney { spec_trans: half(), spec_tint: half(), clearcoat: squares(), clearcoat_gloss: half(), ..Disney::default() },
+    ];
+    for case in cases {
+        let (found, remarks) = of(plain(case.clone()));
+        assert_eq!(found, plain(case));
         assert!(remarks.is_empty(), "{remarks:?}");
     }
 }

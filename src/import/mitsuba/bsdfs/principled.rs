@@ -1,13 +1,11 @@
-//! Disney's principled BSDF as OpenPBR.
-//!
-//! B. Burley, "Extending the Disney BRDF to a BSDF with Integrated Subsurface Scattering", 2015. The two agree in metal, in rough
-//! reflection and transmission, and in the Fresnel term of the interface; sheen, clear coat and the diffuse lobe differ.
+//! Disney's principled BSDF, and its thin sheet as a mixture of a diffuse sheet and OpenPBR.
 use super::{
     super::{colours::Role, context::Import, tree::Element},
     one_or_two_sided, transparent,
 };
 use crate::{
-    material::{blend::Blend, diffuse_transmission::DiffuseTransmission, principled::Principled},
+    declare::Range,
+    material::{Disney, blend::Blend, diffuse_transmission::DiffuseTransmission, principled::Principled},
     scene::{
         SceneError,
         description::{MaterialDescription, Textured},
@@ -15,40 +13,51 @@ use crate::{
     texture::{mix::Mix, product::Product},
 };
 
-/// The clear coat of Disney's model: its index, and the fraction of its lobe at `clearcoat = 1`.
-const COAT_INDEX: f64 = 1.5;
-const COAT_SHARE: f64 = 0.25;
-
+/// Takes Disney's BSDF over as it is.
 pub fn principled(import: &mut Import, element: Element, two_sided: bool) -> Result<MaterialDescription, SceneError> {
-    let base = common(import, element)?;
-    let clearcoat = import.fraction(element, "clearcoat", 0.0)?;
-    let gloss = import.fraction(element, "clearcoat_gloss", 0.0)?;
-    let has_clearcoat = clearcoat != Textured::Constant(0.0);
-    let coat_roughness = match gloss {
-        Textured::Constant(gloss) => Textured::Constant((0.1 + (0.001 - 0.1) * gloss).sqrt()),
-        Textured::Texture(_) => Textured::Constant(0.05f64.sqrt()),
+    ignore_rates(element);
+    let spec_trans = import.fraction(element, "spec_trans", 0.0)?;
+    let transmits = spec_trans != Textured::Constant(0.0);
+    let anisotropic = import.fraction(element, "anisotropic", 0.0)?;
+    if anisotropic != Textured::Constant(0.0) {
+        import.uses.coordinates = true;
+    }
+    let material = Disney {
+        base_color: import.colour(element, "base_color", 0.5, Role::Reflectance)?,
+        metallic: import.fraction(element, "metallic", 0.0)?,
+        roughness: import.fraction(element, "roughness", 0.5)?,
+        anisotropic,
+        ior: index(import, element, transmits)?,
+        spec_tint: import.fraction(element, "spec_tint", 0.0)?,
+        spec_trans,
+        flatness: import.fraction(element, "flatness", 0.0)?,
+        sheen: import.fraction(element, "sheen", 0.0)?,
+        sheen_tint: import.fraction(element, "sheen_tint", 0.0)?,
+        clearcoat: import.fraction(element, "clearcoat", 0.0)?,
+        clearcoat_gloss: import.fraction(element, "clearcoat_gloss", 0.0)?,
     };
-    let specular = element.number("specular", 0.5)?.clamp(0.0, 1.0);
-    let eta = element.optional_number("eta")?.unwrap_or(2.0 / (1.0 - (0.08 * specular).sqrt()) - 1.0);
-    let material = Principled {
-        base_metalness: import.fraction(element, "metallic", 0.0)?,
-        specular_ior: eta.clamp(1.0, 20.0),
-        coat_weight: import.scaled(clearcoat, COAT_SHARE),
-        coat_roughness,
-        coat_ior: COAT_INDEX,
-        coat_darkening: Textured::Constant(0.0),
-        ..base
-    };
-    let transmits = material.transmission_weight != Textured::Constant(0.0);
-    let has_sheen = material.fuzz_weight != Textured::Constant(0.0);
-    let flatness = import.fraction(element, "flatness", 0.0)? != Textured::Constant(0.0);
-    let differs: Vec<&str> = [("sheen", has_sheen), ("clear coat", has_clearcoat), ("flatness", flatness)]
-        .into_iter()
-        .filter_map(|(name, differs)| differs.then_some(name))
-        .chain(["diffuse lobe"])
-        .collect();
-    import.remark(element, "OpenPBR", &format!("another model of the {}", differs.join(", ")));
     Ok(if transmits { transparent(material) } else { one_or_two_sided(material, two_sided) })
+}
+
+/// The index of refraction, which `specular` states by the reflectance 0.08 × `specular` at normal incidence. Where light passes, it
+/// is not 1.
+fn index(import: &mut Import, element: Element, transmits: bool) -> Result<f64, SceneError> {
+    const LEAST_SPECULAR: f64 = 1e-3;
+    const LEAST_INDEX: f64 = 1.001;
+    let eta = match element.optional_number("eta")? {
+        Some(eta) if transmits && eta == 1.0 => LEAST_INDEX,
+        Some(eta) => eta,
+        None => {
+            let specular = element.number("specular", 0.5)?;
+            let specular = if transmits && specular == 0.0 { LEAST_SPECULAR } else { specular };
+            2.0 / (1.0 - (0.08 * specular.clamp(0.0, 12.0)).sqrt()) - 1.0
+        }
+    };
+    let known = eta.clamp(Range::INDEX.least, Range::INDEX.most);
+    if known != eta {
+        import.remark(element, &format!("an index of refraction of {known}"), "reflections have another strength");
+    }
+    Ok(known)
 }
 
 pub fn principled_thin(import: &mut Import, element: Element, _: bool) -> Result<MaterialDescription, SceneError> {
@@ -77,8 +86,8 @@ pub fn principled_thin(import: &mut Import, element: Element, _: bool) -> Result
     Ok(transparent(Blend { first, second, weight }))
 }
 
-/// What both models share.
-fn common(import: &mut Import, element: Element) -> Result<Principled, SceneError> {
+/// Rates of sampling have no effect on the image.
+fn ignore_rates(element: Element) {
     element.ignore(&[
         "main_specular_sampling_rate",
         "clearcoat_sampling_rate",
@@ -87,6 +96,10 @@ fn common(import: &mut Import, element: Element) -> Result<Principled, SceneErro
         "specular_transmittance_sampling_rate",
         "diffuse_transmittance_sampling_rate",
     ]);
+}
+
+fn common(import: &mut Import, element: Element) -> Result<Principled, SceneError> {
+    ignore_rates(element);
     let color = import.colour(element, "base_color", 0.5, Role::Reflectance)?;
     let roughness = import.fraction(element, "roughness", 0.5)?;
     let anisotropic = import.fraction(element, "anisotropic", 0.0)?;

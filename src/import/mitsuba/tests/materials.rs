@@ -2,7 +2,7 @@
 use super::{SENSOR, material, read_with, refused, remarks, scene};
 use crate::{
     import::ImportOptions,
-    material::{Distribution, Material, Reflectance, Roughness},
+    material::{Disney, Distribution, Material, Reflectance, Roughness},
     scene::description::{TextureKind, Textured},
 };
 
@@ -132,22 +132,36 @@ fn masks_bumps_and_blends_keep_what_they_hold() {
 }
 
 #[test]
-fn disney_becomes_openpbr() {
+fn disney_is_taken_over_exactly() {
     let text = "<bsdf type=\"principled\"><rgb name=\"base_color\" value=\"0.2,0.8,0.1 \"/><float name=\"roughness\" value=\"0.2\"/>\
-        <float name=\"anisotropic\" value=\"0.5\"/><float name=\"metallic\" value=\"0.7\"/><float name=\"specular\" value=\"0.5\"/>\
-        <float name=\"clearcoat\" value=\"0.8\"/></bsdf>";
+        <texture name=\"anisotropic\" type=\"checkerboard\" id=\"squares\"/><float name=\"metallic\" value=\"0.7\"/>\
+        <float name=\"specular\" value=\"0.5\"/><float name=\"clearcoat\" value=\"0.8\"/><float name=\"sheen_tint\" value=\"0.3\"/>\
+        <float name=\"clearcoat_sampling_rate\" value=\"2\"/></bsdf>";
     let (found, imported) = material(text);
-    let Material::Principled(openpbr) = found.kind else { panic!("not principled") };
-    assert_eq!((openpbr.base_metalness, openpbr.coat_weight), (Textured::Constant(0.7), Textured::Constant(0.2)));
-    assert!((openpbr.specular_ior - 1.5).abs() < 1e-9 && found.two_sided == Some(false));
-    // The widths along and across the tangent multiply to r⁴.
-    let (Textured::Constant(r), Textured::Constant(a)) = (openpbr.specular_roughness, openpbr.specular_roughness_anisotropy)
-    else {
-        panic!("they are constant")
+    let Material::Disney(disney) = found.kind else { panic!("not Disney's") };
+    let expected = Disney {
+        base_color: [0.2, 0.8, 0.1].into(),
+        roughness: Textured::Constant(0.2),
+        anisotropic: Textured::Texture("squares".to_owned()),
+        metallic: Textured::Constant(0.7),
+        clearcoat: Textured::Constant(0.8),
+        sheen_tint: Textured::Constant(0.3),
+        ior: disney.ior,
+        ..Disney::default()
     };
-    let long = r * r * (2.0 / (1.0 + (1.0 - a) * (1.0 - a))).sqrt();
-    assert!((long * long * (1.0 - a) - 0.2f64.powi(4)).abs() < 1e-12 && (a - 0.45).abs() < 1e-12);
-    assert!(remarks(&imported)[0].contains("OpenPBR"));
+    assert_eq!((&disney, found.two_sided), (&expected, Some(false)));
+    assert!((disney.ior - 1.5).abs() < 1e-9 && imported.remarks.is_empty());
+    let glass = |value: &str| {
+        let text = format!("<bsdf type=\"principled\"><float name=\"spec_trans\" value=\"0.4\"/>{value}</bsdf>");
+        let (found, imported) = material(&text);
+        let Material::Disney(disney) = found.kind else { panic!("not Disney's") };
+        assert_eq!((found.two_sided, disney.spec_trans), (None, Textured::Constant(0.4)));
+        (disney.ior, imported.remarks.len())
+    };
+    assert_eq!(glass("<float name=\"eta\" value=\"1\"/>"), (1.001, 0));
+    assert_eq!(glass("<float name=\"eta\" value=\"30\"/>"), (20.0, 1));
+    let (faint, remarks) = glass("<float name=\"specular\" value=\"0\"/>");
+    assert!(faint > 1.01 && faint < 1.02 && remarks == 0, "{faint}");
     let (thin, _) = material("<bsdf type=\"principledthin\"><float name=\"spec_trans\" value=\"0.4\"/></bsdf>");
     assert!(matches!(thin.kind, Material::Blend(blend) if blend.weight == Textured::Constant(0.4)));
 }
