@@ -106,14 +106,14 @@ macro_rules! shade {
             const CHARTED: bool = true;
 
             #[inline(always)]
-            fn at<'a, L: Lanes>(l: L, materials: &'a Materials, _: Directions, at: &Local<L>) -> DisneyBsdf<L, $CLEAR> {
+            fn at<L: Lanes>(l: L, materials: &Materials, _: Directions, at: &Local<L>) -> DisneyBsdf<L, $CLEAR> {
                 DisneyBsdf(Point::new(l, materials, at, None))
             }
 
             #[inline(always)]
-            fn at_chart<'a, L: Lanes>(
+            fn at_chart<L: Lanes>(
                 l: L,
-                materials: &'a Materials,
+                materials: &Materials,
                 _: Directions,
                 at: &Local<L>,
                 lookup: Option<(&Textures, TextureCoordinates<L>)>,

@@ -67,9 +67,9 @@ impl Export<'_> {
                 let [width, height] = camera.resolution.map(f64::from);
                 let element = match camera.shift {
                     [0.0, 0.0] => element,
-                    [right, up] => element
-                        .float("principal_point_offset_x", right)
-                        .float("principal_point_offset_y", -up * width / height),
+                    [right, up] => {
+                        element.float("principal_point_offset_x", right).float("principal_point_offset_y", -up * width / height)
+                    }
                 };
                 match &camera.lens {
                     Some(lens) => element.float("aperture_radius", lens.radius.max(1e-9)).float("focus_distance", lens.focus),
