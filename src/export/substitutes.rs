@@ -6,7 +6,10 @@ use glam::DAffine3;
 use super::{notes::Notes, textures::Colors};
 use crate::{
     declare::Textured,
-    light::emission::{EmissionSource, Side},
+    light::{
+        Lamp,
+        emission::{EmissionSource, Side},
+    },
     material::{Material, Materials},
     scene::description::{BackgroundDescription, LampDescription},
     shape::product,
@@ -47,7 +50,7 @@ impl Colors<'_> {
     /// A point lamp or a directional lamp with the power of a lamp; `None` if it cannot be compiled.
     pub fn lamp_substitute(&self, lamp: &LampDescription, notes: &mut Notes) -> Option<LampDescription> {
         let map = product(&lamp.transform).unwrap_or(DAffine3::IDENTITY);
-        let kind = lamp.kind.kind().compile(&map, self.compiler().resources).ok().map(|lamp| lamp.plain());
+        let kind = lamp.kind.kind().compile(&map, self.compiler().resources).ok().map(Lamp::plain);
         let used = kind.as_ref().map_or("nothing".to_owned(), |kind| format!("a lamp `{}` of the same power", kind.name()));
         notes.add(format!("a lamp `{}`", lamp.kind.name()), used, "its light has another distribution");
         Some(LampDescription { name: lamp.name.clone(), kind: kind?, transform: Vec::new() })
