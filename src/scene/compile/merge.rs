@@ -129,7 +129,7 @@ mod tests {
         let scene = scene(
             "materials.a = { lambertian.albedo = 0.25, opacity = 0.5 }\n\
              materials.b = { lambertian.albedo = 0.75, opacity = 0.5, two_sided = false }\n\
-             materials.top = { blend = { first = 'a', second = 'b' }, opacity = 0.5, two_sided = false,\n\
+             materials.top = { blend = { first = 'a', second = 'b' }, opacity = 0.5, two_sided = false, \
              bump = { texture = 'squares', height = 0.01 } }",
         );
         let top = top(&scene);
