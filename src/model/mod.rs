@@ -209,8 +209,9 @@ fn bytes(mut file: File, length: u64, progress: &Progress) -> Result<(Vec<u8>, R
     let mut bytes = Vec::with_capacity(length as usize);
     // The file may grow meanwhile, or shrink.
     for start in (0..length).step_by(BLOCK as usize) {
-        (&mut file).take(BLOCK.min(length - start)).read_to_end(&mut bytes)?;
-        progress.advance(BLOCK)?;
+        let block = BLOCK.min(length - start);
+        (&mut file).take(block).read_to_end(&mut bytes)?;
+        progress.advance(block)?;
     }
     Ok((bytes, room))
 }

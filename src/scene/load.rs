@@ -51,7 +51,9 @@ pub fn read_text(path: &Path) -> Result<String, SceneError> {
 fn no_scene(path: &Path, bytes: &[u8]) -> Option<String> {
     let start = &bytes[..bytes.len().min(4096)];
     let is_control = |byte: &u8| *byte < 0x20 && !b"\t\n\r\x0c".contains(byte);
-    if let Some(kind) = looks_like(start) {
+    // In TOML, the first line of a script is a comment.
+    let is_toml = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml"));
+    if let Some(kind) = looks_like(start).filter(|_| !(is_toml && start.starts_with(b"#!"))) {
         let and = if kind == PNG { " without a scene in it" } else { "" };
         return Some(format!("this looks like {kind}{and}, not like a scene"));
     }

@@ -41,7 +41,7 @@ pub fn in_plain_words(source: &SourceText, error: &toml::de::Error) -> SceneErro
     }
     if message.starts_with("string values must be quoted") {
         let value = quote::piece(text_at(source, &span).trim());
-        return source.error(span, format!("`{value}` is no number, and text must stand in quotes"), "expected a value");
+        return source.error(span, format!("`{value}` is not a number; text must be in quotes"), "expected a value");
     }
     let words = SYNTAX.iter().find(|(theirs, _)| message.starts_with(theirs)).map(|(_, ours)| (*ours).to_owned());
     source.error(span, words.unwrap_or(message), "this cannot be understood")

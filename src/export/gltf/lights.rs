@@ -115,7 +115,9 @@ impl Export<'_> {
                 image.map_err(|problem| self.invalid(problem))?.mean().map(f64::from)
             }
         };
-        Ok((cone(lamp.fov / 2.0, lamp.fov / 2.0), mean.map(|x| x * lamp.scale)))
+        let half = lamp.fov / 2.0;
+        let power = [0, 1, 2].map(|i| mean[i] * lamp.tint[i] * lamp.scale);
+        Ok((cone(lamp.inner.min(lamp.angle).min(half), lamp.angle.min(half)), power))
     }
 }
 

@@ -124,7 +124,8 @@ fn disney() -> impl Iterator<Item = Case> {
         (base([1.0; 3], 1.0), 1.6),
         (Disney { metallic: number(0.5), spec_tint: number(0.7), ..paint() }, 1.1),
         (Disney { sheen: number(1.0), sheen_tint: number(0.5), ..paint() }, 1.2),
-        (Disney { flatness: number(1.0), ..paint() }, 1.2),
+        // Mitsuba 3.9 reflects 1.212 of the red light at a cosine of 0.1, too.
+        (Disney { flatness: number(1.0), ..paint() }, 1.22),
         (Disney { clearcoat: number(1.0), clearcoat_gloss: number(0.5), ..paint() }, 1.1),
         (Disney { ior: 1.0, metallic: number(0.3), clearcoat: number(0.7), ..paint() }, conserving),
     ]

@@ -1,5 +1,5 @@
 //! Commands of the toolbar and of single keys.
-use egui::{Context, InputState, Key, KeyboardShortcut, Modifiers, Popup, Ui, ViewportCommand};
+use egui::{Context, Event, InputState, Key, KeyboardShortcut, Modifiers, Popup, Ui, ViewportCommand};
 
 use super::state::App;
 use crate::viewer::background::catalogue::SceneRequest;
@@ -90,10 +90,10 @@ impl App {
     /// Single keys, unless text is being typed, and those with Ctrl.
     pub fn shortcuts(&mut self, ctx: &Context) {
         self.take_gizmo_keys();
-        let can_duplicate = self.selection.subject.is_some();
+        let can_duplicate = self.selection.subject.as_ref().is_some_and(can_rename);
         let holds = |input: &InputState| {
             let saves = input.key_down(Key::S) && (self.window.holds_chord || input.modifiers.command);
-            saves || (input.key_down(Key::D) && (self.window.holds_chord || (can_duplicate && input.modifiers.shift)))
+            saves || (input.key_down(Key::D) && (self.window.holds_chord || (can_duplicate && duplicates(input))))
         };
         self.window.holds_chord = ctx.input(holds);
         for (shortcut, command) in FILE_KEYS {
@@ -136,6 +136,7 @@ impl App {
         if pressed(Key::Home) && !ctx.text_edit_focused() {
             self.perform(Command::ResetCamera);
         }
+        let has_dialog = self.dialogs.wait() || self.dialogs.help || self.dialogs.gallery.open;
         if ctx.egui_wants_keyboard_input() || self.dialogs.wait() || self.session.opened.is_none() {
             return;
         }
@@ -147,10 +148,10 @@ impl App {
         if pressed(Key::L) {
             self.look_at_selection();
         }
-        if let Some(subject) = self.selection.subject.clone().filter(can_rename) {
+        if let Some(subject) = self.selection.subject.clone().filter(|subject| !has_dialog && can_rename(subject)) {
             if pressed(Key::Delete) || pressed(Key::X) {
                 self.act_on(subject, Action::Delete);
-            } else if ctx.input(|input| input.key_pressed(Key::D) && input.modifiers.shift_only()) {
+            } else if ctx.input(duplicates) {
                 self.act_on(subject, Action::Duplicate);
             }
         }
@@ -164,7 +165,10 @@ impl App {
         }
         // More than one press can fall into a frame.
         let presses = |key| ctx.input(|input| input.num_presses(key)) as f32;
-        look.display.exposure += 0.5 * (presses(Key::CloseBracket) - presses(Key::OpenBracket));
+        let change = 0.5 * (presses(Key::CloseBracket) - presses(Key::OpenBracket));
+        if change != 0.0 {
+            look.display.exposure = (look.display.exposure + change).clamp(-100.0, 100.0);
+        }
     }
 
     /// Closes what lies over the picture: of several things all dialogs first, then messages, then the selection, then the region.
@@ -203,4 +207,10 @@ impl App {
             self.session.budget.region = None;
         }
     }
+}
+
+/// Whether Shift+D was pressed. A key that is held, such as that of a flight to the right, is not pressed again.
+fn duplicates(input: &InputState) -> bool {
+    let is_press = |event: &Event| matches!(event, Event::Key { key: Key::D, pressed: true, repeat: false, modifiers, .. } if modifiers.shift_only());
+    input.events.iter().any(is_press)
 }

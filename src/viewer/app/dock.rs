@@ -31,7 +31,9 @@ impl App {
                 }
             });
             if is_narrow {
-                ui.horizontal(|ui| views::choice(ui, &mut self.session.look.view));
+                ui.horizontal(|ui| {
+                    ui.with_layout(Layout::right_to_left(Align::Center), |ui| views::choice(ui, &mut self.session.look.view));
+                });
             }
         });
         let Some(tab) = self.window.tab else { return };

@@ -77,7 +77,7 @@ impl App {
         let folder = opened.folder();
         self.background.settler.note(EditedScene { scene: scene.clone(), description: description.clone(), folder });
         opened.change(scene);
-        self.results.black_reason = None;
+        (self.results.black_reason, self.results.misfit) = (None, None);
         if self.dialogs.file_error.is_some() {
             // That this scene compiles says nothing about the file as it is now.
             self.outside.recheck();

@@ -10,7 +10,7 @@ use crate::viewer::widgets::wording::capitalised;
 
 const BACK: (&str, &str) = ("Back to the last view that showed something", "Returns to the camera of that view.");
 const EXPOSURE: [(&str, &str); 2] = [
-    ("Set exposure", "Displays the scene in the middle of the display range. The samples do not change."),
+    ("Set exposure", "Brings the image into the range of the display. The samples do not change."),
     ("Leave it", "Keeps the exposure as it is."),
 ];
 
@@ -40,9 +40,9 @@ impl App {
 
     fn exposure_notice(&mut self, ui: &mut Ui, area: &PictureArea) {
         let Some(misfit) = self.results.misfit.filter(|misfit| misfit.at == self.session.look.display.exposure) else { return };
-        let (title, what) = if misfit.suited < misfit.at { ("Too bright", "brighter") } else { ("Too dark", "darker") };
+        let (title, what) = if misfit.suited < misfit.at { ("Too bright", "bright") } else { ("Too dark", "dark") };
         let stops = (misfit.at - misfit.suited).abs();
-        let reason = format!("The scene is about {stops:.0} stops {what} than the display can show.");
+        let reason = format!("The image is about {stops:.0} stops too {what} for the display.");
         match (Notice { title, reason, buttons: &EXPOSURE }).show(ui, area) {
             Some(0) => self.session.look.display.exposure = misfit.suited,
             Some(_) => self.results.misfit = None,

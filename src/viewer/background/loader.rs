@@ -216,7 +216,7 @@ impl Loader {
     }
 }
 
-/// The thread must not go on for nobody.
+/// Nobody takes the result of a load whose window is gone.
 impl Drop for Loader {
     fn drop(&mut self) {
         self.cancel();

@@ -116,7 +116,7 @@ impl Completion {
                 ui.label(RichText::new(format!("and {} more; type on to see them", self.matches.len() - MOST)).weak());
             }
             if self.matches.is_empty() {
-                ui.label(RichText::new("No scene, mesh or image here begins so.").weak());
+                ui.label(RichText::new("No scene, mesh or image here starts with this name.").weak());
             }
         });
         clicked

@@ -1,5 +1,5 @@
 //! Exposure, white balance and tone map. None of them restarts the render.
-use egui::{Button, ComboBox, DragValue, Slider, Ui};
+use egui::{Button, ComboBox, DragValue, Slider, SliderClamping, Ui};
 use noisefall::render::{Display, ToneMap, WhiteBalance};
 
 use crate::viewer::widgets::{
@@ -11,7 +11,8 @@ pub fn show(ui: &mut Ui, display: &mut Display) {
     controls(ui, "display", |ui| {
         row(ui, "Exposure", "Exposure in stops. One more doubles the brightness. ([ and ])", |ui, label| {
             let now = display.exposure.into();
-            let slider = Slider::new(&mut display.exposure, -20.0..=20.0).step_by(0.1).fixed_decimals(1);
+            let slider =
+                Slider::new(&mut display.exposure, -20.0..=20.0).step_by(0.1).fixed_decimals(1).clamping(SliderClamping::Edits);
             ui.add(Explained::new(slider, now).suffix(" EV")).labelled_by(label);
         });
         white_balance(ui, &mut display.white_balance);

@@ -48,7 +48,7 @@ pub fn show(
     }
     if began_apart(sides.each_ref().map(|side| side.seconds)) {
         let first = if sides[0].seconds > sides[1].seconds { "A" } else { "B" };
-        ui.weak(format!("{first} had time before the comparison began. Restart (Ctrl+R) begins both at the same time."));
+        ui.weak(format!("{first} had a head start. Restart (Ctrl+R) to give both the same time."));
     }
 }
 
