@@ -71,7 +71,7 @@ const MEANT: [(&str, &str, &str); 39] = [
     ("fov = 40", "fov: 40", "write `=`"),
     ("center = [", "center: [", "write `=`"),
     ("fov = 40", "fov = 40 // degrees", "a comment begins with `#`"),
-    ("fov = 40", "fov = 40 deg", "text must stand in quotes"),
+    ("fov = 40", "fov = 40 deg", "text must be in quotes"),
     ("radius = 1.0 } }", "radius = 1.0 }", "this `{` is not closed"),
     ("radius = 1.0 } }", "radius = 1.0", "`} }` are missing"),
     ("radius = 1.0 } }", "radius = 1.0 } } }", "there is one `}` too many"),
@@ -81,7 +81,7 @@ const MEANT: [(&str, &str, &str); 39] = [
     ("[camera]", "[camera", "`]` is missing"),
     ("[[objects]]", "[[objects]", "`]` is missing"),
     ("\"ball\"", "\"ball", "the text in quotes does not end"),
-    ("\"white\"", "white", "text must stand in quotes"),
+    ("\"white\"", "white", "text must be in quotes"),
     ("radius = 1.0", "radius = oops", "`oops` is no number"),
     ("radiance = 2.0", "radiance = 2,0", "a value must end on its line"),
 ];
