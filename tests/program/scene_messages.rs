@@ -82,7 +82,7 @@ const MEANT: [(&str, &str, &str); 39] = [
     ("[[objects]]", "[[objects]", "`]` is missing"),
     ("\"ball\"", "\"ball", "the text in quotes does not end"),
     ("\"white\"", "white", "text must be in quotes"),
-    ("radius = 1.0", "radius = oops", "`oops` is no number"),
+    ("radius = 1.0", "radius = oops", "`oops` is not a number"),
     ("radiance = 2.0", "radiance = 2,0", "a value must end on its line"),
 ];
 

@@ -9,10 +9,7 @@ use super::{
 use crate::{
     image::Encoding,
     scene::description::{TextureKind, Textured},
-    texture::{
-        checker::Checker,
-        image::{Channel, Image, TexelFilter, Wrap},
-    },
+    texture::image::{Channel, Image, TexelFilter, Wrap},
 };
 
 impl Export<'_> {
@@ -28,7 +25,15 @@ impl Export<'_> {
     pub fn number(&mut self, name: &str, number: &Textured<f64>) -> Element {
         match number {
             Textured::Constant(number) => Element::number(name, *number),
-            Textured::Texture(texture) => self.textured(name, texture),
+            Textured::Texture(texture) => match self.colors.kind(texture) {
+                Some(TextureKind::Checker(checker)) if self.colors.is_flat(texture) => {
+                    // Mitsuba exchanges the two squares where it looks up a number.
+                    let (even, odd) =
+                        (self.number("color1", &number_of(&checker.even)), self.number("color0", &number_of(&checker.odd)));
+                    self.checkerboard(checker.scale, even, odd).attribute("name", name)
+                }
+                _ => self.textured(name, texture),
+            },
         }
     }
 
@@ -64,7 +69,10 @@ impl Export<'_> {
         let kind = self.colors.kind(name)?;
         let (element, uses_coordinates) = self.at(format!("textures.{name}"), |export| match kind {
             TextureKind::Image(image) if image.channel == Channel::Rgb => Some(export.bitmap(image)),
-            TextureKind::Checker(checker) if export.colors.is_flat(name) => Some(export.checkerboard(checker)),
+            TextureKind::Checker(checker) if export.colors.is_flat(name) => {
+                let (even, odd) = (export.color("color0", &checker.even), export.color("color1", &checker.odd));
+                Some(export.checkerboard(checker.scale, even, odd))
+            }
             TextureKind::VertexColor(vertices) if vertices.channel == Channel::Rgb => {
                 Some(Element::plugin("texture", "mesh_attribute").text("name", "vertex_color"))
             }
@@ -126,11 +134,18 @@ impl Export<'_> {
     }
 
     /// Mitsuba's squares are halves of the unit square.
-    fn checkerboard(&mut self, checker: &Checker) -> Element {
+    fn checkerboard(&mut self, scale: f64, even: Element, odd: Element) -> Element {
         self.uses_coordinates = true;
-        let (even, odd) = (self.color("color0", &checker.even), self.color("color1", &checker.odd));
-        let scale = DAffine3::from_scale(DVec3::new(0.5 * checker.scale, 0.5 * checker.scale, 1.0));
+        let scale = DAffine3::from_scale(DVec3::new(0.5 * scale, 0.5 * scale, 1.0));
         Element::plugin("texture", "checkerboard").with(even).with(odd).transform("to_uv", &scale)
+    }
+}
+
+/// The luminance of a color.
+fn number_of(color: &Textured) -> Textured<f64> {
+    match color {
+        Textured::Constant(color) => Textured::Constant(luminance(*color)),
+        Textured::Texture(name) => Textured::Texture(name.clone()),
     }
 }
 

@@ -13,6 +13,15 @@ use crate::{
 /// Objects within objects, references followed.
 const DEEPEST: usize = 64;
 
+/// What a texture is looked up for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum TextureValue {
+    /// A colour: reflectance, radiance or transmittance.
+    Colour,
+    /// A number, such as roughness or opacity.
+    Number,
+}
+
 /// A translation.
 pub struct Import {
     pub files: Files,
@@ -24,8 +33,8 @@ pub struct Import {
     pub materials: Names,
     /// What the object that is being translated uses of the shape that it lies on.
     pub uses: Uses,
-    /// Textures by their element.
-    pub known_textures: HashMap<usize, (String, Uses)>,
+    /// Textures by their element and what is looked up.
+    pub known_textures: HashMap<(usize, TextureValue), (String, Uses)>,
     /// Materials by their element and whether both sides reflect.
     pub known_surfaces: HashMap<(usize, bool), Surface>,
     /// Image files by the path that the description gives them.

@@ -1,7 +1,12 @@
 //! Textures: images, checkers and attributes of meshes. The coordinates of Mitsuba's images run downwards, as ours do.
 use glam::{DMat4, DVec2};
 
-use super::{colours::Role, context::Import, pictures, tree::Element};
+use super::{
+    colours::Role,
+    context::{Import, TextureValue},
+    pictures,
+    tree::Element,
+};
 use crate::{
     image::Encoding,
     scene::{
@@ -29,7 +34,7 @@ impl Import {
     fn colour_of(&mut self, value: Element, role: Role) -> Result<Textured, SceneError> {
         match self.constant(value, role)? {
             Some(colour) => Ok(Textured::Constant(self.in_range(value, colour, role))),
-            None => self.texture(value).map(Textured::Texture),
+            None => self.texture(value, TextureValue::Colour).map(Textured::Texture),
         }
     }
 
@@ -39,7 +44,7 @@ impl Import {
         match self.constant(value, Role::Index)? {
             Some([r, g, b]) if r == g && g == b => Ok(Textured::Constant(r)),
             Some([r, g, b]) => Ok(Textured::Constant(0.2126 * r + 0.7152 * g + 0.0722 * b)),
-            None => self.texture(value).map(Textured::Texture),
+            None => self.texture(value, TextureValue::Number).map(Textured::Texture),
         }
     }
 
@@ -65,15 +70,15 @@ impl Import {
     }
 
     /// The name of a texture.
-    pub fn texture(&mut self, element: Element) -> Result<String, SceneError> {
-        if let Some((name, uses)) = self.known_textures.get(&element.index) {
+    pub fn texture(&mut self, element: Element, value: TextureValue) -> Result<String, SceneError> {
+        if let Some((name, uses)) = self.known_textures.get(&(element.index, value)) {
             let (name, uses) = (name.clone(), uses.clone());
             self.uses.add(&uses);
             return Ok(name);
         }
-        let (kind, uses) = self.used(|import| import.nested(element, |import| import.texture_kind(element)))?;
+        let (kind, uses) = self.used(|import| import.nested(element, |import| import.texture_kind(element, value)))?;
         let name = self.add_texture(element.label(), kind);
-        self.known_textures.insert(element.index, (name.clone(), uses));
+        self.known_textures.insert((element.index, value), (name.clone(), uses));
         Ok(name)
     }
 
@@ -96,10 +101,10 @@ impl Import {
         }
     }
 
-    fn texture_kind(&mut self, element: Element) -> Result<TextureKind, SceneError> {
+    fn texture_kind(&mut self, element: Element, value: TextureValue) -> Result<TextureKind, SceneError> {
         match element.kind() {
             "bitmap" => self.bitmap(element).map(Into::into),
-            "checkerboard" => self.checkerboard(element),
+            "checkerboard" => self.checkerboard(element, value),
             "mesh_attribute" => self.mesh_attribute(element),
             "volume" => Err(element.error("a `volume` texture, which Noisefall does not read", "use an image texture")),
             kind => Err(element.error(
@@ -152,10 +157,17 @@ impl Import {
         Ok(placed)
     }
 
-    fn checkerboard(&mut self, element: Element) -> Result<TextureKind, SceneError> {
+    /// Squares of two colours. Where Mitsuba looks up a number, it exchanges the two (`Checkerboard::eval_1` in version 3.9).
+    fn checkerboard(&mut self, element: Element, value: TextureValue) -> Result<TextureKind, SceneError> {
         self.uses.coordinates = true;
-        let even = self.colour(element, "color0", 0.4, Role::Reflectance)?;
-        let odd = self.colour(element, "color1", 0.2, Role::Reflectance)?;
+        let (even, odd) = match value {
+            TextureValue::Colour => {
+                (self.colour(element, "color0", 0.4, Role::Reflectance)?, self.colour(element, "color1", 0.2, Role::Reflectance)?)
+            }
+            TextureValue::Number => {
+                (grey(self.textured_number(element, "color1", 0.2)?), grey(self.textured_number(element, "color0", 0.4)?))
+            }
+        };
         let placed = self.placement(element)?;
         let [u, v] = placed.scale;
         let is_plain = placed.rotate == 0.0 && placed.offset == [0.0; 2] && u == v && (1e-6..=5e4).contains(&u);
@@ -181,6 +193,14 @@ impl Import {
         }
         let unscaled = self.add_texture(&format!("{name} unscaled"), colour);
         Ok(Product { a: Textured::Texture(unscaled), b: Textured::grey(scale) }.into())
+    }
+}
+
+/// A number as a colour.
+fn grey(number: Textured<f64>) -> Textured {
+    match number {
+        Textured::Constant(x) => Textured::grey(x),
+        Textured::Texture(name) => Textured::Texture(name),
     }
 }
 

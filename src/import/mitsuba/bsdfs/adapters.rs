@@ -1,6 +1,9 @@
 //! BSDFs that change others: bumps, masks, sides and mixtures.
 use super::{
-    super::{context::Import, tree::Element},
+    super::{
+        context::{Import, TextureValue},
+        tree::Element,
+    },
     transparent,
 };
 use crate::{
@@ -81,7 +84,7 @@ pub fn bump_map(import: &mut Import, element: Element, two_sided: bool) -> Resul
         import.remark(element, "the inner bump map", "the outer one is missing");
         return Ok(inner);
     }
-    let texture = import.texture(heights)?;
+    let texture = import.texture(heights, TextureValue::Number)?;
     let height = element.number("scale", 1.0)?.clamp(-1e6, 1e6);
     Ok(MaterialDescription { bump: Some(Bump { texture, height }), ..inner })
 }

@@ -151,6 +151,9 @@ fn disney_is_taken_over_exactly() {
     };
     assert_eq!((&disney, found.two_sided), (&expected, Some(false)));
     assert!((disney.ior - 1.5).abs() < 1e-9 && imported.remarks.is_empty());
+    // Mitsuba exchanges the squares of a checkerboard where it looks up a number: those of 0.4 and 0.2.
+    let TextureKind::Checker(squares) = &imported.description.textures["squares"] else { panic!("no checker") };
+    assert_eq!((&squares.even, &squares.odd), (&Textured::grey(0.2), &Textured::grey(0.4)));
     let glass = |value: &str| {
         let text = format!("<bsdf type=\"principled\"><float name=\"spec_trans\" value=\"0.4\"/>{value}</bsdf>");
         let (found, imported) = material(&text);
