@@ -205,6 +205,6 @@ fn shading<L: Lanes>(
     let incident =
         IncidentPaths { d: path.d, interaction: SurfaceInteraction { place, row, point, cos }, media: l.u(0), word: word.bits() };
     let (_, reflects) = incident.sides();
-    let (colour, detail) = vary(l, scene, &incident, hit & reflects, V { x, y, z }, n);
+    let (colour, detail, _) = vary(l, scene, &incident, hit & reflects, V { x, y, z }, n);
     (detail.n, reflects.pick(colour, V::splat(l, [0.0; 3])))
 }

@@ -16,6 +16,7 @@ mod light_sample;
 mod media;
 mod meet;
 mod normal_mapping;
+mod normal_shadowing;
 mod passage;
 pub mod queue;
 mod queues;

@@ -1,7 +1,7 @@
 //! Queues that are filled and read in lockstep: the records of paths at one stage. A scene fills only those that it needs.
 use super::{
     queue::{Queue, Register, Registers},
-    records::{Chart, Detail, Hit, Inside, Path, PreviousLobe, PreviousVertex, Shadow, Transmittance},
+    records::{Chart, Detail, Hit, Inside, NormalShadowing, Path, PreviousLobe, PreviousVertex, Shadow, Transmittance},
     slots::SLOTS,
 };
 use crate::math::{Lanes, One, Pick, U};
@@ -62,6 +62,8 @@ pub(super) struct HitQueues {
     pub details: Queue,
     /// Filled for types that read it, in scenes that need it.
     pub charts: Queue,
+    /// Filled beside `details` in scenes where tilted normals darken light.
+    pub normal_shadowing: Queue,
     /// Filled for types that have a diffuse transmittance.
     pub transmittances: Queue,
 }
@@ -72,6 +74,7 @@ impl Default for HitQueues {
             hits: Hit::<One>::queue(SLOTS),
             details: Detail::<One>::queue(SLOTS),
             charts: Chart::<One>::queue(SLOTS),
+            normal_shadowing: NormalShadowing::<One>::queue(SLOTS),
             transmittances: Transmittance::<One>::queue(SLOTS),
         }
     }
@@ -87,6 +90,7 @@ impl HitQueues {
         self.hits.clear();
         self.details.clear();
         self.charts.clear();
+        self.normal_shadowing.clear();
         self.transmittances.clear();
     }
 

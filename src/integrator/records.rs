@@ -91,6 +91,16 @@ record! {
 }
 
 record! {
+    /// What tilted shading normals darken. Stored beside [`Detail`] in scenes with surfaces whose normals do.
+    NormalShadowing {
+        /// The normal before it was tilted, unit, on the side the path arrived from.
+        n: V,
+        /// See [`super::normal_shadowing`].
+        alpha_squared: F,
+    }
+}
+
+record! {
     /// The diffuse transmittance of a surface. Stored beside [`Hit`] for types of BSDF that have one.
     Transmittance {
         colour: V,

@@ -6,7 +6,7 @@ use super::{
     media::beyond,
     queue::Register,
     queues::HitQueues,
-    records::{Chart, Detail, Hit, Path, Shadow, Transmittance},
+    records::{Chart, Detail, Hit, NormalShadowing, Path, Shadow, Transmittance},
     roulette::{Survival, survive},
     work::Work,
 };
@@ -27,6 +27,8 @@ pub(super) struct Shading<'a, L: Lanes, K: Shade> {
     pub coordinates: ReflectionCoordinates<L>,
     /// Number of reflections of the paths, including this one.
     reflection: u32,
+    /// In scenes where tilted normals darken light.
+    normal_shadowing: Option<NormalShadowing<L>>,
 }
 
 /// A light sample and its terms: [`Shadow::radiance`] is throughput × f cos × radiance × weight/pdf.
@@ -95,7 +97,12 @@ impl<'a, L: Lanes, K: Shade> Shading<'a, L, K> {
         if K::HAS_TRANSMITTANCE {
             bsdf = K::with_transmittance(bsdf, Transmittance::read(l, &queues.transmittances, start).colour);
         }
-        Shading { live, hit, vertex, bsdf, coordinates, reflection }
+        let normal_shadowing = if K::DETAILED && work.scene.surfaces.normal_shadowing {
+            Some(NormalShadowing::read(l, &queues.normal_shadowing, start))
+        } else {
+            None
+        };
+        Shading { live, hit, vertex, bsdf, coordinates, reflection, normal_shadowing }
     }
 
     /// Next-event estimation: samples a light, weights it, and tells where it may contribute.
@@ -107,7 +114,10 @@ impl<'a, L: Lanes, K: Shade> Shading<'a, L, K> {
         let sample_light = if K::DETAILED { call_sample_light } else { sample_light };
         let sample = sample_light(l, work, &at, &coordinates.stream, hit.slot, *reflection);
         let wi = vertex.frame.local_from_world(sample.wi);
-        let (f_cos, pdf) = bsdf.eval(vertex.wo, wi);
+        let (mut f_cos, pdf) = bsdf.eval(vertex.wo, wi);
+        if let Some(shadowing) = &self.normal_shadowing {
+            f_cos = f_cos * shadowing.towards(l, sample.wi);
+        }
         let (o, consistent) = vertex.leave::<K>(hit, sample.wi, wi.z);
         let lights = &work.scene.lights;
         let mut weight = work.settings.estimator.light_weight(l, sample.pdf, pdf);
@@ -129,12 +139,15 @@ impl<'a, L: Lanes, K: Shade> Shading<'a, L, K> {
     #[inline(always)]
     pub fn reflect(&self, l: L, work: &Work, shares: bool) -> Reflected<L> {
         let Shading { hit, vertex, bsdf, coordinates, reflection, .. } = self;
-        let sample = bsdf.sample(vertex.wo, coordinates.direction, coordinates.lobe);
+        let mut sample = bsdf.sample(vertex.wo, coordinates.direction, coordinates.lobe);
         let mut d = vertex.frame.world_from_local(sample.wi);
         if K::DETAILED {
             // What mirrors and refracts a direction keeps the error of its length: a step of Newton's method to 1, or else it
             // adds up from bounce to bounce until a ray no longer knows on which side of its surface it starts.
             d = d * (1.5 - d.length_squared() * 0.5);
+        }
+        if let Some(shadowing) = &self.normal_shadowing {
+            sample.weight = sample.weight * shadowing.towards(l, d);
         }
         let (o, consistent) = vertex.leave::<K>(hit, d, sample.wi.z);
         let judged = K::roulette_scale(bsdf, vertex.local.front, sample.wi.z);

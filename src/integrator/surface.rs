@@ -5,6 +5,7 @@ use super::{
     batch::{Batch, add},
     interaction::{SurfaceInteraction, emitted, interact},
     media::transmittance,
+    normal_shadowing::shadowing_of_normals,
     queue::Register,
     queues::{HitQueues, PathQueues},
     records::{Detail, Hit, Path, Transmittance},
@@ -182,7 +183,7 @@ fn sort<L: Lanes>(
     let word = incident.word;
     let (front, reflects) = incident.sides();
     let faces = mask & reflects;
-    let (colour, detail) = vary(l, work.scene, incident, faces, hit.colour, hit.n);
+    let (colour, detail, untilted) = vary(l, work.scene, incident, faces, hit.colour, hit.n);
     let detail = Detail { surface: word | front.pick(l.u(FRONT), l.u(0)), ..detail };
     let reflects = faces & (colour.max_component().above(0.0) | is_set(word, SCATTERS_WHERE_BLACK));
     for stage in &work.scene.surfaces.stages {
@@ -195,6 +196,10 @@ fn sort<L: Lanes>(
             detail.push(here, &mut queues.details);
             if work.scene.surfaces.charted && stage.reads_chart() && here.any() {
                 chart(l, work.scene, incident).push(here, &mut queues.charts);
+            }
+            if work.scene.surfaces.normal_shadowing && here.any() {
+                shadowing_of_normals(l, work.scene, &incident.interaction, untilted, detail.n)
+                    .push(here, &mut queues.normal_shadowing);
             }
             if stage.has_transmittance() {
                 let colour = transmittance_of_surface(l, work.scene, incident, here);

@@ -46,8 +46,8 @@ pub(super) fn chart<L: Lanes>(l: L, scene: &Scene, incident: &IncidentPaths<L>) 
     Chart { u, v, along_u, vertex: V { x, y, z }, vertex_opacity }
 }
 
-/// Evaluates textures in the lanes of `mask`, for surfaces of colour `colour` and normal `n` without them. Returns colour and
-/// details.
+/// Evaluates textures in the lanes of `mask`, for surfaces of colour `colour` and normal `n` without them. Returns colour, details,
+/// and the normal without bump and normal maps.
 #[inline(always)]
 pub(super) fn vary<L: Lanes>(
     l: L,
@@ -56,7 +56,7 @@ pub(super) fn vary<L: Lanes>(
     mask: M<L>,
     colour: V<L>,
     n: V<L>,
-) -> (V<L>, Detail<L>) {
+) -> (V<L>, Detail<L>, V<L>) {
     let Scene { surfaces, textures, .. } = scene;
     let IncidentPaths { d, interaction, media, word } = incident;
     let SurfaceInteraction { place, row, point, cos } = interaction;
@@ -67,6 +67,7 @@ pub(super) fn vary<L: Lanes>(
         let smooth = scene.shapes.smooth_normal(l, place, point) * l.f(1.0).copysign(*cos);
         n = smooth.dot(wo).above(GRAZING).pick(smooth, n);
     }
+    let untilted = n;
     if surfaces.textured || !surfaces.relief.is_empty() {
         let Coordinates { u, v } = scene.shapes.coordinates(l, place, point);
         let vertex = vertex_colour(l, scene, *place, *point);
@@ -89,7 +90,7 @@ pub(super) fn vary<L: Lanes>(
             n = tilted.dot(wo).above(GRAZING).pick(tilted, n);
         }
     }
-    (colour, Detail { wo, n, alpha, error: point.error, surface: *word, media: *media, medium: medium.bits() })
+    (colour, Detail { wo, n, alpha, error: point.error, surface: *word, media: *media, medium: medium.bits() }, untilted)
 }
 
 /// Diffuse transmittance in the lanes of `mask`.

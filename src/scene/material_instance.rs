@@ -17,6 +17,8 @@ pub struct MaterialInstance {
     pub bump: Option<(u32, f32)>,
     /// Texture of normals.
     pub normal_map: Option<u32>,
+    /// Whether bump and normal maps darken light at grazing angles.
+    pub normal_shadowing: bool,
     /// Black from behind.
     pub one_sided: bool,
     /// Fraction of the light that meets the surface.

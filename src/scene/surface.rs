@@ -24,7 +24,7 @@ pub struct Surfaces {
     pub rows: Vec<[f32; 4]>,
     /// α, textures of colour and of α, and the medium inside. An id is stored plus 1, as bits; 0 is none.
     pub varying: Vec<[f32; 4]>,
-    /// Height texture, its scale, and normal texture (ids as above).
+    /// Height texture, its scale, and normal texture (ids as above); 1 where tilted normals darken light at grazing angles.
     pub relief: Vec<[f32; 4]>,
     /// Diffuse transmittance and its texture (an id as above). Filled if some material has one.
     pub transmittance: Vec<[f32; 4]>,
@@ -35,6 +35,8 @@ pub struct Surfaces {
     pub blends: Vec<[f32; 4]>,
     /// Extinction of media per metre, in octaves; the first is empty space. Without tinted media the table is empty.
     pub media: Vec<[f32; 4]>,
+    /// Whether tilted normals of some surface darken light at grazing angles.
+    pub normal_shadowing: bool,
     /// Whether the shading of some surface reads texture coordinates or the tangent.
     pub charted: bool,
     /// Whether the colour or α of some surface is textured.
@@ -117,7 +119,9 @@ impl Surfaces {
         self.varying.push(VaryingRow { alpha, colour_texture, alpha_texture, medium }.pack());
         if columns.relief {
             let (heights, height) = applied.bump.map_or((None, 0.0), |(id, height)| (Some(id), height));
-            self.relief.push([texture_bits(heights), height, texture_bits(applied.normal_map), 0.0]);
+            let shadows = applied.normal_shadowing && applied.has_normals();
+            self.normal_shadowing |= shadows;
+            self.relief.push([texture_bits(heights), height, texture_bits(applied.normal_map), f32::from(u8::from(shadows))]);
         }
         if columns.transmittance {
             let (transmittance, texture) = compiled.transmittance.map_or(([0.0; 3], None), constant_and_texture);

@@ -129,14 +129,17 @@ impl Export<'_> {
 
     /// A BSDF with its bump and normal map. The normal map is the inner one, as in ours.
     fn bumped(&mut self, material: &MaterialDescription, mut element: Element) -> Element {
+        // What Mitsuba does unless it is told otherwise.
+        let shadowing = material.normal_shadowing == Some(true);
+        let shadowed = |element: Element| if shadowing { element } else { element.flag("use_shadowing_function", false) };
         if let Some(path) = &material.normal_map {
             let image = Image { path: path.clone(), encoding: Encoding::Linear, ..Image::default() };
             let bitmap = self.bitmap(&image).attribute("name", "normalmap");
-            element = Element::plugin("bsdf", "normalmap").with(bitmap).with(element);
+            element = shadowed(Element::plugin("bsdf", "normalmap").with(bitmap)).with(element);
         }
         let Some(bump) = &material.bump else { return element };
         match self.heights(&bump.texture) {
-            Some(heights) => Element::plugin("bsdf", "bumpmap").with(heights).float("scale", bump.height).with(element),
+            Some(heights) => shadowed(Element::plugin("bsdf", "bumpmap").with(heights).float("scale", bump.height)).with(element),
             None => {
                 let found = format!("the heights `{}`, which vary in space", bump.texture);
                 self.remark(found, "no bump map", "the surface is smooth");

@@ -49,7 +49,7 @@ pub fn appearance(mtl: &Mtl, place: &str, size: f64, textures: &mut Textures, to
     let opacity = if is_glass { None } else { work.opacity() };
     let (bump, normal_map) = work.relief(size);
     let emission = work.emission();
-    Appearance { material: MaterialDescription { kind, bump, normal_map, opacity, two_sided: None }, emission }
+    Appearance { material: MaterialDescription { kind, bump, normal_map, opacity, ..MaterialDescription::default() }, emission }
 }
 
 struct Work<'a> {

@@ -68,6 +68,7 @@ fn instance<'d>(
         compiled,
         bump: bump.transpose()?,
         normal_map: normal_map.transpose()?,
+        normal_shadowing: described.normal_shadowing == Some(true),
         one_sided: described.two_sided == Some(false),
         opacity,
         blend: None,

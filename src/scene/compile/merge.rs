@@ -32,6 +32,7 @@ fn within(blend: &MaterialInstance, part: &MaterialInstance) -> Option<MaterialI
         compiled: part.compiled.clone(),
         bump: part.bump.or(blend.bump),
         normal_map: part.normal_map.or(blend.normal_map),
+        normal_shadowing: blend.normal_shadowing || part.normal_shadowing,
         one_sided: blend.one_sided || part.one_sided,
         opacity,
         blend: part.blend,
@@ -47,7 +48,7 @@ fn mixed(
     weight: NumberSource,
     textures: &mut TextureCompiler,
 ) -> Option<MaterialInstance> {
-    let surface = |part: &MaterialInstance| (part.one_sided, part.opacity, part.bump, part.normal_map);
+    let surface = |part: &MaterialInstance| (part.one_sided, part.opacity, part.bump, part.normal_map, part.normal_shadowing);
     if surface(&first) != surface(second) || first.blend.or(second.blend).is_some() {
         return None;
     }

@@ -20,6 +20,8 @@ pub struct MaterialDescription {
     pub bump: Option<Bump>,
     /// A linear image file of shading normals.
     pub normal_map: Option<String>,
+    /// Whether bump and normal maps darken light at grazing angles; `None` means that they do not.
+    pub normal_shadowing: Option<bool>,
     /// Whether the back reflects too; `None` means that it does.
     pub two_sided: Option<bool>,
     /// Fraction of the light that meets the surface; the rest passes. `None` means 1.
@@ -31,11 +33,18 @@ impl Declare for MaterialDescription {
         const BUMP: Parameter =
             Parameter::new("bump", "Height field that tilts the shading normal.").aliases("bump_map displacement");
         const NORMAL_MAP: Parameter = Parameter::new("normal_map", "A linear image of shading normals.").aliases("normals");
+        const SHADOWING: Parameter = Parameter::new(
+            "normal_shadowing",
+            "Whether bump and normal maps darken light at grazing angles, as microfacets do, which softens hard edges of shading. Such a \
+             surface is not reciprocal. Default: false.",
+        )
+        .aliases("use_shadowing_function shadow_terminator");
         const TWO_SIDED: Parameter =
             Parameter::new("two_sided", "Whether the back reflects too. Default: true.").aliases("twosided double_sided");
         p.one_of(&mut self.kind);
         p.optional_table(&BUMP, &mut self.bump);
         p.optional(&NORMAL_MAP, &mut self.normal_map, String::new, |p, path| p.value(&NORMAL_MAP, Value::File(path)));
+        p.optional(&SHADOWING, &mut self.normal_shadowing, || true, |p, shadowing| p.flag(&SHADOWING, shadowing));
         p.optional(&TWO_SIDED, &mut self.two_sided, || true, |p, two_sided| p.flag(&TWO_SIDED, two_sided));
         p.optional(
             &OPACITY,

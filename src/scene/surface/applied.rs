@@ -20,6 +20,8 @@ pub struct AppliedMaterial<'a> {
     pub one_sided: bool,
     pub bump: Option<(u32, f32)>,
     pub normal_map: Option<u32>,
+    /// Whether bump and normal map darken light at grazing angles.
+    pub normal_shadowing: bool,
 }
 
 /// The properties of a surface that its row depends on, as bits.
@@ -39,6 +41,7 @@ impl<'a> AppliedMaterial<'a> {
             one_sided: instance.one_sided,
             bump: instance.bump,
             normal_map: instance.normal_map,
+            normal_shadowing: instance.normal_shadowing,
         })
     }
 
@@ -52,22 +55,27 @@ impl<'a> AppliedMaterial<'a> {
             one_sided: self.one_sided || instance.one_sided,
             bump: instance.bump.or(self.bump),
             normal_map: instance.normal_map.or(self.normal_map),
+            normal_shadowing: self.normal_shadowing || instance.normal_shadowing,
             ..*self
         }
     }
 
     /// Diffuse surfaces need more than their plain stage where normals vary or there are media.
     pub fn stage(&self, has_media: bool) -> Stage {
-        let has_normals = self.bump.is_some() || self.normal_map.is_some();
         match self.instance.compiled.stage {
-            Stage::Plain if has_normals || self.smooth || has_media => Stage::Diffuse,
+            Stage::Plain if self.has_normals() || self.smooth || has_media => Stage::Diffuse,
             stage => stage,
         }
     }
 
+    /// Whether a bump or normal map tilts its normals.
+    pub fn has_normals(&self) -> bool {
+        self.bump.is_some() || self.normal_map.is_some()
+    }
+
     /// Equal for surfaces with equal rows.
     pub fn key(&self) -> Key {
-        let flags = [self.flip, self.emits, self.smooth, self.one_sided];
+        let flags = [self.flip, self.emits, self.smooth, self.one_sided, self.normal_shadowing];
         let flags = flags.into_iter().fold(0, |bits, flag| bits << 1 | u32::from(flag));
         let (bump, height) = self.bump.map_or((0, 0.0), |(id, height)| (id + 1, height));
         [self.number, flags, bump, height.to_bits(), self.normal_map.map_or(0, |id| id + 1)]

@@ -51,6 +51,9 @@ impl Export<'_> {
             self.remark(format!("the heights `{}`", bump.texture), "no bump map", "the surface is smooth");
         }
         let Some(path) = &material.normal_map else { return Ok(None) };
+        if material.normal_shadowing == Some(true) {
+            self.remark("`normal_shadowing`", "no shadowing", "light that grazes the relief is brighter");
+        }
         let stem = path.rsplit(['/', '\\']).next().and_then(|file| file.split('.').next()).unwrap_or_default();
         let file = match self.is_web_image(path)? {
             true => self.new.name(path),

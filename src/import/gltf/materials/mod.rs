@@ -131,7 +131,10 @@ impl Work<'_, '_> {
         let normal_map = self.normal_map();
         let emission = self.emission();
         let two_sided = is_one_sided.then_some(false);
-        (MaterialDescription { kind: principled.into(), bump: None, normal_map, two_sided, opacity }, emission)
+        (
+            MaterialDescription { kind: principled.into(), normal_map, two_sided, opacity, ..MaterialDescription::default() },
+            emission,
+        )
     }
 
     fn remark(&mut self, found: impl Into<String>, used: impl Into<String>, effect: impl Into<String>) {

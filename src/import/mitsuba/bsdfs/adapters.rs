@@ -86,11 +86,11 @@ pub fn bump_map(import: &mut Import, element: Element, two_sided: bool) -> Resul
     }
     let texture = import.texture(heights, TextureValue::Number)?;
     let height = element.number("scale", 1.0)?.clamp(-1e6, 1e6);
-    Ok(MaterialDescription { bump: Some(Bump { texture, height }), ..inner })
+    Ok(MaterialDescription { bump: Some(Bump { texture, height }), normal_shadowing: normal_shadowing(element)?, ..inner })
 }
 
 pub fn normal_map(import: &mut Import, element: Element, two_sided: bool) -> Result<MaterialDescription, SceneError> {
-    element.ignore(&["flip_invalid_normals", "use_shadowing_function", "use_shadowing"]);
+    let normal_shadowing = normal_shadowing(element)?;
     let inner = import.material(only(element)?, two_sided)?;
     let normals = match element.property("normalmap")? {
         Some(normals) => normals,
@@ -119,5 +119,11 @@ pub fn normal_map(import: &mut Import, element: Element, two_sided: bool) -> Res
         import.remark(element, "the inner normal map", "the outer one is missing");
         return Ok(inner);
     }
-    Ok(MaterialDescription { normal_map: Some(image.path), ..inner })
+    Ok(MaterialDescription { normal_map: Some(image.path), normal_shadowing, ..inner })
+}
+
+/// Whether tilted normals darken light at grazing angles; in Mitsuba 3.9 they do by default. Ours never face away from the viewer.
+fn normal_shadowing(element: Element) -> Result<Option<bool>, SceneError> {
+    element.ignore(&["flip_invalid_normals"]);
+    Ok(element.flag("use_shadowing_function", true)?.then_some(true))
 }
