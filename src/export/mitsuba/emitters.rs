@@ -100,7 +100,7 @@ impl Export<'_> {
                 Element::plugin("emitter", "constant").with(Element::color("radiance", constant.radiance))
             }
             BackgroundDescription::Image(image) => {
-                let path = self.new.name(&image.path);
+                let path = self.sky_image(image);
                 let element = Element::plugin("emitter", "envmap").text(FILE, &path).float("scale", image.scale);
                 element.transform("to_world", &turn(image))
             }

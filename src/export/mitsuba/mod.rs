@@ -20,6 +20,7 @@ mod layered;
 mod markup;
 mod sensor;
 mod shapes;
+mod sky_rows;
 #[cfg(test)]
 mod tests;
 mod textures;

@@ -43,13 +43,15 @@ pub struct Image {
     pub rotate: f64,
     /// Factor of the radiance.
     pub scale: f64,
+    /// Whether the first and the last row of texels lie at the poles, and not half a row from them.
+    pub pole_rows: bool,
     /// Rotations and mirrorings of the image after `rotate`, from the first to the last. Translations do not matter.
     pub transform: Vec<Transform>,
 }
 
 impl Default for Image {
     fn default() -> Self {
-        Image { path: String::new(), rotate: 0.0, scale: 1.0, transform: Vec::new() }
+        Image { path: String::new(), rotate: 0.0, scale: 1.0, pole_rows: false, transform: Vec::new() }
     }
 }
 
@@ -66,11 +68,16 @@ impl Declare for Image {
         const ROTATE: Parameter =
             Parameter::new("rotate", "Rotation of the image, counter-clockwise seen from above.").unit("degrees");
         const SCALE: Parameter = Parameter::new("scale", "Factor that multiplies the radiance.");
+        const POLE_ROWS: Parameter = Parameter::new(
+            "pole_rows",
+            "Whether the first and the last row of texels lie at the poles, and not half a row from them.",
+        );
         const TRANSFORM: Parameter =
             Parameter::new("transform", "Rotations and mirrorings of the image, applied after `rotate`.");
         p.value(&IMAGE, Value::File(&mut self.path));
         p.number(&ROTATE, &mut self.rotate, Range::FINITE);
         p.number(&SCALE, &mut self.scale, Range::log(1e-12, 1e12));
+        p.flag(&POLE_ROWS, &mut self.pole_rows);
         p.list(&TRANSFORM, &mut self.transform);
     }
 }
@@ -81,17 +88,18 @@ impl Surrounding for Image {
     fn compile(&self, resources: &Resources) -> Result<Option<ImageBackground>, Problem> {
         let turn = Turn::of(&self.transform)?;
         let file = resources.file(&self.path);
-        let tables = resources.once("skies", format!("sky {} {:x}", file.key(), self.scale.to_bits()), || {
-            let picture = read_light_of(&file, Encoding::Srgb)
-                .map_err(|error| Problem::at("image", error.to_string(), "this image cannot be used"))?;
-            let bytes = SkyTables::bytes([picture.width, picture.height]);
-            resources.reserve("image", "the texels and cells of a sky", bytes)?;
-            let tables = SkyTables::new(picture, self.scale as f32);
-            if tables.mean_luminance() == 0.0 {
-                return Err(Problem::at("image", "a background of zero power: the image is black", "it emits nothing"));
-            }
-            Ok(tables)
-        })?;
+        let tables =
+            resources.once("skies", format!("sky {} {:x} {}", file.key(), self.scale.to_bits(), self.pole_rows), || {
+                let picture = read_light_of(&file, Encoding::Srgb)
+                    .map_err(|error| Problem::at("image", error.to_string(), "this image cannot be used"))?;
+                let bytes = SkyTables::bytes([picture.width, picture.height]);
+                resources.reserve("image", "the texels and cells of a sky", bytes)?;
+                let tables = SkyTables::new(picture, self.scale as f32, self.pole_rows);
+                if tables.mean_luminance() == 0.0 {
+                    return Err(Problem::at("image", "a background of zero power: the image is black", "it emits nothing"));
+                }
+                Ok(tables)
+            })?;
         Ok(Some(ImageBackground { turn, ..ImageBackground::new(tables, self.rotate) }))
     }
 }
@@ -140,6 +148,8 @@ pub struct ImageBackground {
 /// The texels of an [`ImageBackground`] and the tables that sample them. They do not depend on its rotation.
 pub struct SkyTables {
     picture: ImageTexture,
+    /// Where the image begins in v, and how much of it there is, in heights of the picture: see [`rows_of`].
+    rows_of_picture: [f32; 2],
     /// Numbers of cells, powers of two.
     columns: u32,
     rows: u32,
@@ -150,15 +160,17 @@ pub struct SkyTables {
 }
 
 impl SkyTables {
-    /// Builds the tables. `picture` holds radiances ([`crate::image::read_light`]), which are multiplied by `scale`.
-    pub fn new(mut picture: Texels, scale: f32) -> SkyTables {
+    /// Builds the tables. `picture` holds radiances ([`crate::image::read_light`]), which are multiplied by `scale`. For `pole_rows`, see
+    /// [`Image::pole_rows`].
+    pub fn new(mut picture: Texels, scale: f32, pole_rows: bool) -> SkyTables {
         for pixel in &mut picture.radiance {
             *pixel = pixel.map(|x| x * scale);
         }
         let columns = picture.width.next_power_of_two().min(MOST_COLUMNS);
         let rows = picture.height.next_power_of_two().clamp(2, MOST_ROWS);
         let bounds: Vec<_> = (0..rows).map(|row| row_bounds(row, rows, columns)).collect();
-        let mut weights = cell_means(&picture, columns as usize, rows as usize);
+        let rows_of_picture = rows_of(&picture, pole_rows);
+        let mut weights = cell_means(&picture, columns as usize, rows as usize, rows_of_picture);
         for (row, bounds) in weights.chunks_exact_mut(columns as usize).zip(&bounds) {
             row.iter_mut().for_each(|mean| *mean /= f64::from(bounds[3]));
         }
@@ -168,6 +180,7 @@ impl SkyTables {
         }
         SkyTables {
             picture: ImageTexture::new(picture),
+            rows_of_picture: rows_of_picture.map(|x| x as f32),
             columns,
             rows,
             cells: AliasTable::new(&weights),
@@ -209,7 +222,8 @@ impl ImageBackground {
     #[simd]
     pub fn radiance<L: Lanes>(&self, l: L, d: V<L>) -> V<L> {
         let (u, v) = self.picture_from_world(l, d);
-        self.tables.picture.colour(l, u, v, Edge::Clamp)
+        let [start, extent] = self.tables.rows_of_picture;
+        self.tables.picture.colour(l, u, v * extent + start, Edge::Clamp)
     }
 
     /// Samples a unit direction, and returns it with its pdf per solid angle. `cell` selects the cell, by index and coin; `u`
@@ -250,6 +264,12 @@ impl ImageBackground {
         let r = (d.x * d.x + d.z * d.z).sqrt();
         (u, turns_of(d.y, r) * 2.0)
     }
+}
+
+/// Where an image of all directions begins in the height of its picture, and how much of that it takes.
+fn rows_of(picture: &Texels, pole_rows: bool) -> [f64; 2] {
+    let row = 1.0 / f64::from(picture.height);
+    if pole_rows { [0.5 * row, 1.0 - row] } else { [0.0, 1.0] }
 }
 
 /// The index of the one of `count` equal parts of [0, 1] that contains `t`.

@@ -73,7 +73,7 @@ impl Surrounding for Sky {
         let numbers = [sun.x, sun.y, sun.z, self.turbidity, self.sky_scale, self.sun_scale].map(f64::to_bits);
         let tables = resources.once("skies", format!("clear sky {numbers:x?}"), || {
             resources.reserve("sky", "the texels and cells of a sky", SkyTables::bytes([raster::WIDTH, raster::HEIGHT]))?;
-            Ok(SkyTables::new(self.raster(sun).into_texels(), 1.0))
+            Ok(SkyTables::new(self.raster(sun).into_texels(), 1.0, false))
         })?;
         Ok((tables.mean_luminance() > 0.0).then(|| ImageBackground::new(tables, 0.0)))
     }

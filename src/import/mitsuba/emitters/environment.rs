@@ -38,9 +38,9 @@ pub fn image(import: &mut Import, element: Element) -> Result<(), SceneError> {
         return Ok(());
     }
     let map = element.affine("to_world")?;
-    // Translations do not matter, and Mitsuba's images have their centre at +z.
+    // Translations do not matter. Mitsuba's images have their centre at +z, and their first and last row at the poles.
     let transform = described(&DAffine3 { translation: DVec3::ZERO, ..map });
-    set(import, element, Image { path, rotate: 180.0, scale, transform });
+    set(import, element, Image { path, rotate: 180.0, scale, pole_rows: true, transform });
     Ok(())
 }
 

@@ -87,7 +87,7 @@ impl Import {
             self.remark(entity, "this image alone", "there is one sky, and the others are missing");
         }
         let transform = described(&DAffine3::from_mat3(frame));
-        let sky = Image { path: image, rotate: 0.0, scale: scale.clamp(1e-12, 1e12), transform };
+        let sky = Image { path: image, scale: scale.clamp(1e-12, 1e12), transform, ..Image::default() };
         self.description.background = Some(sky.into());
         Ok(())
     }

@@ -18,7 +18,7 @@ fn picture(width: u32, height: u32, radiance: impl FnMut(u32) -> [f32; 3]) -> Te
 
 /// A picture turned by degrees and multiplied by a factor.
 fn background(picture: Texels, rotate: f64, scale: f32) -> ImageBackground {
-    ImageBackground::new(SkyTables::new(picture, scale).into(), rotate)
+    ImageBackground::new(SkyTables::new(picture, scale, false).into(), rotate)
 }
 
 /// Degrees.
@@ -154,7 +154,7 @@ fn a_black_picture_has_no_light_and_a_density_all_the_same() {
 fn cell_means_are_those_of_the_bilinear_picture() {
     let steps = picture(5, 3, |i| [(i * i % 7) as f32; 3]);
     let texture = crate::texture::ImageTexture::new(steps.clone());
-    let means = cell_means(&steps, 4, 8);
+    let means = cell_means(&steps, 4, 8, [0.0, 1.0]);
     for (cell, mean) in means.iter().enumerate() {
         let at = |i: usize, cell: usize, cells: usize| F::<One>(((cell as f64 + (i as f64 + 0.5) / 64.0) / cells as f64) as f32);
         let value = |i: usize| texture.colour(One, at(i % 64, cell % 4, 4), at(i / 64, cell / 4, 8), crate::texture::Edge::Clamp);
@@ -164,10 +164,24 @@ fn cell_means_are_those_of_the_bilinear_picture() {
 }
 
 #[test]
+fn rows_at_the_poles_are_reached_there() {
+    // Rows of 1, 2 and 4: at the poles, and half way between them.
+    let rows = picture(2, 3, |i| [[1.0, 2.0, 4.0][i as usize / 2]; 3]);
+    let sky = ImageBackground::new(SkyTables::new(rows.clone(), 1.0, true).into(), 0.0);
+    let at = |theta: f32| sky.radiance(One, V { x: F(theta.sin()), y: F(theta.cos()), z: F(0.0) }).x.0;
+    for (theta, exact) in [(0.0, 1.0), (0.25, 1.5), (0.5, 2.0), (0.75, 3.0), (1.0, 4.0)] {
+        assert!((at(theta * std::f32::consts::PI) - exact).abs() < 1e-5, "{theta}: {}", at(theta * std::f32::consts::PI));
+    }
+    // Four rows of cells between the poles: means of a line from 1 to 2 over its halves, and of one from 2 to 4.
+    let means = cell_means(&rows, 1, 4, [1.0 / 6.0, 2.0 / 3.0]);
+    assert!(means.iter().zip([1.25, 1.75, 2.5, 3.5]).all(|(mean, exact)| (mean - exact).abs() < 1e-6), "{means:?}");
+}
+
+#[test]
 fn the_mean_luminance_is_that_of_the_cells() {
     let mut random = SmallRng::seed_from_u64(5);
     let clouds = picture(6, 3, |_| [random.random(), random.random(), random.random()]);
-    let means = cell_means(&clouds, 8, 4);
+    let means = cell_means(&clouds, 8, 4, [0.0, 1.0]);
     // The solid angle of a cell of row j of four: 2π/8 times the difference of the cosines.
     let solid_angle = |row: usize| TAU / 8.0 * ((PI * row as f64 / 4.0).cos() - (PI * (row + 1) as f64 / 4.0).cos());
     let exact = (0..32).map(|cell| means[cell] * solid_angle(cell / 8)).sum::<f64>() / (2.0 * TAU);

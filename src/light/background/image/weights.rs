@@ -1,11 +1,12 @@
 //! Exact means of a bilinear image's luminance over the cells of a grid, so that no cell with light has the weight 0.
 use crate::{image::Texels, math::colour::LUMINANCE};
 
-/// The mean over every cell, row by row. The image repeats horizontally; its top and bottom rows continue beyond the edge.
-pub(super) fn cell_means(picture: &Texels, columns: usize, rows: usize) -> Vec<f64> {
+/// The mean over every cell, row by row. The image repeats horizontally; its top and bottom rows continue beyond the edge. The cells
+/// divide the `extent` from `start` on of its height.
+pub(super) fn cell_means(picture: &Texels, columns: usize, rows: usize, [start, extent]: [f64; 2]) -> Vec<f64> {
     let (width, height) = (picture.width as usize, picture.height as usize);
-    let across = cell_texels(width, columns);
-    let down = cell_texels(height, rows);
+    let across = cell_texels(width as f64, columns, 0.0);
+    let down = cell_texels(height as f64 * extent, rows, height as f64 * start);
     let luminance = |pixel: &[f32; 4]| (0..3).map(|i| f64::from(pixel[i]) * f64::from(LUMINANCE[i])).sum::<f64>();
     // Row by row of texels first, so that no texel is visited twice: the means over the width of every cell.
     let mut narrowed = Vec::with_capacity(columns * height);
@@ -24,11 +25,11 @@ pub(super) fn cell_means(picture: &Texels, columns: usize, rows: usize) -> Vec<f
     means
 }
 
-/// For each of `cells` equal cells of an axis of `size` texels, the texels that contribute to its mean, with their weights.
-fn cell_texels(size: usize, cells: usize) -> Vec<Vec<(isize, f64)>> {
-    let width = size as f64 / cells as f64;
+/// For each of `cells` equal cells of `size` texels from `first` on, the texels that contribute to its mean, with their weights.
+fn cell_texels(size: f64, cells: usize, first: f64) -> Vec<Vec<(isize, f64)>> {
+    let width = size / cells as f64;
     let texels = |cell: usize| {
-        let (start, end) = (cell as f64 * width, (cell + 1) as f64 * width);
+        let (start, end) = (first + cell as f64 * width, first + (cell + 1) as f64 * width);
         let share = |at: isize| {
             let centre = at as f64 + 0.5;
             (at, (hat_integral(end - centre) - hat_integral(start - centre)) / width)

@@ -114,7 +114,7 @@ fn the_sun_keeps_its_irradiance() {
         let towards = direction(elevation, azimuth);
         let mut raster = Raster::of(|_| [0.0; 3]);
         raster.add_sun(towards, [9e6, 7e6, 5e6]);
-        let image = ImageBackground::new(SkyTables::new(raster.into_texels(), 1.0).into(), 0.0);
+        let image = ImageBackground::new(SkyTables::new(raster.into_texels(), 1.0, false).into(), 0.0);
         let (found, exact) = (irradiance(&image, towards), bright([9e6, 7e6, 5e6]) * SOLID_ANGLE);
         assert!((found / exact - 1.0).abs() < 1e-3, "{elevation}°, {azimuth}°: {found} {exact}");
     }
@@ -126,7 +126,7 @@ fn a_sun_on_the_horizon_is_half_a_sun_and_none_is_below() {
         let mut raster = Raster::of(|_| [0.0; 3]);
         raster.add_sun(direction(elevation, 25.0), [1e6; 3]);
         // The mean over the sphere times 4π is the radiance times the solid angle.
-        f64::from(SkyTables::new(raster.into_texels(), 1.0).mean_luminance()) * 2.0 * TAU / (1e6 * SOLID_ANGLE)
+        f64::from(SkyTables::new(raster.into_texels(), 1.0, false).mean_luminance()) * 2.0 * TAU / (1e6 * SOLID_ANGLE)
     };
     assert!((light(0.0) - 0.5).abs() < 0.01, "{}", light(0.0));
     assert!((light(10.0) - 1.0).abs() < 1e-3, "{}", light(10.0));
