@@ -9,6 +9,7 @@
 //! The window states what it wants and never waits; see [`worker`].
 mod adaptive;
 mod block;
+pub mod checkpoint;
 mod coarse;
 pub mod colour_map;
 pub mod denoise;
