@@ -65,5 +65,5 @@ pub use self::{
     target::Target,
     tone::{Display, ToneMap},
     white_balance::WhiteBalance,
-    worker::Renderer,
+    worker::{KeepHandle, Renderer},
 };

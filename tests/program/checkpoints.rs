@@ -100,7 +100,7 @@ fn a_scene_that_has_changed_is_noticed_and_anyway_is_labelled() {
     };
     sky(200);
     let text = "format = 1\n[camera]\neye = [0, 0, 0]\nlook_at = [0, 0, 1]\nfov = 60\nresolution = [16, 16]\n\
-                [background]\nimage = { path = \"sky.png\" }\n";
+                [background]\nimage = \"sky.png\"\n";
     fs::write(shell.path("sky.toml"), text).expect("it is written");
     done(&shell, &["render", "sky.toml", "-o", "a.exr", "--checkpoint", "a.nf", "--spp", "2"]);
     // The scene is in the file; only what it names must be there.
