@@ -9,6 +9,7 @@
 //! The window states what it wants and never waits; see [`worker`].
 mod adaptive;
 mod block;
+pub mod checkpoint;
 mod coarse;
 pub mod colour_map;
 pub mod denoise;
@@ -64,5 +65,5 @@ pub use self::{
     target::Target,
     tone::{Display, ToneMap},
     white_balance::WhiteBalance,
-    worker::Renderer,
+    worker::{KeepHandle, Renderer},
 };

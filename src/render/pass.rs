@@ -66,6 +66,18 @@ impl Threads {
             }
         }
         film.shares |= job.scene.shares(job.rays, job.settings);
+        let mut count = PassCount::default();
+        loop {
+            let next = next_stop(film, spp);
+            count = count.merge(self.to_stop(job, film, next, interrupted));
+            if next == spp || !film.tiles_in_focus().all(|tile| tile.spp >= next) {
+                return count;
+            }
+        }
+    }
+
+    /// Brings a film to `spp` samples per pixel, from doubling to doubling of the samples of its blocks.
+    fn to_stop(&self, job: PassJob, film: &mut Film, spp: u32, interrupted: &(dyn Fn() -> bool + Sync)) -> PassCount {
         // All tiles meet where their samples have doubled, for how far they have moved is seen over the whole picture.
         let mut count = PassCount::default();
         loop {
@@ -76,9 +88,11 @@ impl Threads {
                 }
             }
             count = count.merge(self.to_next_doubling(job, film, spp, interrupted));
+            // After an interruption some blocks may be ahead. What is recorded of them waits until all have doubled.
             let is_there = film.tiles_in_focus().all(|tile| tile.has_reached(spp));
-            film.is_noting = is_there;
-            if !is_there {
+            let is_done = film.tiles_in_focus().all(|tile| tile.distance_to(spp) == 0);
+            film.is_noting = is_there && !(is_done && film.tiles_in_focus().any(|tile| tile.is_ahead_of(spp)));
+            if !film.is_noting {
                 return count;
             }
         }
@@ -159,6 +173,13 @@ impl PassCount {
             failure: self.failure.or(other.failure),
         }
     }
+}
+
+/// Where all blocks of an adaptive film meet on the way to `spp`: what is recorded of their noise depends on the samples that all have
+/// by then, which must not depend on how the way is cut into passes.
+fn next_stop(film: &mut Film, spp: u32) -> u32 {
+    let least = film.tiles_in_focus().map(|tile| tile.spp).min().unwrap_or(spp);
+    if film.is_adaptive() { least.saturating_add(1).checked_next_power_of_two().map_or(spp, |next| next.min(spp)) } else { spp }
 }
 
 /// The first sample of the work that panics when it is replayed alone.

@@ -7,14 +7,35 @@ use std::{
     thread::JoinHandle,
 };
 
-use crossbeam_channel::{Receiver, Sender, unbounded};
+use crossbeam_channel::{Receiver, Sender, bounded, unbounded};
 
 use super::{Message, Shared, Worker, lock};
 use crate::render::{
+    checkpoint::{KeepPlan, KeptRender},
     protocol::{Budget, Publish, Published, RenderRequest, RenderTask},
     scene_edit::{EditResult, SceneEdit},
     threads::Threads,
 };
+
+/// Asks the worker for checkpoints, from any thread.
+#[derive(Clone)]
+pub struct KeepHandle {
+    sender: Sender<Message>,
+    shared: Arc<Shared>,
+}
+
+impl KeepHandle {
+    /// Keeps the first image once, if it has this number still. The events of the plan have the result.
+    pub fn keep_once(&self, generation: u64, plan: KeepPlan) {
+        send(&self.sender, &self.shared, Message::KeepOnce(generation, Box::new(plan)));
+    }
+}
+
+fn send(sender: &Sender<Message>, shared: &Shared, message: Message) {
+    // Counted before it is sent: a pass that sees the count stops and finds the message, at the latest a moment later.
+    shared.sent.fetch_add(1, Ordering::SeqCst);
+    let _ = sender.send(message);
+}
 
 /// The handle to the worker. Dropping it stops the thread.
 pub struct Renderer {
@@ -38,6 +59,28 @@ impl Renderer {
     /// Renders this instead of earlier requests. Frames and figures carry `generation`, the number of the image.
     pub fn submit(&self, generation: u64, request: RenderRequest) {
         self.send(Message::First(generation, Box::new(request)));
+    }
+
+    /// Continues a render from its checkpoint instead of earlier requests.
+    pub fn submit_kept(&self, generation: u64, request: RenderRequest, kept: KeptRender) {
+        self.send(Message::Continue(generation, Box::new((request, kept))));
+    }
+
+    /// Keeps the first image by this plan from now on, or no longer.
+    pub fn set_plan(&self, plan: Option<KeepPlan>) {
+        self.send(Message::Keep(plan.map(Box::new)));
+    }
+
+    /// Writes a checkpoint by the plan. The receiver hears when it is on the disk or has failed.
+    pub fn keep_now(&self) -> Receiver<()> {
+        let (sender, receiver) = bounded(1);
+        self.send(Message::KeepNow(sender));
+        receiver
+    }
+
+    /// What asks for checkpoints from other threads.
+    pub fn keep_handle(&self) -> KeepHandle {
+        KeepHandle { sender: self.sender.clone(), shared: self.shared.clone() }
     }
 
     /// Compiles a changed scene and renders it instead of earlier requests. The threads and the film stay.
@@ -81,9 +124,7 @@ impl Renderer {
     }
 
     fn send(&self, message: Message) {
-        // Counted before it is sent: a pass that sees the count stops and finds the message, at the latest a moment later.
-        self.shared.sent.fetch_add(1, Ordering::SeqCst);
-        let _ = self.sender.send(message);
+        send(&self.sender, &self.shared, message);
     }
 }
 
