@@ -15,6 +15,7 @@ pub mod denoise;
 pub mod display;
 mod error_estimator;
 pub mod estimate;
+mod exact_sum;
 pub mod film;
 pub mod frame;
 pub mod halves;
