@@ -69,6 +69,8 @@ pub mod progress;
 pub mod quote;
 #[doc(hidden)]
 pub mod render;
+#[doc(hidden)]
+pub mod render_file;
 #[cfg(feature = "reports")]
 #[doc(hidden)]
 pub mod report;

@@ -8,7 +8,7 @@ const LAYERS: [&[&str]; 13] = [
     &["validate", "study"],
     &["render", "report"],
     &["export"],
-    &["measure", "import"],
+    &["measure", "import", "render_file"],
     &["integrator", "edit"],
     &["scene"],
     &["light"],

@@ -1,0 +1,87 @@
+//! The header of a render file.
+use serde::{Deserialize, Serialize};
+
+use super::NamedFile;
+use crate::scene::{Camera, RenderSettings};
+
+/// Everything that the image of a file depends on, and how far it is rendered. JSON in the file; later programs may add keys.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Header {
+    /// What the sections hold.
+    pub kind: Kind,
+    /// Name, version and commit of the program that wrote the file.
+    pub program: String,
+    /// The scene.
+    pub scene: KeptScene,
+    /// The camera, with the resolution of the image.
+    pub camera: Camera,
+    /// The settings of the estimate.
+    pub settings: RenderSettings,
+    /// The files that the scene names.
+    pub files: Vec<NamedFile>,
+    /// Hashes of the first sample of some tiles, by their place in the film. Another scene or program would give others.
+    pub probe: Vec<(u32, String)>,
+    /// Figures of the render.
+    pub counters: Counters,
+    /// Which samples of every pixel a file of [`Kind::Samples`] holds: ranges of indices, the second number excluded.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub samples: Vec<[u32; 2]>,
+    /// How the image differs from one that was rendered in one go, if it does.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub remarks: Vec<String>,
+}
+
+/// What a file is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Kind {
+    /// The state of a render, which continues with its next sample.
+    Progress,
+    /// Some samples of every pixel, to be joined with others.
+    Samples,
+}
+
+/// A scene, and how it is opened again.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct KeptScene {
+    /// Its text in our format.
+    pub text: String,
+    /// Name of the file that it was read from.
+    pub name: String,
+    /// The absolute path of the folder of that file.
+    pub folder: String,
+    /// How the file of another program is read; absent for scenes of ours, which are read from `text`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub choices: Option<SceneChoices>,
+}
+
+/// Choices of the user about the file of another program.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct SceneChoices {
+    /// Values of parameters: `-D`.
+    pub defines: Vec<(String, String)>,
+    /// Time of animations: `--at`.
+    pub time: Option<f64>,
+    /// Variant of materials: `--variant`.
+    pub variant: Option<String>,
+    /// Whether files outside of the folder may be read: `--allow-outside`.
+    pub allow_outside: bool,
+}
+
+/// Figures of a render so far.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Counters {
+    /// Seconds of rendering.
+    pub seconds: f64,
+    /// Rays traced.
+    pub rays: u64,
+    /// Paths cut because they were too long.
+    pub cut_paths: u64,
+    /// Column, row and index of the first invalid sample.
+    pub first_invalid: Option<[u32; 3]>,
+}
+
+impl Header {
+    /// Name, version and commit of this program.
+    pub const PROGRAM: &str = concat!("Noisefall ", env!("CARGO_PKG_VERSION"), " (", env!("NOISEFALL_COMMIT"), ")");
+}
