@@ -8,6 +8,7 @@
 //! ```
 //! The window states what it wants and never waits; see [`worker`].
 mod adaptive;
+pub mod area;
 mod block;
 mod coarse;
 pub mod colour_map;
@@ -24,6 +25,7 @@ pub mod layers;
 mod noise_layer;
 mod non_local_means;
 pub mod pass;
+mod pass_count;
 pub mod path_formula;
 pub mod path_samples;
 pub mod path_text;
@@ -32,6 +34,7 @@ pub mod region;
 #[cfg(feature = "cli")]
 pub mod replay_command;
 mod sample_counts;
+mod sampled_tile;
 mod scatter;
 mod scene_edit;
 pub mod series;

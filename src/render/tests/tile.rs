@@ -64,7 +64,7 @@ fn samples_that_are_no_light_are_black_counted_and_named() {
 fn blocks_have_places_sizes_and_corners() {
     let tile = tile();
     assert_eq!(tile.blocks.len(), 6);
-    assert_eq!([0, 2, 3, 5].map(|block| tile.corner(block)), [[64, 32], [80, 32], [64, 40], [80, 40]]);
+    assert_eq!([0, 2, 3, 5].map(|block| tile.area().corner(block)), [[64, 32], [80, 32], [64, 40], [80, 40]]);
     assert_eq!([0, 2, 3, 5].map(|block| tile.block_size(tile.place(block))), [[8, 8], [3, 8], [8, 5], [3, 5]]);
 }
 
