@@ -5,7 +5,7 @@ mod target;
 use std::{fs::File, io, path::Path};
 
 pub use numbered::numbered;
-pub use target::{WriteError, check, replace};
+pub use target::{WriteError, check, replace, replace_by};
 
 /// Opens a regular file for reading. Anything else is an error: reading from a pipe could wait for ever.
 pub fn open_regular(path: &Path) -> io::Result<File> {

@@ -6,7 +6,7 @@ use std::{
     ffi::{OsStr, OsString},
     fs::{self, File, FileType, TryLockError},
     hash::{DefaultHasher, Hash, Hasher},
-    io::{self, ErrorKind, Write},
+    io::{self, BufWriter, ErrorKind, Write},
     path::{Path, PathBuf},
 };
 
@@ -54,10 +54,15 @@ pub fn check(path: &Path) -> Result<(), WriteError> {
 
 /// Replaces a file, or leaves it unchanged on failure. Symbolic links are followed.
 pub fn replace(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
+    replace_by(path, |to| to.write_all(bytes))
+}
+
+/// The same with bytes that are written piece by piece.
+pub fn replace_by(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), WriteError> {
     let target = Target::of(path)?;
     let write = || {
         let mut file = target.temporary()?;
-        fill(file.as_file_mut(), bytes)?;
+        fill(file.as_file_mut(), write)?;
         file.persist(&target.path)?;
         Ok(())
     };
@@ -83,8 +88,11 @@ impl Durable for File {
 }
 
 /// Writes and syncs the bytes, so that a rename cannot reach the disk before them.
-fn fill(file: &mut impl Durable, bytes: &[u8]) -> io::Result<()> {
-    file.write_all(bytes)?;
+fn fill(file: &mut impl Durable, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
+    let mut buffered = BufWriter::new(&mut *file);
+    write(&mut buffered)?;
+    buffered.flush()?;
+    drop(buffered);
     file.sync()
 }
 

@@ -19,7 +19,7 @@ use crate::{
 };
 
 /// Exponents of the minimum and maximum rate, to base two.
-const RATES: [i32; 2] = [-2, 4];
+pub(super) const RATES: [i32; 2] = [-2, 4];
 /// Width and height of the squares from which the pilot estimates noise; four make up a block.
 const SQUARE: u32 = BLOCK / 2;
 /// Minimum noise of a block relative to the average, because a pilot may miss it.

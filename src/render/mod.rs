@@ -10,6 +10,7 @@
 mod adaptive;
 pub mod area;
 mod block;
+pub mod checkpoint;
 mod coarse;
 pub mod colour_map;
 pub mod denoise;

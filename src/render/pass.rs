@@ -31,6 +31,18 @@ impl Threads {
             }
         }
         film.shares |= job.scene.shares(job.rays, job.settings);
+        let mut count = PassCount::default();
+        loop {
+            let next = next_stop(film, spp);
+            count = count.merge(self.to_stop(job, film, next, interrupted));
+            if next == spp || !film.tiles_in_focus().all(|tile| tile.spp >= next) {
+                return count;
+            }
+        }
+    }
+
+    /// Brings a film to `spp` samples per pixel, from doubling to doubling of the samples of its blocks.
+    fn to_stop(&self, job: PassJob, film: &mut Film, spp: u32, interrupted: &(dyn Fn() -> bool + Sync)) -> PassCount {
         // All tiles meet where their samples have doubled, for how far they have moved is seen over the whole picture.
         let mut count = PassCount::default();
         loop {
@@ -109,4 +121,11 @@ impl SampledTile for Towards<'_> {
             }
         }
     }
+}
+
+/// Where all blocks of an adaptive film meet on the way to `spp`: what is recorded of their noise depends on the samples that all have
+/// by then, which must not depend on how the way is cut into passes.
+fn next_stop(film: &mut Film, spp: u32) -> u32 {
+    let least = film.tiles_in_focus().map(|tile| tile.spp).min().unwrap_or(spp);
+    if film.is_adaptive() { least.saturating_add(1).checked_next_power_of_two().map_or(spp, |next| next.min(spp)) } else { spp }
 }

@@ -16,6 +16,16 @@ impl Scatter {
         self.squares += deviation * (x - self.mean);
     }
 
+    /// Its numbers, for a file.
+    pub fn numbers(&self) -> [f64; 3] {
+        [self.count, self.mean, self.squares]
+    }
+
+    /// The scatter with these numbers.
+    pub fn of_numbers([count, mean, squares]: [f64; 3]) -> Scatter {
+        Scatter { count, mean, squares }
+    }
+
     /// Variance of the mean of at least two numbers.
     pub fn variance_of_mean(&self) -> f64 {
         self.squares / (self.count * (self.count - 1.0))
@@ -42,6 +52,16 @@ impl Parts {
             self.sum += part;
             self.squares += part * part;
         }
+    }
+
+    /// Its numbers, for a file.
+    pub fn numbers(&self) -> [f64; 2] {
+        [self.sum, self.squares]
+    }
+
+    /// The parts with these numbers.
+    pub fn of_numbers([sum, squares]: [f64; 2]) -> Parts {
+        Parts { sum, squares }
     }
 
     /// Converts the parts of pixels with `count` samples to those of the variance of the pixels' means.

@@ -1,4 +1,5 @@
 //! The render of one image: its films, from coarse to full, and the size of the next pass.
+mod keeping;
 mod kept;
 mod publishing;
 
@@ -6,6 +7,7 @@ use std::time::{Duration, Instant};
 
 pub(super) use self::kept::KeptSessions;
 use super::{
+    block::UNIFORM,
     coarse::Coarse,
     film::Film,
     halves::Halves,
@@ -192,7 +194,7 @@ impl Session {
         }
         self.film.focus = self.focus(budget);
         let spp = self.spp_in_focus();
-        let target = if budget.paused { spp + 1 } else { spp + self.spp_of_pass(budget, publish) };
+        let target = if budget.paused { spp + 1 } else { self.target_of_pass(budget, publish) };
         let RenderRequest { scene, camera, settings } = &self.request;
         let rays = scene.rays(camera);
         let Ok(settings) = threads.install(|| resolved_unless(scene, &rays, settings, interrupted)) else { return };
@@ -241,6 +243,14 @@ impl Session {
         if samples >= ENOUGH_TO_TELL {
             self.rate = Some(samples as f64 / took.as_secs_f64().max(1e-9));
         }
+    }
+
+    /// The samples of every pixel after the next pass.
+    fn target_of_pass(&self, budget: &Budget, publish: Publish) -> u32 {
+        let target = self.spp_in_focus() + self.spp_of_pass(budget, publish);
+        // The first doubling of the average ends together for all blocks, so that records of noise do not depend on the passes.
+        let first = if self.request.settings.adaptive && target > UNIFORM { target.max(2 * UNIFORM) } else { target };
+        budget.max_spp.map_or(first, |most| first.min(most.max(target)))
     }
 
     /// The number of samples that fit between two frames.

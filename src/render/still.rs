@@ -4,6 +4,7 @@ use std::{ops::ControlFlow, time::Duration};
 use crossbeam_channel::{Receiver, RecvTimeoutError, bounded};
 
 use super::{
+    checkpoint::{KeepPlan, KeptRender},
     protocol::{Budget, Publish, Published, RenderRequest, RenderTask, State},
     threads::Threads,
     worker::Renderer,
@@ -45,6 +46,24 @@ impl StillRenderer {
         self.renderer.set_budget(self.budget);
         self.renderer.submit(self.image, request);
         self.finished(Renderer::latest, watch)
+    }
+
+    /// Continues an image from its checkpoint.
+    pub fn continued(&mut self, request: RenderRequest, kept: KeptRender, watch: Watch) -> Result<Published, RendererEnded> {
+        self.image += 1;
+        self.renderer.set_budget(self.budget);
+        self.renderer.submit_kept(self.image, request, kept);
+        self.finished(Renderer::latest, watch)
+    }
+
+    /// Keeps the next image by this plan.
+    pub fn set_plan(&self, plan: KeepPlan) {
+        self.renderer.set_plan(Some(plan));
+    }
+
+    /// Keeps the image as it is, and waits until it is on the disk or has failed.
+    pub fn keep_now(&self) -> Result<(), RendererEnded> {
+        self.renderer.keep_now().recv().map_err(|_| RendererEnded)
     }
 
     /// Renders the same image by number of bounces, with samples of its own.

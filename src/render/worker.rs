@@ -8,6 +8,7 @@
 //! An image that was rendered before continues with its samples; the image that is being rendered starts over if it is requested
 //! again. A second image can be rendered beside the first. From then on both get the same time: the one that had less is next.
 mod handle;
+mod keeping;
 mod start;
 
 use std::{
@@ -18,10 +19,11 @@ use std::{
     time::Duration,
 };
 
-use crossbeam_channel::Receiver;
+use crossbeam_channel::{Receiver, Sender};
 
 pub use self::handle::Renderer;
 use super::{
+    checkpoint::{KeepPlan, Keeper, KeptRender},
     protocol::{Budget, Publish, Published, RenderRequest, RenderTask, State},
     scene_edit::{SceneEdit, SceneEdits},
     session::{KeptSessions, Session},
@@ -30,10 +32,16 @@ use super::{
 
 enum Message {
     First(u64, Box<RenderRequest>),
+    /// The first image, from its checkpoint.
+    Continue(u64, Box<(RenderRequest, KeptRender)>),
     Edit(u64, Box<SceneEdit>),
     Second(u64, Box<RenderTask>),
     StopSecond,
     Budget(Budget),
+    /// Keeps the first image from now on, or no longer.
+    Keep(Option<Box<KeepPlan>>),
+    /// Keeps it now, and answers when the file is there.
+    KeepNow(Sender<()>),
     Threads(Threads),
     Quit,
 }
@@ -65,6 +73,8 @@ struct Worker {
     /// Images to go back to.
     kept: KeptSessions,
     edits: SceneEdits,
+    /// Writes checkpoints of the first image.
+    keeper: Option<Keeper>,
     /// Camera samples per second before an edit: a change of the scene rarely changes it much.
     rate: Option<f64>,
 }
@@ -82,6 +92,7 @@ impl Worker {
             leads: [Duration::ZERO; 2],
             kept: KeptSessions::default(),
             edits: SceneEdits::default(),
+            keeper: None,
             rate: None,
         }
     }
@@ -98,6 +109,7 @@ impl Worker {
                 let (sent, seen) = (&self.shared.sent, self.seen);
                 session.advance(&self.threads, &self.budget, self.publish, &|| sent.load(Ordering::Relaxed) != seen);
             }
+            self.keep_if_due();
             for side in 0..self.sessions.len() {
                 // A large frame that is out of date already would only hold up what was asked for since. A coarse one is quick,
                 // and while the camera is dragged there is never anything but coarse ones.
@@ -161,6 +173,12 @@ impl Worker {
                 self.edits.set(None);
                 self.start(0, generation, RenderTask::Picture(*request));
             }
+            Message::Continue(generation, render) => {
+                self.edits.set(None);
+                self.start_kept(generation, *render);
+            }
+            Message::Keep(plan) => self.set_plan(plan.map(|plan| *plan)),
+            Message::KeepNow(kept) => self.keep_now(&kept),
             Message::Edit(generation, edit) => self.edits.set(Some((generation, edit))),
             Message::StopSecond => {
                 self.sessions[1].take().into_iter().for_each(|session| drop(self.kept.keep(session)));

@@ -17,6 +17,9 @@ pub struct Header {
     pub camera: Camera,
     /// The settings of the estimate.
     pub settings: RenderSettings,
+    /// Where the render stops.
+    #[serde(default)]
+    pub target: Target,
     /// The files that the scene names.
     pub files: Vec<NamedFile>,
     /// Hashes of the first sample of some tiles, by their place in the film. Another scene or program would give others.
@@ -66,6 +69,17 @@ pub struct SceneChoices {
     pub variant: Option<String>,
     /// Whether files outside of the folder may be read: `--allow-outside`.
     pub allow_outside: bool,
+}
+
+/// Where a render stops: at the first of these.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Target {
+    /// Samples per pixel.
+    pub spp: Option<u32>,
+    /// Seconds of rendering.
+    pub seconds: Option<f64>,
+    /// Relative noise.
+    pub noise: Option<f64>,
 }
 
 /// Figures of a render so far.

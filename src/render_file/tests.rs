@@ -16,6 +16,7 @@ fn header() -> Header {
         scene: KeptScene { text: scene.source.clone(), name: "a.toml".to_owned(), folder: "/".to_owned(), choices: None },
         camera: scene.camera,
         settings: scene.settings,
+        target: Target { noise: Some(0.01), ..Target::default() },
         files: Vec::new(),
         probe: vec![(0, sha256(b"radiance"))],
         counters: Counters { seconds: 0.1 + 0.2, ..Counters::default() },

@@ -58,7 +58,7 @@ pub use self::{
     load::{LARGEST_FILE, load, load_watched, read_text},
     material_instance::{BlendParts, MaterialInstance, Properties},
     object::Object,
-    parse::{BUILT_IN, built_in, describe, parse},
+    parse::{BUILT_IN, built_in, describe, parse, parse_watched},
     projection::Projection,
     rays::CameraRays,
     roulette::Roulette,

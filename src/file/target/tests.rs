@@ -40,10 +40,10 @@ impl Durable for Recorder {
 #[test]
 fn all_bytes_are_on_the_disk_before_the_rename() {
     let mut recorder = Recorder::default();
-    fill(&mut recorder, b"four").expect("it is written");
+    fill(&mut recorder, |to| to.write_all(b"four")).expect("it is written");
     assert_eq!(*recorder.calls.borrow(), ["write", "write", "sync"]);
     let mut failing = Recorder { sync_fails: true, ..Recorder::default() };
-    assert!(fill(&mut failing, b"four").is_err(), "what is not on the disk must not be renamed");
+    assert!(fill(&mut failing, |to| to.write_all(b"four")).is_err(), "what is not on the disk must not be renamed");
 }
 
 #[test]

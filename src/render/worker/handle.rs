@@ -7,10 +7,11 @@ use std::{
     thread::JoinHandle,
 };
 
-use crossbeam_channel::{Receiver, Sender, unbounded};
+use crossbeam_channel::{Receiver, Sender, bounded, unbounded};
 
 use super::{Message, Shared, Worker, lock};
 use crate::render::{
+    checkpoint::{KeepPlan, KeptRender},
     protocol::{Budget, Publish, Published, RenderRequest, RenderTask},
     scene_edit::{EditResult, SceneEdit},
     threads::Threads,
@@ -38,6 +39,23 @@ impl Renderer {
     /// Renders this instead of earlier requests. Frames and figures carry `generation`, the number of the image.
     pub fn submit(&self, generation: u64, request: RenderRequest) {
         self.send(Message::First(generation, Box::new(request)));
+    }
+
+    /// Continues a render from its checkpoint instead of earlier requests.
+    pub fn submit_kept(&self, generation: u64, request: RenderRequest, kept: KeptRender) {
+        self.send(Message::Continue(generation, Box::new((request, kept))));
+    }
+
+    /// Keeps the first image by this plan from now on, or no longer.
+    pub fn set_plan(&self, plan: Option<KeepPlan>) {
+        self.send(Message::Keep(plan.map(Box::new)));
+    }
+
+    /// Writes a checkpoint by the plan. The receiver hears when it is on the disk or has failed.
+    pub fn keep_now(&self) -> Receiver<()> {
+        let (sender, receiver) = bounded(1);
+        self.send(Message::KeepNow(sender));
+        receiver
     }
 
     /// Compiles a changed scene and renders it instead of earlier requests. The threads and the film stay.

@@ -3,6 +3,7 @@ use std::time::Duration;
 
 use super::Worker;
 use crate::render::{
+    checkpoint::KeptRender,
     film::Film,
     protocol::{RenderRequest, RenderTask},
     session::Session,
@@ -50,6 +51,17 @@ impl Worker {
             (_, RenderTask::Picture(request)) => Session::new(generation, request, self.publish, rate, &self.budget, film),
             (_, RenderTask::Series(request)) => Session::of_series(generation, request, rate, &self.budget),
         });
+        self.leads = self.sessions.each_ref().map(|session| session.as_ref().map_or(Duration::ZERO, Session::elapsed));
+    }
+
+    /// Continues an image from its checkpoint.
+    pub(super) fn start_kept(&mut self, generation: u64, (request, kept): (RenderRequest, KeptRender)) {
+        self.kept.retain_scene(&request.scene);
+        let old = self.sessions[0].take();
+        old.into_iter().for_each(|old| drop(self.kept.keep(old)));
+        let state = kept.into_state();
+        self.make_room(&RenderTask::Picture(request.clone()));
+        self.sessions[0] = Some(Session::of_kept(generation, request, &self.budget, state));
         self.leads = self.sessions.each_ref().map(|session| session.as_ref().map_or(Duration::ZERO, Session::elapsed));
     }
 

@@ -1,0 +1,34 @@
+//! Checkpoints of a session, and sessions that continue from one.
+use super::Session;
+use crate::render::{
+    checkpoint::{Keeper, KeptState, counters},
+    error_estimator::rel_mse_estimate,
+    pass::PassCount,
+    protocol::{Budget, Publish, RenderRequest},
+    threads::Threads,
+};
+
+impl Session {
+    /// Continues a render from its checkpoint.
+    pub fn of_kept(generation: u64, request: RenderRequest, budget: &Budget, kept: KeptState) -> Session {
+        let mut session = Session::new(generation, request, Publish::Sparse, None, budget, None);
+        let failure = session.count.failure.take();
+        let KeptState { film, count, elapsed } = kept;
+        // The budget may be reached already.
+        session.rel_mse_estimate = rel_mse_estimate(&film);
+        session.shares = film.shares;
+        (session.film, session.count, session.elapsed) = (film, PassCount { failure, ..count }, elapsed);
+        session.stale = true;
+        session
+    }
+
+    /// Whether there is anything to keep.
+    pub fn can_be_kept(&self) -> bool {
+        !self.is_coarse() && self.film.samples() > 0 && !self.film.has_series()
+    }
+
+    /// Writes a checkpoint. The render stands still meanwhile.
+    pub fn checkpoint(&self, keeper: &mut Keeper, threads: &Threads) {
+        keeper.keep(&self.film, counters(&self.count, self.elapsed), threads);
+    }
+}

@@ -1,0 +1,39 @@
+//! Checkpoints of the first image.
+use crossbeam_channel::Sender;
+
+use super::Worker;
+use crate::render::checkpoint::{KeepEvent, KeepPlan, Keeper};
+
+impl Worker {
+    /// Keeps the first image by this plan from now on, or no longer. A checkpoint that is being written is finished first.
+    pub(super) fn set_plan(&mut self, plan: Option<KeepPlan>) {
+        self.keeper = None;
+        let Some(plan) = plan else { return };
+        let events = plan.events.clone();
+        match Keeper::new(plan) {
+            Ok(keeper) => self.keeper = Some(keeper),
+            Err(error) => _ = events.send(KeepEvent::Failed(error.to_string())),
+        }
+    }
+
+    /// Writes a checkpoint if it is time for one.
+    pub(super) fn keep_if_due(&mut self) {
+        if self.keeper.as_mut().is_some_and(Keeper::is_due) {
+            self.keep();
+        }
+    }
+
+    /// Writes a checkpoint, and waits until it is on the disk. `kept` hears of that; the events have the result.
+    pub(super) fn keep_now(&mut self, kept: &Sender<()>) {
+        self.keep();
+        self.keeper.iter_mut().for_each(Keeper::report);
+        let _ = kept.send(());
+    }
+
+    fn keep(&mut self) {
+        let first = self.sessions[0].as_ref().filter(|first| first.can_be_kept());
+        if let (Some(keeper), Some(session)) = (&mut self.keeper, first) {
+            session.checkpoint(keeper, &self.threads);
+        }
+    }
+}
