@@ -1,5 +1,6 @@
 //! `noisefall render`: renders an image without a window, with the worker that also serves the window.
 use std::{
+    ops::Range,
     path::{Path, PathBuf},
     process::ExitCode,
     sync::Arc,
@@ -12,7 +13,7 @@ use noisefall::{
     math::SimdLevel,
     render::{Budget, Display, image_file::Format, layers::Layer, tev::DEFAULT_ADDRESS, threads::Threads, truth::Reference},
     sampling::{Directions, Sampler},
-    scene::{Camera, Estimator, RenderSettings, Reuse, Roulette, Scene},
+    scene::{Camera, Estimator, RenderSettings, Reuse, Roulette, Scene, description::SceneDescription},
 };
 
 use super::{
@@ -24,9 +25,11 @@ use super::{
     progress::{Plan, Rendering},
     render_memory,
     replay::{self, Form, Which},
+    samples::{ROUNDS, SampleJob},
     scene_file::SceneOptions,
     sequence::SequenceOptions,
     shot::Job,
+    split_image::is_sample_file,
 };
 
 /// Samples per pixel if neither the command nor the scene states a number.
@@ -51,6 +54,10 @@ pub struct Arguments {
     /// the last one counts
     #[arg(long, value_name = "N", value_parser = parse::samples, overrides_with_all = ["time", "noise"])]
     spp: Option<u32>,
+    /// Render the samples A to B - 1 of every pixel into sums whose bits do not depend on their order. -o FILE.nf keeps them for
+    /// `noisefall merge`, which joins any ranges to the bits of one run; -o FILE.exr or .png writes their image
+    #[arg(long, value_name = "A..B", value_parser = parse::sample_range, requires = "output", conflicts_with = "spp")]
+    samples: Option<Range<u32>>,
     /// Stop after a rendering time
     #[arg(long, value_name = "SECONDS", value_parser = parse::seconds, overrides_with_all = ["spp", "noise"])]
     time: Option<Duration>,
@@ -126,11 +133,11 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
         Ok(output) => output,
         Err(mistake) => return Ok(wrong_usage(&mistake)),
     };
-    if let Some(mistake) = arguments.sequence.mistake(output.as_ref()) {
+    if let Some(mistake) = arguments.sequence.mistake(output.as_ref()).or_else(|| arguments.split_mistake(output.as_ref())) {
         return Ok(wrong_usage(&mistake));
     }
     let start = Instant::now();
-    let Opened { scene, remarks, .. } = arguments.options.open(&arguments.scene)?;
+    let Opened { scene, remarks, description } = arguments.options.open(&arguments.scene)?;
     let scene = Arc::new(scene);
     let camera = Camera { resolution: arguments.size.unwrap_or(scene.camera.resolution), ..scene.camera };
     camera.check().map_err(|error| error.to_string())?;
@@ -143,6 +150,9 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let shots = arguments.sequence.shots(camera, &output)?;
     if shots.is_empty() {
         return Ok(ExitCode::SUCCESS);
+    }
+    if let Some(range) = &arguments.samples {
+        return arguments.sample_job(scene, description, settings, range.clone())?.run(&shots);
     }
     shots.iter().try_for_each(|shot| shot.output.check())?;
     let budget = arguments.budget(&scene)?;
@@ -217,6 +227,44 @@ impl Arguments {
             tell("note: an EXR stores the radiance unchanged; --exposure, --white-balance and --tone affect a PNG only");
         }
         layers
+    }
+
+    /// The mistake in the options of a range of samples, if there is one.
+    fn split_mistake(&self, output: Option<&Output>) -> Option<String> {
+        let Some(output) = output else { return None };
+        if self.samples.is_none() {
+            let advice = "--samples A..B says which, such as --samples 0..64";
+            return is_sample_file(output).then(|| format!("{output}: a file of samples is to be written, but {advice}"));
+        }
+        let others = [("--time", self.time.is_some()), ("--noise", self.noise.is_some())];
+        if let Some((option, _)) = others.iter().find(|(_, is_given)| *is_given) {
+            return Some(format!("{option} {ROUNDS}"));
+        }
+        let others = [("--layers", self.layers.is_some()), ("--denoise", self.denoise), ("--tev", self.tev.is_some())];
+        let other = others.iter().find(|(_, is_given)| *is_given);
+        other.map(|(option, _)| format!("{option} cannot be combined with --samples, whose sums are of the image alone"))
+    }
+
+    fn sample_job(
+        &self,
+        scene: Arc<Scene>,
+        description: Option<Arc<SceneDescription>>,
+        settings: RenderSettings,
+        range: Range<u32>,
+    ) -> Result<SampleJob<'_>, Failure> {
+        scene.warnings().iter().chain(&scene.infinite_variance(&settings)).for_each(|warning| tell(&format!("note: {warning}")));
+        Ok(SampleJob {
+            scene_path: &self.scene,
+            description,
+            import: self.options.import_options(),
+            scene_options: self.options.words(),
+            settings,
+            display: self.display.display(scene.exposure),
+            range,
+            threads: Threads::new(self.threads.into(), SimdLevel::best()).map_err(|error| error.to_string())?,
+            json: self.json,
+            scene,
+        })
     }
 
     fn form(&self) -> Form<'_> {

@@ -73,8 +73,8 @@ impl Join {
         Ok(Join { header, samples: SampleRanges::default(), tiles, sources: Vec::new(), _memory: memory })
     }
 
-    /// Checks whether a file belongs to the image, and has samples that are not there yet.
-    pub fn check(&self, file: &SampleFile) -> Result<(), JoinError> {
+    /// Enters a file before it is added, if it belongs to the image and has samples that are not there yet.
+    pub fn enter(&mut self, file: &SampleFile) -> Result<(), JoinError> {
         let path = || file.path().to_owned();
         if let Some((first, _)) = self.sources.first()
             && let Some(difference) = difference(file.header(), &self.header)
@@ -82,13 +82,14 @@ impl Join {
             return Err(JoinError::Foreign { path: path(), first: first.clone(), difference });
         }
         let overlaps = self.sources.iter().map(|(other, samples)| (other, file.samples().overlap(samples)));
-        match { overlaps }.find(|(_, samples)| !samples.is_empty()) {
-            Some((other, samples)) => Err(JoinError::Overlap { path: path(), other: other.clone(), samples }),
-            None => Ok(()),
+        if let Some((other, samples)) = { overlaps }.find(|(_, samples)| !samples.is_empty()) {
+            return Err(JoinError::Overlap { path: path(), other: other.clone(), samples });
         }
+        self.sources.push((path(), file.samples().clone()));
+        Ok(())
     }
 
-    /// Adds a file, which must have passed [`Join::check`]. After an error, the sums are useless.
+    /// Adds the sums of a file that was entered. After an error, those so far are useless.
     pub fn add(&mut self, file: SampleFile) -> Result<(), JoinError> {
         let (path, samples, counters) = (file.path().to_owned(), file.samples().clone(), file.header().counters);
         let tiles = &mut self.tiles;
@@ -98,7 +99,6 @@ impl Join {
         self.samples = self.samples.joined(&samples).unwrap_or_default();
         self.header.samples = self.samples.list().to_vec();
         self.header.counters = sum(&self.header.counters, &counters);
-        self.sources.push((path, samples));
         Ok(())
     }
 
@@ -117,7 +117,7 @@ impl Join {
         &self.sources
     }
 
-    /// Whether a file has been added.
+    /// Whether a file has been entered.
     pub fn has(&self, path: &Path) -> bool {
         self.sources.iter().any(|(source, _)| source == path)
     }
