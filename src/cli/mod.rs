@@ -8,6 +8,7 @@ mod figures;
 mod flip;
 #[cfg(feature = "reports")]
 mod folder;
+mod keeping;
 mod layers;
 #[cfg(feature = "reports")]
 mod lists;

@@ -1,18 +1,30 @@
 //! Rendering until a target is reached, with a progress bar.
 use std::{
     ops::ControlFlow,
+    path::PathBuf,
     sync::{
         Arc,
         atomic::{AtomicBool, Ordering},
     },
+    time::Duration,
 };
 
+use crossbeam_channel::Receiver;
+
 use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
-use noisefall::render::{Budget, Published, RenderRequest, Status, still::StillRenderer, threads::Threads};
+use noisefall::render::{
+    Budget, Published, RenderRequest, Status,
+    checkpoint::{KeepEvent, KeptRender},
+    still::StillRenderer,
+    threads::Threads,
+};
 
 use super::{
+    keeping::{Keeping, message},
     live::LiveView,
     messages::{Failure, tell},
+    output::Output,
+    scene_file::quoted,
     stop::stop_signal,
     summary::noise_text,
 };
@@ -45,9 +57,23 @@ impl Plan {
 /// The worker of a command, and the progress of its images.
 pub struct Rendering {
     stills: StillRenderer,
+    checkpoints: Checkpoints,
     stop: Arc<AtomicBool>,
     progress: Progress,
     live: LiveView,
+}
+
+/// The checkpoints of the image.
+#[derive(Default)]
+struct Checkpoints {
+    path: Option<PathBuf>,
+    events: Option<Receiver<KeepEvent>>,
+    /// What the image continues from.
+    kept: Option<KeptRender>,
+    /// Render time before this run.
+    earlier: Duration,
+    /// Why the last one was not written.
+    failure: Option<String>,
 }
 
 /// The progress bar of all images.
@@ -68,7 +94,29 @@ impl Rendering {
         let stop = stop_signal(plan.interruption())?;
         let bar = if quiet { ProgressBar::hidden() } else { progress_bar(&budget, &plan) };
         let progress = Progress { budget, bar, plan, image: 0, finished: 0 };
-        Ok(Rendering { stills: StillRenderer::new(threads, budget), stop, progress, live })
+        Ok(Rendering { stills: StillRenderer::new(threads, budget), checkpoints: Checkpoints::default(), stop, progress, live })
+    }
+
+    /// Keeps the image, and continues from what was kept of it.
+    pub fn keep(&mut self, Keeping { plan, events, kept, .. }: Keeping) {
+        let path = plan.as_ref().map(|plan| plan.path.clone());
+        let earlier = kept.as_ref().map_or(Duration::ZERO, KeptRender::elapsed);
+        plan.into_iter().for_each(|plan| self.stills.set_plan(plan));
+        self.checkpoints = Checkpoints { path, events, kept, earlier, failure: None };
+    }
+
+    /// Render time of the image before this run.
+    pub fn earlier(&self) -> Duration {
+        self.checkpoints.earlier
+    }
+
+    /// Tells after an interruption how the render is continued.
+    pub fn tell_how_to_go_on(&self, output: &Output) {
+        let Checkpoints { path, failure, .. } = &self.checkpoints;
+        if let Some(path) = path.as_ref().filter(|_| self.is_interrupted() && failure.is_none()) {
+            let path = quoted(&path.to_string_lossy());
+            tell(&format!("{path} keeps the render: `noisefall render --resume {path} -o {output}` continues it"));
+        }
     }
 
     /// Whether the user has asked to stop.
@@ -79,17 +127,27 @@ impl Rendering {
     /// Renders the next image up to the budget.
     pub fn picture(&mut self, request: RenderRequest) -> Result<Published, Failure> {
         self.progress.image += 1;
-        let Rendering { stills, stop, progress, live } = self;
+        let Rendering { stills, checkpoints, stop, progress, live } = self;
+        let kept = checkpoints.kept.take();
         let mut watch = |published: &Published| {
             progress.show(&published.status);
+            checkpoints.report(&progress.bar);
             let is_of_image = published.frame.generation == published.status.generation;
             let warning = if is_of_image { live.show(&published.frame) } else { None };
             warning.into_iter().for_each(|warning| progress.bar.suspend(|| tell(&warning)));
             go_on(stop)
         };
-        let published = stills.picture(request, &mut watch).map_err(|error| error.to_string());
+        let published = match kept {
+            Some(kept) => stills.continued(request, kept, &mut watch),
+            None => stills.picture(request, &mut watch),
+        };
+        let published = published.map_err(|error| error.to_string())?;
+        if checkpoints.path.is_some() {
+            stills.keep_now().map_err(|error| error.to_string())?;
+            checkpoints.report(&progress.bar);
+        }
         self.progress.finished += 1;
-        published
+        Ok(published)
     }
 
     /// Renders the same image by number of bounces, with samples of its own.
@@ -109,9 +167,24 @@ impl Rendering {
         self.progress.bar.suspend(task)
     }
 
-    /// Waits until the live view has the last image.
-    pub fn finish(self) {
+    /// Waits until the live view has the last image. Fails if the render could not be kept.
+    pub fn finish(self) -> Result<(), Failure> {
         self.live.finish();
+        self.checkpoints.failure.map_or(Ok(()), |error| Err(format!("the render is not kept: {error}")))
+    }
+}
+
+impl Checkpoints {
+    /// Tells what has become of checkpoints.
+    fn report(&mut self, bar: &ProgressBar) {
+        for event in self.events.iter().flat_map(Receiver::try_iter) {
+            message(&event).into_iter().for_each(|text| bar.suspend(|| tell(&text)));
+            match event {
+                KeepEvent::Kept => self.failure = None,
+                KeepEvent::Failed(error) => self.failure = Some(error),
+                KeepEvent::Slower { .. } => {}
+            }
+        }
     }
 }
 

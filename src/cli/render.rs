@@ -9,14 +9,19 @@ use std::{
 
 use clap::ArgGroup;
 use noisefall::{
-    import::Opened,
+    import::{Opened, Remarks},
     math::SimdLevel,
-    render::{Budget, Display, image_file::Format, layers::Layer, tev::DEFAULT_ADDRESS, threads::Threads, truth::Reference},
+    render::{
+        Budget, Display, RenderRequest, checkpoint::is_kept_file, image_file::Format, layers::Layer, settings_text::options,
+        tev::DEFAULT_ADDRESS, threads::Threads, truth::Reference,
+    },
+    render_file::{Header, Target},
     sampling::{Directions, Sampler},
     scene::{Camera, Estimator, RenderSettings, Reuse, Roulette, Scene, description::SceneDescription},
 };
 
 use super::{
+    keeping::{KeepOptions, Resumed},
     layers::{Layers, parse as layers_of},
     live::{self, LiveView},
     messages::{Failure, tell, wrong_usage},
@@ -25,11 +30,10 @@ use super::{
     progress::{Plan, Rendering},
     render_memory,
     replay::{self, Form, Which},
-    samples::{ROUNDS, SampleJob},
+    samples::{self, SampleJob},
     scene_file::SceneOptions,
     sequence::SequenceOptions,
     shot::Job,
-    split_image::is_sample_file,
 };
 
 /// Samples per pixel if neither the command nor the scene states a number.
@@ -39,11 +43,13 @@ const DEFAULT_SPP: u32 = 256;
 #[command(
     group = ArgGroup::new("target"),
     allow_negative_numbers = true,
-    override_usage = "noisefall render [OPTIONS] <SCENE> -o <OUTPUT>\n       noisefall render [OPTIONS] <SCENE> --pixel <X,Y>"
+    override_usage = "noisefall render [OPTIONS] <SCENE> -o <OUTPUT>\n       noisefall render [OPTIONS] --resume <FILE> -o <OUTPUT>\n       \
+                      noisefall render [OPTIONS] <SCENE> --pixel <X,Y>"
 )]
 pub struct Arguments {
     /// Scene file: .toml, .gltf, .glb, .xml (Mitsuba), .pbrt, .obj, .ply, .stl, or an image that carries its scene
-    scene: PathBuf,
+    #[arg(required_unless_present = "resume")]
+    scene: Option<PathBuf>,
     /// Image to write: .png (sRGB, as displayed) or .exr (linear radiance); - for standard output
     #[arg(short, long, required_unless_present = "pixel")]
     output: Option<PathBuf>,
@@ -107,6 +113,8 @@ pub struct Arguments {
     denoise: bool,
     #[command(flatten)]
     sequence: SequenceOptions,
+    #[command(flatten)]
+    keep: KeepOptions,
     /// Show the image in the viewer tev while it is rendered: linear radiance, at most once a second
     #[arg(long, value_name = "HOST:PORT", num_args = 0..=1, default_missing_value = DEFAULT_ADDRESS, value_parser = live::address,
           conflicts_with = "pixel")]
@@ -133,15 +141,17 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
         Ok(output) => output,
         Err(mistake) => return Ok(wrong_usage(&mistake)),
     };
-    if let Some(mistake) = arguments.sequence.mistake(output.as_ref()).or_else(|| arguments.split_mistake(output.as_ref())) {
+    if let Some(mistake) = arguments.mistake(output.as_ref()) {
         return Ok(wrong_usage(&mistake));
     }
     let start = Instant::now();
-    let Opened { scene, remarks, description } = arguments.options.open(&arguments.scene)?;
-    let scene = Arc::new(scene);
-    let camera = Camera { resolution: arguments.size.unwrap_or(scene.camera.resolution), ..scene.camera };
-    camera.check().map_err(|error| error.to_string())?;
-    let settings = arguments.settings(&scene);
+    let begun = arguments.begin()?;
+    begun.camera.check().map_err(|error| error.to_string())?;
+    if let (Some(range), Some(output)) = (&arguments.samples, &output) {
+        let shots = arguments.sequence.shots(begun.camera, output)?;
+        return arguments.sample_job(begun, range.clone())?.run(&shots);
+    }
+    let Begun { scene, path, description, remarks, camera, settings, resumed } = begun;
     if let Some(pixel) = arguments.pixel {
         let which = arguments.sample.unwrap_or(Which::One(0));
         return replay::run(&scene, &camera, &settings, pixel, which, arguments.form()).map(|()| ExitCode::SUCCESS);
@@ -151,13 +161,11 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     if shots.is_empty() {
         return Ok(ExitCode::SUCCESS);
     }
-    if let Some(range) = &arguments.samples {
-        return arguments.sample_job(scene, description, settings, range.clone())?.run(&shots);
-    }
     shots.iter().try_for_each(|shot| shot.output.check())?;
-    let budget = arguments.budget(&scene)?;
+    let budget = arguments.budget(&scene, resumed.as_ref().map(|resumed| resumed.header().target))?;
     let layers = arguments.layers(&output);
-    let memory = render_memory::reserve(&layers.0, arguments.denoise, camera.resolution);
+    let memory =
+        render_memory::reserve(&layers.0, arguments.denoise, arguments.keep.is_asked() || resumed.is_some(), camera.resolution);
     let _memory = memory.map_err(|error| error.to_string())?;
     let reference = Reference::of(&scene);
     let mismatch = reference.as_ref().and_then(|truth| truth.mismatch(camera.resolution));
@@ -165,14 +173,19 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let infinite = scene.infinite_variance(&settings);
     scene.warnings().iter().chain(&infinite).for_each(|warning| tell(&format!("note: {warning}")));
     let threads = || Threads::new(arguments.threads.into(), SimdLevel::best()).map_err(|error| error.to_string());
+    let of_images = threads()?;
+    let request = RenderRequest { scene: scene.clone(), camera, settings };
+    let keeping =
+        arguments.keep.keeping((&request, description.as_deref(), &path), &arguments.options, &budget, resumed, &of_images)?;
     let job = Job {
-        scene_path: &arguments.scene,
+        scene_path: &path,
         settings,
         display: arguments.display.display(scene.exposure),
         layers: &layers,
         denoises: arguments.denoise,
         reference,
-        threads: threads()?,
+        threads: of_images,
+        mixed: keeping.remarks.clone(),
         build_seconds: start.elapsed().as_secs_f64(),
         is_sequence: arguments.sequence.is_asked(),
         scene_options: arguments.options.words(),
@@ -181,16 +194,16 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
         scene,
     };
     let plan = Plan { images: shots.len() as u64, has_bounces: layers.has_bounces(), is_sequence: job.is_sequence };
-    let live = LiveView::connect(arguments.tev.as_deref(), name(&job.scene, &arguments.scene))?;
+    let live = LiveView::connect(arguments.tev.as_deref(), name(&job.scene, &path))?;
     let mut rendering = Rendering::new(threads()?, budget, plan, job.json, live)?;
+    rendering.keep(keeping);
     for shot in &shots {
         let done = job.render(&mut rendering, shot)?;
         if done != ExitCode::SUCCESS {
             return Ok(done);
         }
     }
-    rendering.finish();
-    Ok(ExitCode::SUCCESS)
+    rendering.finish().map(|()| ExitCode::SUCCESS)
 }
 
 /// The title of a scene, or else the name of its file.
@@ -199,9 +212,79 @@ fn name(scene: &Scene, path: &Path) -> String {
     if scene.title.is_empty() { of_file() } else { scene.title.clone() }
 }
 
+/// A scene with the camera and settings of its image, and the render of it that is continued.
+struct Begun {
+    scene: Arc<Scene>,
+    path: PathBuf,
+    description: Option<Arc<SceneDescription>>,
+    remarks: Remarks,
+    camera: Camera,
+    settings: RenderSettings,
+    resumed: Option<Resumed>,
+}
+
 impl Arguments {
-    fn settings(&self, scene: &Scene) -> RenderSettings {
-        let of_scene = scene.settings;
+    /// The mistake in options that clap does not find, if there is one.
+    fn mistake(&self, output: Option<&Output>) -> Option<String> {
+        let resumed = self.sequence.resumed();
+        let scenes = [self.scene.as_deref(), self.sequence.scene(), resumed].into_iter().flatten().count();
+        let count = match scenes {
+            0 => Some("the scene is missing"),
+            1 => None,
+            _ => Some("give either a scene or --resume FILE: the file has its scene"),
+        };
+        let of_sequence = self.sequence.mistake(output);
+        let of_samples = || samples::mistake(output, self.samples.is_some(), &self.excluded_by_samples());
+        of_sequence.or_else(|| count.map(str::to_owned)).or_else(|| self.keep.mistake(resumed)).or_else(of_samples)
+    }
+
+    /// Opens the scene, or the file of a render that is continued.
+    fn begin(&self) -> Result<Begun, Failure> {
+        match self.sequence.resumed() {
+            Some(file) => self.resume(file),
+            None => self.open(),
+        }
+    }
+
+    fn open(&self) -> Result<Begun, Failure> {
+        let path = self.scene.as_deref().or(self.sequence.scene()).unwrap_or(Path::new("")).to_owned();
+        if is_kept_file(&path) {
+            return Err(format!("{0}: this is a kept render; `render --resume {0}` continues it", path.display()));
+        }
+        let Opened { scene, remarks, description } = self.options.open(&path)?;
+        let camera = Camera { resolution: self.size.unwrap_or(scene.camera.resolution), ..scene.camera };
+        let settings = self.settings(scene.settings);
+        Ok(Begun { scene: Arc::new(scene), path, description, remarks, camera, settings, resumed: None })
+    }
+
+    fn resume(&self, file: &Path) -> Result<Begun, Failure> {
+        let resumed = self.keep.resume(file)?;
+        let Header { camera, settings, scene, .. } = resumed.header().clone();
+        self.check_same_image(&resumed)?;
+        let Opened { scene: opened, remarks, description } = resumed.open()?;
+        let path = Path::new(&scene.folder).join(&scene.name);
+        Ok(Begun { scene: Arc::new(opened), path, description, remarks, camera, settings, resumed: Some(resumed) })
+    }
+
+    /// Refuses options that would change the image of a render that is continued.
+    fn check_same_image(&self, resumed: &Resumed) -> Result<(), Failure> {
+        let Header { camera, settings, .. } = resumed.header();
+        let of_scene = self.options.words();
+        if !of_scene.is_empty() {
+            return Err(resumed.has_scene(&of_scene));
+        }
+        let given = self.settings(*settings);
+        if given != *settings {
+            return Err(resumed.changes_image(&options(&given, settings), &options(settings, &given)));
+        }
+        let size = |[width, height]: [u32; 2]| format!("--size {width}x{height}");
+        match self.size.filter(|given| *given != camera.resolution) {
+            Some(given) => Err(resumed.changes_image(&size(given), &size(camera.resolution))),
+            None => Ok(()),
+        }
+    }
+
+    fn settings(&self, of_scene: RenderSettings) -> RenderSettings {
         RenderSettings {
             sampler: self.sampler.unwrap_or(of_scene.sampler),
             estimator: self.estimator.unwrap_or(of_scene.estimator),
@@ -229,32 +312,23 @@ impl Arguments {
         layers
     }
 
-    /// The mistake in the options of a range of samples, if there is one.
-    fn split_mistake(&self, output: Option<&Output>) -> Option<String> {
-        let Some(output) = output else { return None };
-        if self.samples.is_none() {
-            let advice = "--samples A..B says which, such as --samples 0..64";
-            return is_sample_file(output).then(|| format!("{output}: a file of samples is to be written, but {advice}"));
-        }
-        let others = [("--time", self.time.is_some()), ("--noise", self.noise.is_some())];
-        if let Some((option, _)) = others.iter().find(|(_, is_given)| *is_given) {
-            return Some(format!("{option} {ROUNDS}"));
-        }
-        let others = [("--layers", self.layers.is_some()), ("--denoise", self.denoise), ("--tev", self.tev.is_some())];
-        let other = others.iter().find(|(_, is_given)| *is_given);
-        other.map(|(option, _)| format!("{option} cannot be combined with --samples, whose sums are of the image alone"))
+    /// The options that a range of samples excludes, and whether they are given.
+    fn excluded_by_samples(&self) -> [(&'static str, bool); 7] {
+        [
+            ("--time", self.time.is_some()),
+            ("--noise", self.noise.is_some()),
+            ("--layers", self.layers.is_some()),
+            ("--denoise", self.denoise),
+            ("--tev", self.tev.is_some()),
+            ("--checkpoint", self.keep.is_asked()),
+            ("--resume FILE", self.sequence.resumed().is_some()),
+        ]
     }
 
-    fn sample_job(
-        &self,
-        scene: Arc<Scene>,
-        description: Option<Arc<SceneDescription>>,
-        settings: RenderSettings,
-        range: Range<u32>,
-    ) -> Result<SampleJob<'_>, Failure> {
-        scene.warnings().iter().chain(&scene.infinite_variance(&settings)).for_each(|warning| tell(&format!("note: {warning}")));
+    fn sample_job(&self, begun: Begun, range: Range<u32>) -> Result<SampleJob, Failure> {
+        let Begun { scene, path, description, settings, .. } = begun;
         Ok(SampleJob {
-            scene_path: &self.scene,
+            scene_path: path,
             description,
             import: self.options.import_options(),
             scene_options: self.options.words(),
@@ -276,14 +350,25 @@ impl Arguments {
         }
     }
 
-    /// How far to render an image of a scene. Fails if that is not enough for denoising.
-    fn budget(&self, scene: &Scene) -> Result<Budget, Failure> {
-        let by_samples = self.time.is_none() && self.noise.is_none();
-        let max_spp = by_samples.then(|| self.spp.or(scene.spp).unwrap_or(DEFAULT_SPP));
-        if self.denoise && max_spp == Some(1) {
+    /// How far to render an image of a scene: as far as is said, or as far as the render was to go that is continued. Fails if that
+    /// is not enough for denoising.
+    fn budget(&self, scene: &Scene, before: Option<Target>) -> Result<Budget, Failure> {
+        let is_said = self.spp.is_some() || self.time.is_some() || self.noise.is_some();
+        let budget = match before.filter(|_| !is_said) {
+            Some(Target { spp, seconds, noise }) => {
+                let max_time = seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
+                Budget { max_spp: spp, max_time, noise, ..Budget::default() }
+            }
+            None => {
+                let by_samples = self.time.is_none() && self.noise.is_none();
+                let max_spp = by_samples.then(|| self.spp.or(scene.spp).unwrap_or(DEFAULT_SPP));
+                Budget { max_spp, max_time: self.time, noise: self.noise, ..Budget::default() }
+            }
+        };
+        if self.denoise && budget.max_spp == Some(1) {
             return Err("--denoise needs two samples per pixel or more: render with --spp 2 or more".to_owned());
         }
-        Ok(Budget { max_spp, max_time: self.time, noise: self.noise, halves: self.denoise, ..Budget::default() })
+        Ok(Budget { halves: self.denoise, ..budget })
     }
 }
 

@@ -3,7 +3,7 @@ use noisefall::{
     integrator::Features,
     memory::{Reservation, TooMuch},
     render::{
-        denoise,
+        checkpoint, denoise,
         film::Film,
         halves::Halves,
         layers::{self, Layer},
@@ -12,10 +12,11 @@ use noisefall::{
 
 /// Reserves the memory that an image takes beside that of the worker: for its layers, for the surfaces in them, and for denoising.
 /// Fails also if the worker will lack memory: there that would be a failure of the renderer, after some of the work is done.
-pub fn reserve(layers: &[Layer], denoises: bool, resolution: [u32; 2]) -> Result<[Reservation; 3], TooMuch> {
+pub fn reserve(layers: &[Layer], denoises: bool, keeps: bool, resolution: [u32; 2]) -> Result<[Reservation; 3], TooMuch> {
     // The worker reserves these again.
     let _film = Film::reserve(resolution)?;
     let _halves = optional(denoises, || Halves::reserve(resolution))?;
+    let _checkpoints = optional(keeps, || checkpoint::reserve(resolution))?;
     let has_bounces = layers.contains(&Layer::Bounces);
     let _second_film = optional(has_bounces, || Film::reserve(resolution))?;
     let _series = optional(has_bounces, || Film::reserve_series(resolution))?;

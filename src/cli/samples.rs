@@ -1,7 +1,7 @@
 //! `render --samples A..B`: a range of samples of every pixel, in exact sums that `merge` joins.
 use std::{
     ops::Range,
-    path::Path,
+    path::{Path, PathBuf},
     process::ExitCode,
     sync::{Arc, atomic::Ordering},
     time::{Duration, Instant},
@@ -27,6 +27,7 @@ use noisefall::{
 
 use super::{
     messages::{Failure, tell},
+    output::Output,
     sequence::Shot,
     split_image::{SplitImage, is_sample_file, without_samples},
     stop::{INTERRUPTED, stop_signal},
@@ -35,14 +36,28 @@ use super::{
 /// Ends of samples that are rendered at least so far apart: an interruption waits for one.
 const STEP: Duration = Duration::from_secs(2);
 
-/// What `--noise` and `--time` cannot do, and what to do instead.
-pub const ROUNDS: &str = "cannot be combined with --samples: where they stop depends on the samples, or on the machine. Render rounds of \
+/// Why targets do not split, and what to do instead.
+const ROUNDS: &str = "cannot be combined with --samples: where they stop depends on the samples, or on the machine. Render rounds of \
                           a fixed number of samples, such as 0..64, then 64..128; `noisefall merge` prints the noise after each round";
 
+/// The mistake in the options of a range of samples, if there is one. `others` are the options that a range excludes.
+pub fn mistake(output: Option<&Output>, has_range: bool, others: &[(&str, bool)]) -> Option<String> {
+    let output = output?;
+    if !has_range {
+        let advice = "a file of samples needs --samples A..B, which says which, such as --samples 0..64";
+        return is_sample_file(output).then(|| format!("{output}: {advice}"));
+    }
+    let (option, _) = others.iter().find(|(_, is_given)| *is_given)?;
+    Some(match *option {
+        "--time" | "--noise" => format!("{option} {ROUNDS}"),
+        option => format!("{option} cannot be combined with --samples, whose sums are of the image alone"),
+    })
+}
+
 /// What all images of a command have in common.
-pub struct SampleJob<'a> {
+pub struct SampleJob {
     pub scene: Arc<Scene>,
-    pub scene_path: &'a Path,
+    pub scene_path: PathBuf,
     /// The description of a scene of another program.
     pub description: Option<Arc<SceneDescription>>,
     pub import: ImportOptions,
@@ -55,9 +70,11 @@ pub struct SampleJob<'a> {
     pub json: bool,
 }
 
-impl SampleJob<'_> {
+impl SampleJob {
     /// Renders the samples of each image.
     pub fn run(&self, shots: &[Shot]) -> Result<ExitCode, Failure> {
+        let infinite = self.scene.infinite_variance(&self.settings);
+        self.scene.warnings().iter().chain(&infinite).for_each(|warning| tell(&format!("note: {warning}")));
         let stop = stop_signal("interrupted: writing the samples so far (interrupt again to stop at once)")?;
         for shot in shots {
             let check = |path: &Path| match is_sample_file(&shot.output) {
@@ -112,7 +129,7 @@ impl SampleJob<'_> {
     }
 
     fn header(&self, request: &RenderRequest) -> Result<Header, Failure> {
-        let kept = keep_scene(&self.scene, self.scene_path, &self.import);
+        let kept = keep_scene(&self.scene, &self.scene_path, &self.import);
         let header = kept_header(request, kept, self.description.as_deref(), Target::default(), &self.threads);
         header.map_err(|error| error.report())
     }
@@ -137,7 +154,7 @@ impl SampleJob<'_> {
     }
 
     fn failure(&self, failure: &RenderFailure, shot: &Shot) -> Failure {
-        let command = || replay_command(self.scene_path, &self.scene, shot.camera.resolution, &self.settings, failure.at);
+        let command = || replay_command(&self.scene_path, &self.scene, shot.camera.resolution, &self.settings, failure.at);
         let replay = if failure.replays { format!("\nreplay: {}{}", command(), self.scene_options) } else { String::new() };
         format!("the renderer failed: {}{replay}", failure.message)
     }

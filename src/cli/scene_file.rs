@@ -92,7 +92,8 @@ fn list(path: &Path, remarks: &Remarks, done: &str) -> String {
     format!("{}: {what} not {done}:{lines}", quote::path(path))
 }
 
-fn quoted(word: &str) -> String {
+/// A word of a command, quoted if it must be.
+pub fn quoted(word: &str) -> String {
     shlex::try_quote(word).map_or_else(|_| word.to_owned(), std::borrow::Cow::into_owned)
 }
 

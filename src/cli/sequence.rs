@@ -26,9 +26,10 @@ pub struct SequenceOptions {
     /// Render these frames of the sequence only: from A to B - 1; the first one is 1
     #[arg(long, value_name = "A..B", value_parser = parse::frame_range, requires = "sequence")]
     frames: Option<Range<u32>>,
-    /// Leave out frames whose file exists
-    #[arg(long, requires = "sequence")]
-    resume: bool,
+    /// Continue the render in a file of --checkpoint; no scene is given, since it is inside. Without a file: leave out frames of a
+    /// sequence whose file exists
+    #[arg(long, value_name = "FILE", num_args = 0..=1)]
+    resume: Option<Option<PathBuf>>,
 }
 
 /// A camera and the file of its image.
@@ -57,7 +58,7 @@ impl SequenceOptions {
         }
         let all = frames.len();
         let shot = |(camera, number)| Some(Shot { camera, output: Output::File(numbered(output.file()?, number)?) });
-        let is_left = |shot: &Shot| !(self.resume && shot.output.file().is_some_and(Path::is_file));
+        let is_left = |shot: &Shot| !(self.resume.is_some() && shot.output.file().is_some_and(Path::is_file));
         let left: Vec<Shot> =
             cameras.into_iter().zip(1..).filter(|(_, number)| frames.contains(number)).filter_map(shot).filter(is_left).collect();
         if left.len() < all {
@@ -66,8 +67,23 @@ impl SequenceOptions {
         Ok(left)
     }
 
-    /// The mistake in the name of a sequence, if there is one.
+    /// The file of a render to continue. Before a sequence, the word behind `--resume` is the scene.
+    pub fn resumed(&self) -> Option<&Path> {
+        self.resume.as_ref()?.as_deref().filter(|_| !self.is_asked())
+    }
+
+    /// The scene, if it stands behind `--resume`.
+    pub fn scene(&self) -> Option<&Path> {
+        self.resume.as_ref()?.as_deref().filter(|_| self.is_asked())
+    }
+
+    /// The mistake in the name of a sequence, or in its continuation, if there is one.
     pub fn mistake(&self, output: Option<&Output>) -> Option<String> {
+        if self.resume == Some(None) && !self.is_asked() {
+            return Some(
+                "--resume needs the file of a render, as in --resume picture.nf; without one it continues a sequence".to_owned(),
+            );
+        }
         let is_pattern = |output: &Output| output.file().is_some_and(|path| numbered(path, 1).is_some());
         let mistaken = self.is_asked() && !output.is_some_and(is_pattern);
         mistaken.then(|| "the frames of a sequence need a file name with a number, such as -o frame-####.png".to_owned())

@@ -4,8 +4,8 @@ use std::{path::Path, process::ExitCode, sync::Arc, time::Instant};
 use noisefall::{
     import::Remarks,
     render::{
-        Display, Frame, Published, RenderRequest, State, Status, denoise, pass::SampleId, replay_command::replay_command,
-        settings_text::settings_text, threads::Threads, truth::Reference,
+        Display, Frame, Published, RenderRequest, State, Status, checkpoint::MIXED_KEY, denoise, pass::SampleId,
+        replay_command::replay_command, settings_text::settings_text, threads::Threads, truth::Reference,
     },
     scene::{Camera, RenderSettings, Scene},
 };
@@ -27,6 +27,8 @@ pub struct Job<'a> {
     pub display: Display,
     pub layers: &'a Layers,
     pub denoises: bool,
+    /// How the images differ from ones that were rendered in one go.
+    pub mixed: Vec<String>,
     pub reference: Option<Reference>,
     /// Threads for layers and denoising, as many as the worker has.
     pub threads: Threads,
@@ -45,7 +47,8 @@ impl Job<'_> {
         let start = Instant::now();
         let request = RenderRequest { scene: self.scene.clone(), camera: shot.camera, settings: self.settings };
         let picture = rendering.picture(request.clone())?;
-        let render_seconds = start.elapsed().as_secs_f64();
+        rendering.suspend(|| rendering.tell_how_to_go_on(&shot.output));
+        let render_seconds = (rendering.earlier() + start.elapsed()).as_secs_f64();
         self.failure(&picture.status, &shot.camera).map_or(Ok(()), Err)?;
         let has_bounces = self.layers.has_bounces() && !rendering.is_interrupted();
         let bounces = if has_bounces { Some(rendering.series(request)?) } else { None };
@@ -88,7 +91,9 @@ impl Job<'_> {
         let denoised = if self.denoises { self.denoised(frame) } else { None };
         let (frame, is_denoised) = (denoised.as_ref().unwrap_or(frame), denoised.is_some());
         let channels = self.layers.channels(&self.scene, camera, frame, bounces, &self.threads)?;
-        let remarks = if is_denoised { vec![(denoise::LABEL_KEY, denoise::LABEL.to_owned())] } else { Vec::new() };
+        let denoised = is_denoised.then(|| (denoise::LABEL_KEY, denoise::LABEL.to_owned()));
+        let mixed = (!self.mixed.is_empty()).then(|| (MIXED_KEY, self.mixed.join("; ")));
+        let remarks: Vec<_> = denoised.into_iter().chain(mixed).collect();
         let text = settings_text(&self.scene, camera, &self.settings, self.display, frame, &remarks);
         let delivered = output.write(frame, &channels, self.display, &text)?;
         if delivered != ExitCode::SUCCESS {

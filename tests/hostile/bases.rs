@@ -1,8 +1,21 @@
 //! Small files of each format, with as many kinds of parts as fit.
-use std::io::Cursor;
+use std::{io::Cursor, ops::ControlFlow, sync::Arc};
 
+use crossbeam_channel::unbounded;
 use exr::prelude::{Image, SpecificChannels, Vec2, WritableImage};
 use image::{ExtendedColorType, ImageFormat};
+use noisefall::{
+    import::ImportOptions,
+    math::SimdLevel,
+    render::{
+        Budget, RenderRequest,
+        checkpoint::{KeepPlan, keep_scene, kept_header},
+        still::StillRenderer,
+        threads::Threads,
+    },
+    render_file::Target,
+    scene::{Camera, RenderSettings, Reuse},
+};
 
 /// The structure that mutations keep in mind.
 #[derive(Clone, Copy, PartialEq)]
@@ -14,6 +27,8 @@ pub enum Structure {
     /// Chunks with checksums.
     Png,
     Bytes,
+    /// Sections with checksums.
+    Sections,
 }
 
 /// What reads the first file.
@@ -24,6 +39,8 @@ pub enum Reader {
     /// A scene of Noisefall, which may name files anywhere.
     Own,
     Picture,
+    /// The file of a render.
+    Kept,
 }
 
 /// A file with its name and structure.
@@ -71,7 +88,29 @@ pub fn bases() -> Vec<Base> {
         picture("a.tga", Structure::Bytes, encoded(ImageFormat::Tga)),
         picture("a.hdr", Structure::Bytes, hdr()),
         picture("a.exr", Structure::Bytes, exr()),
+        kept(),
     ]
+}
+
+/// The file of a render of two tiles, with all that such a file can hold.
+pub fn kept() -> Base {
+    let scene = Arc::new(noisefall::scene::built_in());
+    let camera = Camera { resolution: [40, 9], ..scene.camera };
+    let settings = RenderSettings { adaptive: true, reuse: Reuse::Off, ..scene.settings };
+    let request = RenderRequest { scene, camera, settings };
+    let threads = || Threads::new(1, SimdLevel::best()).expect("a thread can be had");
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("a.nf");
+    let target = Target { spp: Some(9), ..Target::default() };
+    let kept = keep_scene(&request.scene, &folder.path().join("a.toml"), &ImportOptions::default());
+    let header = kept_header(&request, kept, None, target, &threads()).expect("it names no files");
+    let (events, _) = unbounded();
+    let mut still = StillRenderer::new(threads(), Budget { max_spp: Some(9), ..Budget::default() });
+    still.set_plan(KeepPlan { path: path.clone(), header, every: None, events });
+    still.picture(request, &mut |_| ControlFlow::Continue(())).expect("it renders");
+    still.keep_now().expect("it renders");
+    let bytes = std::fs::read(path).expect("it was written");
+    Base { reader: Reader::Kept, files: vec![("a.nf", Structure::Sections, bytes)] }
 }
 
 fn png_file() -> File {

@@ -17,7 +17,7 @@ use std::{
     panic::{AssertUnwindSafe, catch_unwind},
     path::{Path, PathBuf},
     sync::{
-        Arc,
+        Arc, Mutex,
         atomic::{AtomicU64, Ordering},
     },
     thread,
@@ -28,6 +28,7 @@ use noisefall::{
     image::{Encoding, read as read_picture},
     import::{self, ImportOptions},
     model::Model,
+    render::checkpoint::KeptFile,
     scene::{describe, load},
 };
 use rand::{Rng, SeedableRng, rngs::SmallRng};
@@ -40,6 +41,8 @@ static MEMORY: cap::Cap<std::alloc::System> = cap::Cap::new(std::alloc::System, 
 
 /// Inputs of a short run.
 const INPUTS: u64 = 1500;
+/// Those of render files.
+const KEPT_INPUTS: u64 = 3000;
 /// One input in this many is compiled too, which takes longer than reading.
 const COMPILED: u64 = 32;
 /// Most memory: per byte of the files, and besides.
@@ -128,6 +131,10 @@ fn outcome(path: &Path, reader: Reader, number: u64) -> String {
     let is_compiled = number.is_multiple_of(COMPILED);
     let options = ImportOptions { time: number.is_multiple_of(2).then_some(0.5), ..ImportOptions::default() };
     match reader {
+        Reader::Kept => {
+            let kept = KeptFile::open(path).and_then(KeptFile::read);
+            format!("{:?}", kept.map(|kept| kept.elapsed()).map_err(|error| error.to_string()))
+        }
         Reader::Picture => format!("{:?}", read_picture(path, Encoding::Srgb).map(|picture| (picture.width, picture.height))),
         Reader::Own if is_compiled => format!("{:?}", load(path).map(drop).map_err(|error| error.report())),
         Reader::Own => {
@@ -173,18 +180,30 @@ fn every_base_is_read_as_it_is() {
 
 #[test]
 fn damaged_files_do_no_harm() {
-    let [inputs, seed, first] = [("INPUTS", INPUTS), ("SEED", 0), ("FIRST", 0)]
+    do_no_harm(&bases::bases(), INPUTS);
+}
+
+#[test]
+fn damaged_render_files_do_no_harm() {
+    do_no_harm(&[bases::kept()], KEPT_INPUTS);
+}
+
+fn do_no_harm(bases: &[Base], inputs: u64) {
+    // The memory that one takes is not to be counted for the other.
+    static ALONE: Mutex<()> = Mutex::new(());
+    let _alone = ALONE.lock();
+    let [inputs, seed, first] = [("INPUTS", inputs), ("SEED", 0), ("FIRST", 0)]
         .map(|(name, value)| from_environment(&format!("NOISEFALL_HOSTILE_{name}"), value));
-    let (bases, folder) = (bases::bases(), tempfile::tempdir().expect("a folder").keep());
-    let [whole, broken] = [("a", true), ("b", false)].map(|(name, are_whole)| World::new(folder.join(name), &bases, are_whole));
-    println!("inputs {first} to {} of seed {seed} in {}", first + inputs, folder.display());
+    let folder = tempfile::tempdir().expect("a folder").keep();
+    let [whole, broken] = [("a", true), ("b", false)].map(|(name, are_whole)| World::new(folder.join(name), bases, are_whole));
+    tell(&format!("inputs {first} to {} of seed {seed} in {}", first + inputs, folder.display()));
     let current = Arc::new(AtomicU64::new(first));
     watch(current.clone());
     let before = MEMORY.allocated();
     let mut largest = 0;
     for number in first..first + inputs {
         current.store(number, Ordering::Relaxed);
-        let input = Input::new(&bases, seed, number);
+        let input = Input::new(bases, seed, number);
         let reader = bases[input.base].reader;
         largest = largest.max(input.length());
         let (path, start) = (whole.write(&input), Instant::now());
@@ -202,8 +221,12 @@ fn damaged_files_do_no_harm() {
         let unchanged = Input { files: bases[input.base].files.clone(), ..input };
         whole.write(&unchanged);
     }
-    println!("a peak of {} bytes for files of up to {largest}", MEMORY.max_allocated() - before);
+    tell(&format!("a peak of {} bytes for files of up to {largest}", MEMORY.max_allocated() - before));
     fs::remove_dir_all(folder).expect("it is there");
+}
+
+fn tell(text: &str) {
+    let _ = writeln!(std::io::stdout(), "{text}");
 }
 
 /// Ends the process if an input takes much longer than it may.

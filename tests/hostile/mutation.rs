@@ -77,6 +77,13 @@ pub fn mutate((_, structure, bytes): &mut File, random: &mut SmallRng) -> bool {
         Structure::Json => json::mutate(bytes, random),
         Structure::Glb => container(bytes, random),
         Structure::Bytes => raw(bytes, random),
+        Structure::Sections => {
+            raw(bytes, random);
+            if random.random_bool(0.8) {
+                section_checksums(bytes);
+            }
+            false
+        }
         Structure::Png => {
             raw(bytes, random);
             if random.random_bool(0.8) {
@@ -229,6 +236,20 @@ fn container(file: &mut Vec<u8>, random: &mut SmallRng) -> bool {
     let leaves = if random.random_bool(0.7) { json::mutate(&mut json, random) } else { raw(&mut bytes, random) };
     *file = glb(&json, &bytes);
     leaves
+}
+
+/// Corrects the checksums of the sections of a render file.
+fn section_checksums(file: &mut [u8]) {
+    let mut at = 12;
+    while let Some(length) = file.get(at + 4..at + 12).and_then(|eight| Some(u64::from_le_bytes(eight.try_into().ok()?))) {
+        let Some(end) = usize::try_from(length).ok().and_then(|length| length.checked_add(at + 12)) else { return };
+        let Some(content) = file.get(at..end) else { return };
+        let mut sum = flate2::Crc::new();
+        sum.update(content);
+        let Some(place) = file.get_mut(end..end.saturating_add(4)) else { return };
+        place.copy_from_slice(&sum.sum().to_le_bytes());
+        at = end + 4;
+    }
 }
 
 /// Corrects the checksums of the chunks of a PNG.

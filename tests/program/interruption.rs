@@ -105,3 +105,19 @@ fn an_interrupted_study_keeps_what_it_has_and_says_how_to_go_on() {
     child.stderr.take().expect("a pipe").read_to_string(&mut told).expect("text");
     assert!(told.contains("stopped: out has 0 runs; repeat the command to continue"), "{told}");
 }
+
+#[test]
+fn an_interrupted_render_that_is_kept_says_how_it_is_continued() {
+    let shell = Shell::new();
+    let endless = ["--spp", "100000000", "--size", "60x40", "--checkpoint", "a b.nf"];
+    let child = start(&shell, &[&["render", &scene("cornell_spheres"), "-o", "out.exr"], &endless[..]].concat());
+    interrupt(&child);
+    let output = child.wait_with_output().expect("it ends");
+    let told = text(&output.stderr);
+    assert!(told.contains("'a b.nf' keeps the render: `noisefall render --resume 'a b.nf' -o out.exr` continues it"), "{told}");
+    // The samples of the image are those of the checkpoint, also if it has a row of tiles more here than there.
+    let again = shell.run(&["render", "--resume", "a b.nf", "-o", "again.exr", "--spp", "1"]);
+    assert!(again.status.success(), "{}", text(&again.stderr));
+    let bytes = |name: &str| fs::read(shell.path(name)).expect("it is there");
+    assert!(bytes("out.exr") == bytes("again.exr"));
+}

@@ -19,7 +19,7 @@ fn arguments(options: &str) -> Arguments {
 fn every_option_takes_the_place_of_the_scenes_setting_and_of_no_other() {
     let scene = built_in();
     let of_scene = scene.settings;
-    assert_eq!(arguments("").settings(&scene), of_scene);
+    assert_eq!(arguments("").settings(scene.settings), of_scene);
     for (option, expected) in [
         ("--estimator path", RenderSettings { estimator: Estimator::Path, ..of_scene }),
         ("--directions uniform", RenderSettings { directions: Directions::Uniform, ..of_scene }),
@@ -31,12 +31,12 @@ fn every_option_takes_the_place_of_the_scenes_setting_and_of_no_other() {
         ("--seed 7", RenderSettings { seed: 7, ..of_scene }),
     ] {
         assert_ne!(expected, of_scene, "{option} changes nothing");
-        assert_eq!(arguments(option).settings(&scene), expected, "{option}");
+        assert_eq!(arguments(option).settings(scene.settings), expected, "{option}");
     }
     let mut capped = built_in();
     capped.settings.max_bounces = Some(2);
-    assert_eq!(arguments("--max-bounces none").settings(&capped).max_bounces, None);
-    assert_eq!(arguments("").settings(&capped).max_bounces, Some(2));
+    assert_eq!(arguments("--max-bounces none").settings(capped.settings).max_bounces, None);
+    assert_eq!(arguments("").settings(capped.settings).max_bounces, Some(2));
 }
 
 #[test]
@@ -54,19 +54,19 @@ fn the_last_target_counts_then_the_scenes_and_then_the_default() {
         ("--time 1 --spp 5 --noise 0.1", budget(None, None, Some(0.1))),
         ("--noise 0.1 --time 1 --spp 5", budget(Some(5), None, None)),
     ] {
-        assert_eq!(arguments(options).budget(&scene), Ok(expected), "{options}");
+        assert_eq!(arguments(options).budget(&scene, None), Ok(expected), "{options}");
     }
     scene.spp = None;
-    assert_eq!(arguments("").budget(&scene), Ok(budget(Some(256), None, None)));
+    assert_eq!(arguments("").budget(&scene, None), Ok(budget(Some(256), None, None)));
 }
 
 #[test]
 fn one_sample_is_not_enough_for_denoising() {
     let mut scene = built_in();
     let halves = |max_spp| Ok(Budget { max_spp, halves: true, ..Budget::default() });
-    assert_eq!(arguments("--denoise --spp 2").budget(&scene), halves(Some(2)));
-    assert!(arguments("--denoise --spp 1").budget(&scene).is_err_and(|error| error.contains("two samples per pixel")));
+    assert_eq!(arguments("--denoise --spp 2").budget(&scene, None), halves(Some(2)));
+    assert!(arguments("--denoise --spp 1").budget(&scene, None).is_err_and(|error| error.contains("two samples per pixel")));
     scene.spp = Some(1);
-    assert!(arguments("--denoise").budget(&scene).is_err() && arguments("").budget(&scene).is_ok());
-    assert!(arguments("--denoise --time 1").budget(&scene).is_ok_and(|budget| budget.max_spp.is_none()));
+    assert!(arguments("--denoise").budget(&scene, None).is_err() && arguments("").budget(&scene, None).is_ok());
+    assert!(arguments("--denoise --time 1").budget(&scene, None).is_ok_and(|budget| budget.max_spp.is_none()));
 }

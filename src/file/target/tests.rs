@@ -175,3 +175,76 @@ fn writers_of_the_same_name_at_once_all_end_well() {
     assert!((0..4).any(|writer| found == contents(writer)), "parts of several");
     assert_eq!(names(folder.path()), ["a.txt"]);
 }
+
+/// A disk with room for some bytes, which writes a few at a time and is interrupted.
+struct FullDisk {
+    room: usize,
+    written: Vec<u8>,
+    calls: usize,
+    is_synced: std::cell::Cell<bool>,
+}
+
+impl FullDisk {
+    fn new(room: usize) -> FullDisk {
+        FullDisk { room, written: Vec::new(), calls: 0, is_synced: std::cell::Cell::new(false) }
+    }
+}
+
+impl Write for FullDisk {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.calls += 1;
+        if self.calls.is_multiple_of(3) {
+            return Err(ErrorKind::Interrupted.into());
+        }
+        let count = bytes.len().min(7).min(self.room - self.written.len());
+        self.written.extend_from_slice(&bytes[..count]);
+        if count == 0 && !bytes.is_empty() { Err(ErrorKind::StorageFull.into()) } else { Ok(count) }
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+impl Durable for FullDisk {
+    fn sync(&self) -> io::Result<()> {
+        self.is_synced.set(true);
+        Ok(())
+    }
+}
+
+#[test]
+fn a_disk_that_is_full_at_any_byte_fails_the_write_before_the_rename() {
+    let bytes: Vec<u8> = (0..300u32).map(|i| i as u8).collect();
+    let write = |to: &mut dyn Write| bytes.chunks(50).try_for_each(|piece| to.write_all(piece));
+    for room in 0..bytes.len() {
+        let mut disk = FullDisk::new(room);
+        let error = fill(&mut disk, write).expect_err("it does not fit");
+        assert_eq!((error.kind(), disk.is_synced.get()), (ErrorKind::StorageFull, false), "{room}");
+    }
+    let mut disk = FullDisk::new(bytes.len());
+    fill(&mut disk, write).expect("it fits");
+    assert!(disk.written == bytes && disk.is_synced.get());
+}
+
+#[test]
+fn a_rename_that_is_refused_leaves_everything_as_it_was() {
+    let folder = folder();
+    let path = folder.path().join("a.nf");
+    let refused = replace_by(&path, |to| {
+        // A folder appears in the place of the file.
+        fs::create_dir(&path)?;
+        fs::write(path.join("inside"), "kept")?;
+        to.write_all(b"bytes")
+    });
+    let told = refused.expect_err("it is refused").to_string();
+    assert!(told.starts_with(&format!("{}: cannot be written: ", path.display())) && !told.contains("part"), "{told}");
+    assert_eq!(fs::read(path.join("inside")).expect("it is there"), b"kept");
+    assert_eq!(names(folder.path()), ["a.nf"]);
+    // What fails within the write leaves the old file.
+    let path = folder.path().join("b.nf");
+    fs::write(&path, "old").expect("it is written");
+    assert!(replace_by(&path, |_| Err(io::Error::other("no more"))).is_err());
+    assert_eq!(fs::read(&path).expect("it is there"), b"old");
+    assert_eq!(names(folder.path()), ["a.nf", "b.nf"]);
+}

@@ -55,6 +55,11 @@ pub(in crate::render) struct KeptState {
 }
 
 impl KeptRender {
+    /// Render time so far.
+    pub fn elapsed(&self) -> Duration {
+        self.state.elapsed
+    }
+
     /// The state. Its memory is no longer reserved.
     pub(in crate::render) fn into_state(self) -> KeptState {
         self.state

@@ -32,3 +32,6 @@ impl Session {
         keeper.keep(&self.film, counters(&self.count, self.elapsed), threads);
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,202 @@
+//! `render --checkpoint` and `render --resume`: renders that are kept, and continued.
+use std::{
+    path::{Path, PathBuf},
+    time::Duration,
+};
+
+use crossbeam_channel::{Receiver, unbounded};
+use noisefall::{
+    file,
+    import::Opened,
+    progress::Progress,
+    quote,
+    render::{
+        Budget, RenderRequest,
+        checkpoint::{
+            EXTENSION, KeepEvent, KeepPlan, KeptFile, KeptRender, file_differences, is_kept_file, keep_scene, kept_header,
+            probe_difference, reopen,
+        },
+        threads::Threads,
+    },
+    render_file::{Header, Target},
+    scene::description::SceneDescription,
+};
+
+use super::{
+    loading::with_bar,
+    messages::{Failure, tell},
+    options as parse,
+    scene_file::SceneOptions,
+};
+
+/// Time between two checkpoints.
+const EVERY: Duration = Duration::from_secs(60);
+
+#[derive(clap::Args)]
+pub struct KeepOptions {
+    /// Keep the render in a file (.nf) from which --resume continues it to the same bits
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["sequence", "pixel"], requires = "output")]
+    checkpoint: Option<PathBuf>,
+    /// Time between two checkpoints [default: 60]. They take at most 1 % of the time: if that is too often, they are written less
+    /// often
+    #[arg(long, value_name = "SECONDS", value_parser = parse::seconds)]
+    every: Option<Duration>,
+    /// Continue a render although its scene or the program has changed, so that its first samples are of another image. The file
+    /// says so
+    #[arg(long, requires = "resume")]
+    anyway: bool,
+}
+
+/// A render that is continued.
+pub struct Resumed {
+    path: PathBuf,
+    file: KeptFile,
+    /// Files that are not what they were.
+    differences: Vec<String>,
+}
+
+/// What keeps a render, and what it continues from.
+#[derive(Default)]
+pub struct Keeping {
+    pub plan: Option<KeepPlan>,
+    pub events: Option<Receiver<KeepEvent>>,
+    pub kept: Option<KeptRender>,
+    /// How the image differs from one that was rendered in one go.
+    pub remarks: Vec<String>,
+}
+
+impl KeepOptions {
+    /// Whether a render is to be kept.
+    pub fn is_asked(&self) -> bool {
+        self.checkpoint.is_some()
+    }
+
+    /// The mistake in the options, if there is one.
+    pub fn mistake(&self, resumed: Option<&Path>) -> Option<String> {
+        let is_other = |path: &PathBuf| !is_kept_file(path);
+        if let Some(other) = self.checkpoint.as_ref().filter(|path| is_other(path)) {
+            return Some(format!("{}: the name of a checkpoint must end in .{EXTENSION}", other.display()));
+        }
+        if self.every.is_some() && self.checkpoint.is_none() && resumed.is_none() {
+            return Some("--every is the time between checkpoints: it needs --checkpoint FILE or --resume FILE".to_owned());
+        }
+        (self.anyway && resumed.is_none()).then(|| "--anyway needs the file of a render, as in --resume picture.nf".to_owned())
+    }
+
+    /// Opens the file of a render. Fails if files of its scene have changed.
+    pub fn resume(&self, path: &Path) -> Result<Resumed, Failure> {
+        let file = KeptFile::open(path).map_err(|error| error.to_string())?;
+        let differences = file_differences(file.header(), path);
+        let resumed = Resumed { path: path.to_owned(), file, differences };
+        match resumed.differences.is_empty() || self.anyway {
+            true => Ok(resumed),
+            false => Err(resumed.refusal(&resumed.differences)),
+        }
+    }
+
+    /// How a render is kept. `options` are those of its scene.
+    pub fn keeping(
+        &self,
+        (request, description, path): (&RenderRequest, Option<&SceneDescription>, &Path),
+        options: &SceneOptions,
+        budget: &Budget,
+        resumed: Option<Resumed>,
+        threads: &Threads,
+    ) -> Result<Keeping, Failure> {
+        let target = target(budget);
+        let Some(resumed) = resumed else {
+            let Some(checkpoint) = &self.checkpoint else { return Ok(Keeping::default()) };
+            check_new(checkpoint)?;
+            let scene = keep_scene(&request.scene, path, &options.import_options());
+            let header = kept_header(request, scene, description, target, threads).map_err(|error| error.report())?;
+            return Ok(self.kept_in(checkpoint, header, None));
+        };
+        let before = resumed.file.header().clone();
+        let other_samples = probe_difference(&before, request, threads);
+        let differences: Vec<String> = resumed.differences.iter().cloned().chain(other_samples).collect();
+        let header = match differences.is_empty() {
+            true => Header { target, program: Header::PROGRAM.to_owned(), ..before },
+            false if !self.anyway => return Err(resumed.refusal(&differences)),
+            false => {
+                let now = kept_header(request, before.scene, description, target, threads);
+                let remarks = [before.remarks, vec![differences.join("; ")]].concat();
+                Header { remarks, ..now.map_err(|error| error.report())? }
+            }
+        };
+        if let Some(last) = header.remarks.last() {
+            tell(&format!("warning: the first samples of this image are of another scene or program: {last}"));
+        }
+        let checkpoint = self.checkpoint.as_ref().unwrap_or(&resumed.path);
+        if *checkpoint != resumed.path {
+            check_new(checkpoint)?;
+        }
+        file::check(checkpoint).map_err(|error| error.to_string())?;
+        let kept = resumed.file.read().map_err(|error| error.to_string())?;
+        Ok(self.kept_in(checkpoint, header, Some(kept)))
+    }
+
+    fn kept_in(&self, checkpoint: &Path, header: Header, kept: Option<KeptRender>) -> Keeping {
+        let (events, received) = unbounded();
+        let remarks = header.remarks.clone();
+        let plan = KeepPlan { path: checkpoint.to_owned(), header, every: Some(self.every.unwrap_or(EVERY)), events };
+        Keeping { plan: Some(plan), events: Some(received), kept, remarks }
+    }
+}
+
+impl Resumed {
+    pub fn header(&self) -> &Header {
+        self.file.header()
+    }
+
+    /// Opens the scene of the file.
+    pub fn open(&self) -> Result<Opened, Failure> {
+        let progress = Progress::default();
+        with_bar(&progress, || reopen(&self.header().scene, &self.path, &progress)).map_err(|error| error.report())
+    }
+
+    /// The error for an option that would change the image. `was` are the options of the image so far.
+    pub fn changes_image(&self, option: &str, was: &str) -> Failure {
+        let (option, was, path) = (option.trim(), was.trim(), quote::path(&self.path));
+        format!("{path}: `{option}` would change the image, which was begun with `{was}`. Leave it out, or begin again")
+    }
+
+    /// The error for options of the scene, which is in the file.
+    pub fn has_scene(&self, options: &str) -> Failure {
+        format!("{}: leave out `{}`: the file has its scene with its options", quote::path(&self.path), options.trim())
+    }
+
+    fn refusal(&self, differences: &[String]) -> Failure {
+        let lines: String = differences.iter().map(|line| format!("\n  {line}")).collect();
+        let path = quote::path(&self.path);
+        format!(
+            "{path}: continued, this would be no single image:{lines}\nrestore it, begin again, or add --anyway: the image then says so"
+        )
+    }
+}
+
+/// Checks that a new checkpoint can be written, and replaces no other render.
+fn check_new(path: &Path) -> Result<(), Failure> {
+    if path.exists() {
+        let shown = quote::path(path);
+        return Err(format!(
+            "{shown}: there is a render already. `render --resume {shown}` continues it; remove it to begin again"
+        ));
+    }
+    file::check(path).map_err(|error| error.to_string())
+}
+
+fn target(budget: &Budget) -> Target {
+    Target { spp: budget.max_spp, seconds: budget.max_time.map(|time| time.as_secs_f64()), noise: budget.noise }
+}
+
+/// The text about what became of a checkpoint; `None` if there is nothing to say.
+pub fn message(event: &KeepEvent) -> Option<String> {
+    match event {
+        KeepEvent::Kept => None,
+        KeepEvent::Slower { took, every } => {
+            let (took, every) = (took.as_secs_f64(), every.as_secs_f64());
+            Some(format!("note: a checkpoint takes {took:.2} s, so that they are {every:.0} s apart, to take 1 % of the time"))
+        }
+        KeepEvent::Failed(error) => Some(format!("warning: no checkpoint was written: {error}; the render goes on")),
+    }
+}
