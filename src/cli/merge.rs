@@ -169,7 +169,7 @@ impl Arguments {
             return image.report(None).map(|()| ExitCode::SUCCESS);
         }
         let image = SplitImage { output, header: &header, samples: &samples, missing, json: self.json };
-        let mut picture = image.picture();
+        let mut picture = image.picture()?;
         for sums in join.into_sums() {
             picture.add(&sums).map_err(|error| without_samples(output, &error))?;
         }

@@ -166,7 +166,7 @@ impl SampleJob {
             write(path, header, film.sums()).map_err(|error| error.to_string())?;
             return image.report(None);
         }
-        let mut picture = image.picture();
+        let mut picture = image.picture()?;
         for sums in film.into_sums() {
             picture.add(&sums).map_err(|error| without_samples(output, &error))?;
         }

@@ -43,9 +43,10 @@ pub fn is_sample_file(output: &Output) -> bool {
 
 impl SplitImage<'_> {
     /// An empty image.
-    pub fn picture(&self) -> Picture {
+    pub fn picture(&self) -> Result<Picture, Failure> {
         let shares = self.header.image.as_ref().is_some_and(|image| image.shares);
-        Picture::new(self.header.camera.resolution, self.samples.clone(), shares)
+        let picture = Picture::new(self.header.camera.resolution, self.samples.clone(), shares);
+        picture.map_err(|error| error.to_string())
     }
 
     /// Writes the image of a picture that is filled, and prints its line.

@@ -86,7 +86,7 @@ impl Image {
     }
 
     fn picture(&self, samples: SampleRanges) -> Picture {
-        Picture::new(self.camera.resolution, samples, self.shares())
+        Picture::new(self.camera.resolution, samples, self.shares()).expect("there is memory")
     }
 }
 

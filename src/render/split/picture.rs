@@ -2,6 +2,7 @@
 use super::{ranges::SampleRanges, sums::TileSums};
 use crate::{
     measure::{Floor, SampleNoise},
+    memory::{self, Reservation, TooMuch},
     render::{
         area::Area,
         estimate::{Doubling, Estimate, SquaredRadiance, single},
@@ -27,13 +28,19 @@ pub struct Picture {
     tiles: Vec<f64>,
     /// Sums of the pixels' variances and of their squares.
     variances: [f64; 2],
+    _memory: Reservation,
 }
 
 impl Picture {
-    /// An empty image. `shares` says whether pixels share paths.
-    pub fn new(resolution: [u32; 2], samples: SampleRanges, shares: bool) -> Picture {
-        let pixels = resolution.map(|side| side as usize).iter().product();
-        Picture {
+    /// An empty image, with memory for its file. `shares` says whether pixels share paths.
+    pub fn new(resolution: [u32; 2], samples: SampleRanges, shares: bool) -> Result<Picture, TooMuch> {
+        /// Bytes per pixel: two means and a count, the planes of an EXR, and the file.
+        const PIXEL: u64 = 2 * 12 + 4 + 2 * 28;
+        let [width, height] = resolution;
+        let what = format_args!("images of {width} × {height} pixels");
+        let memory = memory::reserve(what, PIXEL * u64::from(width) * u64::from(height))?;
+        let pixels = width as usize * height as usize;
+        Ok(Picture {
             resolution,
             samples,
             shares,
@@ -42,7 +49,8 @@ impl Picture {
             counts: vec![0; pixels],
             tiles: Vec::new(),
             variances: [0.0; 2],
-        }
+            _memory: memory,
+        })
     }
 
     /// Adds the next tile, row by row from the top left.
