@@ -16,6 +16,7 @@ mod live;
 mod loaded_image;
 mod loading;
 mod meant;
+mod merge;
 mod messages;
 mod options;
 mod output;
@@ -23,11 +24,13 @@ mod progress;
 mod render;
 mod render_memory;
 mod replay;
+mod samples;
 mod scene_file;
 mod sequence;
 #[cfg(feature = "reports")]
 mod sheet;
 mod shot;
+mod split_image;
 mod stop;
 #[cfg(feature = "reports")]
 mod study;
@@ -71,6 +74,8 @@ struct Arguments {
 enum Command {
     /// Render a scene to a PNG or EXR file, without a window
     Render(Box<render::Arguments>),
+    /// Join samples that were rendered apart to an image, with the bits of one render
+    Merge(merge::Arguments),
     /// Measure the error of image A against reference B
     Compare(compare::Arguments),
     /// Compare the renderer with exact solutions and write a report
@@ -103,6 +108,7 @@ pub fn run() -> ExitCode {
     let done = match arguments.command {
         None => window(arguments.scene, &arguments.options).map(succeeded),
         Some(Command::Render(arguments)) => render::run(&arguments),
+        Some(Command::Merge(arguments)) => merge::run(&arguments),
         Some(Command::Compare(arguments)) => compare::run(&arguments),
         Some(Command::Convert(arguments)) => convert::run(&arguments),
         Some(Command::Check(arguments)) => check::run(&arguments).map(succeeded),

@@ -1,5 +1,5 @@
 //! Parsers of option values.
-use std::time::Duration;
+use std::{ops::Range, time::Duration};
 
 use noisefall::{
     declare::Words,
@@ -119,6 +119,25 @@ pub fn whole(text: &str) -> Result<u32, String> {
 pub fn samples(text: &str) -> Result<u32, String> {
     let samples = text.parse().ok().filter(|samples| *samples > 0);
     samples.ok_or_else(|| "expected a whole number, 1 or more".to_owned())
+}
+
+/// Parses a range of sample indices `A..B`, without B.
+pub fn sample_range(text: &str) -> Result<Range<u32>, String> {
+    range(text).ok_or_else(|| "expected A..B with A below B, such as 0..64: the samples from A to B - 1".to_owned())
+}
+
+/// Parses a range of frames `A..B`, without B; the first frame is 1.
+pub fn frame_range(text: &str) -> Result<Range<u32>, String> {
+    let frames = range(text).filter(|frames| frames.start > 0);
+    frames.ok_or_else(|| {
+        "expected A..B with A below B, such as 1..11: the frames from A to B - 1, of which the first is 1".to_owned()
+    })
+}
+
+fn range(text: &str) -> Option<Range<u32>> {
+    let (start, end) = text.split_once("..")?;
+    let range = start.trim().parse().ok()?..end.trim().parse().ok()?;
+    (!range.is_empty()).then_some(range)
 }
 
 /// Parses the number of frames of a turntable.
@@ -243,6 +262,15 @@ mod tests {
             [Which::One(7), Which::Range(0, 9999), Which::Range(3, 3), Which::Lit].map(Ok)
         );
         assert!(["", "-", "-1", "9-3", "1-", "first", "1-2-3", "4294967296"].iter().all(|text| which(text).is_err()));
+    }
+
+    #[test]
+    fn ranges_have_a_start_below_their_end() {
+        assert_eq!(["0..64", " 3 .. 4"].map(sample_range), [Ok(0..64), Ok(3..4)]);
+        assert!(
+            ["", "..", "4..4", "5..4", "-1..4", "0..", "..4", "1-2", "0..4294967296"].iter().all(|x| sample_range(x).is_err())
+        );
+        assert!(frame_range("0..3").is_err() && frame_range("1..3") == Ok(1..3));
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! `noisefall render`: renders an image without a window, with the worker that also serves the window.
 use std::{
+    ops::Range,
     path::{Path, PathBuf},
     process::ExitCode,
     sync::Arc,
@@ -29,6 +30,7 @@ use super::{
     progress::{Plan, Rendering},
     render_memory,
     replay::{self, Form, Which},
+    samples::{self, SampleJob},
     scene_file::SceneOptions,
     sequence::SequenceOptions,
     shot::Job,
@@ -58,6 +60,10 @@ pub struct Arguments {
     /// the last one counts
     #[arg(long, value_name = "N", value_parser = parse::samples, overrides_with_all = ["time", "noise"])]
     spp: Option<u32>,
+    /// Render the samples A to B - 1 of every pixel into sums whose bits do not depend on their order. -o FILE.nf keeps them for
+    /// `noisefall merge`, which joins any ranges to the bits of one run; -o FILE.exr or .png writes their image
+    #[arg(long, value_name = "A..B", value_parser = parse::sample_range, requires = "output", conflicts_with = "spp")]
+    samples: Option<Range<u32>>,
     /// Stop after a rendering time
     #[arg(long, value_name = "SECONDS", value_parser = parse::seconds, overrides_with_all = ["spp", "noise"])]
     time: Option<Duration>,
@@ -139,8 +145,13 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
         return Ok(wrong_usage(&mistake));
     }
     let start = Instant::now();
-    let Begun { scene, path, description, remarks, camera, settings, resumed } = arguments.begin()?;
-    camera.check().map_err(|error| error.to_string())?;
+    let begun = arguments.begin()?;
+    begun.camera.check().map_err(|error| error.to_string())?;
+    if let (Some(range), Some(output)) = (&arguments.samples, &output) {
+        let shots = arguments.sequence.shots(begun.camera, output)?;
+        return arguments.sample_job(begun, range.clone())?.run(&shots);
+    }
+    let Begun { scene, path, description, remarks, camera, settings, resumed } = begun;
     if let Some(pixel) = arguments.pixel {
         let which = arguments.sample.unwrap_or(Which::One(0));
         return replay::run(&scene, &camera, &settings, pixel, which, arguments.form()).map(|()| ExitCode::SUCCESS);
@@ -223,7 +234,8 @@ impl Arguments {
             _ => Some("give either a scene or --resume FILE: the file has its scene"),
         };
         let of_sequence = self.sequence.mistake(output);
-        of_sequence.or_else(|| count.map(str::to_owned)).or_else(|| self.keep.mistake(resumed))
+        let of_samples = || samples::mistake(output, self.samples.is_some(), &self.excluded_by_samples());
+        of_sequence.or_else(|| count.map(str::to_owned)).or_else(|| self.keep.mistake(resumed)).or_else(of_samples)
     }
 
     /// Opens the scene, or the file of a render that is continued.
@@ -298,6 +310,35 @@ impl Arguments {
             tell("note: an EXR stores the radiance unchanged; --exposure, --white-balance and --tone affect a PNG only");
         }
         layers
+    }
+
+    /// The options that a range of samples excludes, and whether they are given.
+    fn excluded_by_samples(&self) -> [(&'static str, bool); 7] {
+        [
+            ("--time", self.time.is_some()),
+            ("--noise", self.noise.is_some()),
+            ("--layers", self.layers.is_some()),
+            ("--denoise", self.denoise),
+            ("--tev", self.tev.is_some()),
+            ("--checkpoint", self.keep.is_asked()),
+            ("--resume FILE", self.sequence.resumed().is_some()),
+        ]
+    }
+
+    fn sample_job(&self, begun: Begun, range: Range<u32>) -> Result<SampleJob, Failure> {
+        let Begun { scene, path, description, settings, .. } = begun;
+        Ok(SampleJob {
+            scene_path: path,
+            description,
+            import: self.options.import_options(),
+            scene_options: self.options.words(),
+            settings,
+            display: self.display.display(scene.exposure),
+            range,
+            threads: Threads::new(self.threads.into(), SimdLevel::best()).map_err(|error| error.to_string())?,
+            json: self.json,
+            scene,
+        })
     }
 
     fn form(&self) -> Form<'_> {

@@ -1,5 +1,8 @@
 //! Sequences of frames: a turntable or a camera path, in numbered files.
-use std::path::{Path, PathBuf};
+use std::{
+    ops::Range,
+    path::{Path, PathBuf},
+};
 
 use noisefall::{
     file::numbered,
@@ -20,6 +23,9 @@ pub struct SequenceOptions {
     /// Render the frames of a camera path, a TOML file; -o is then a name such as frame-####.png
     #[arg(long, value_name = "FILE", group = "sequence", requires = "output")]
     cameras: Option<PathBuf>,
+    /// Render these frames of the sequence only: from A to B - 1; the first one is 1
+    #[arg(long, value_name = "A..B", value_parser = parse::frame_range, requires = "sequence")]
+    frames: Option<Range<u32>>,
     /// Continue the render in a file of --checkpoint; no scene is given, since it is inside. Without a file: leave out frames of a
     /// sequence whose file exists
     #[arg(long, value_name = "FILE", num_args = 0..=1)]
@@ -46,10 +52,15 @@ impl SequenceOptions {
     pub fn shots(&self, camera: Camera, output: &Output) -> Result<Vec<Shot>, Failure> {
         let Some(sequence) = self.sequence() else { return Ok(vec![Shot { camera, output: output.clone() }]) };
         let cameras = sequence.cameras(&camera)?;
-        let all = cameras.len();
+        let frames = self.frames.clone().unwrap_or(1..cameras.len() as u32 + 1);
+        if frames.end as usize > cameras.len() + 1 {
+            return Err(format!("--frames {}..{}: the sequence has the frames 1 to {}", frames.start, frames.end, cameras.len()));
+        }
+        let all = frames.len();
         let shot = |(camera, number)| Some(Shot { camera, output: Output::File(numbered(output.file()?, number)?) });
         let is_left = |shot: &Shot| !(self.resume.is_some() && shot.output.file().is_some_and(Path::is_file));
-        let left: Vec<Shot> = cameras.into_iter().zip(1..).filter_map(shot).filter(is_left).collect();
+        let left: Vec<Shot> =
+            cameras.into_iter().zip(1..).filter(|(_, number)| frames.contains(number)).filter_map(shot).filter(is_left).collect();
         if left.len() < all {
             tell(&format!("note: {} of {all} frames exist and are left out", all - left.len()));
         }

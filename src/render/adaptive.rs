@@ -89,7 +89,7 @@ fn pilot(threads: &Threads, job: PassJob, film: &Film, interrupted: &(dyn Fn() -
     let mut pilot = Pilot { columns, noise: [none.clone(), none.clone()], cost: none };
     for (tile, blocks) in film.tiles.iter().zip(tiles) {
         for (i, ([a, b, c, d], cost)) in blocks.into_iter().enumerate() {
-            let [x, y] = tile.corner(i).map(|x| (x / BLOCK) as usize);
+            let [x, y] = tile.area().corner(i).map(|x| (x / BLOCK) as usize);
             let place = y * columns + x;
             // Two pairs of squares that lie across from each other.
             let noise = [[a, d], [b, c]].map(|pair| pair.iter().map(|square| square.relative_variance(floor)).sum());
@@ -104,15 +104,13 @@ fn pilot(threads: &Threads, job: PassJob, film: &Film, interrupted: &(dyn Fn() -
 fn cost_of_block(tile: &Tile, block: usize, segments: &Segments) -> f64 {
     /// Cost of generating the camera ray and of adding to the film.
     const BESIDES: f64 = 0.5;
-    let [column, row] = [0, 1].map(|axis| (tile.corner(block)[axis] - tile.origin[axis]) / BLOCK);
-    let [width, height] = tile.block_size(tile.place(block)).map(f64::from);
-    BESIDES + f64::from(segments.0[(row * TILE / BLOCK + column) as usize]) / (width * height)
+    let [column, row] = tile.area().place(block).map(|x| x / BLOCK);
+    BESIDES + f64::from(segments.0[(row * TILE / BLOCK + column) as usize]) / tile.area().block_pixels(block) as f64
 }
 
 /// The four squares of a block, row by row. `radiance` is indexed by row · [`TILE`] + column of the tile.
 fn squares_of_block(tile: &Tile, block: usize, radiance: &[[f32; 4]]) -> [Square; 4] {
-    let corner = tile.corner(block);
-    let [left, top] = [0, 1].map(|axis| corner[axis] - tile.origin[axis]);
+    let [left, top] = tile.area().place(block);
     let square = |x: u32, y: u32| {
         let [left, top] = [left + x * SQUARE, top + y * SQUARE];
         let rows = top..(top + SQUARE).min(tile.size[1]);

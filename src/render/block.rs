@@ -39,10 +39,15 @@ impl Block {
 
     /// The target number of samples for an average of `spp`.
     pub fn goal(&self, spp: u32) -> u32 {
-        if spp <= UNIFORM {
-            return spp;
-        }
-        let scaled = if self.rate < 0 { spp >> -self.rate } else { spp.saturating_mul(1 << self.rate) };
-        scaled.max(UNIFORM)
+        goal(self.rate, spp)
     }
+}
+
+/// The number of samples of a block with this rate, for an average of `spp`.
+pub(super) fn goal(rate: i8, spp: u32) -> u32 {
+    if spp <= UNIFORM {
+        return spp;
+    }
+    let scaled = if rate < 0 { spp >> -rate } else { spp.saturating_mul(1 << rate) };
+    scaled.max(UNIFORM)
 }

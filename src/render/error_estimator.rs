@@ -6,7 +6,7 @@
 //! differences.
 use rayon::prelude::*;
 
-use super::{block::Block, film::Film, region::Region, tile::Tile};
+use super::{block::Block, estimate::SquaredRadiance, film::Film, region::Region, tile::Tile};
 use crate::measure::{BlockErrors, Floor};
 
 /// The standard error of the natural logarithm of the estimate, beside chance: of samples that are not independent, how the error
@@ -40,14 +40,10 @@ pub(super) fn note(film: &mut Film, interrupted: &(dyn Fn() -> bool + Sync)) -> 
 }
 
 /// Estimates the mean over pixels and channels of the squared radiance from the samples; `None` if it was interrupted.
-///
-/// The square of a mean of samples contains their noise, whose variance is subtracted. For stratified samples this subtracts too
-/// much; the squared means of blocks, which are hardly too small, are a lower bound.
 fn mean_square(film: &Film, interrupted: &(dyn Fn() -> bool + Sync)) -> Option<f64> {
     let squares = |tile: &Tile| (!interrupted()).then(|| tile.squares());
-    let sums = film.tiles.par_iter().map(squares).collect::<Option<Vec<[f64; 2]>>>()?;
-    let [of_pixels, of_blocks] = [0, 1].map(|i| sums.iter().map(|sum| sum[i]).sum::<f64>());
-    Some(of_pixels.max(of_blocks) / (3.0 * film.resolution.map(f64::from).iter().product::<f64>()))
+    let sums = film.tiles.par_iter().map(squares).collect::<Option<Vec<SquaredRadiance>>>()?;
+    Some(sums.into_iter().fold(SquaredRadiance::default(), SquaredRadiance::plus).mean(film.resolution))
 }
 
 /// The expected relMSE of a film; `None` before the second sample.

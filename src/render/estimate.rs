@@ -56,6 +56,41 @@ impl Doubling {
     }
 }
 
+/// Sums over pixels and channels of two estimates of the squared radiance.
+///
+/// The square of a mean of samples contains their noise, whose variance is subtracted. For stratified samples this subtracts too
+/// much; the squared means of blocks, which are hardly too small, are a lower bound.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct SquaredRadiance {
+    of_pixels: f64,
+    of_blocks: f64,
+}
+
+impl SquaredRadiance {
+    /// The sums of a block.
+    pub fn of(block: &[Estimate]) -> SquaredRadiance {
+        let (mut of_pixels, mut level) = (0.0, [0.0; 3]);
+        for Estimate { mean, variance_of_mean } in block {
+            let variance = variance_of_mean.unwrap_or_default();
+            for c in 0..3 {
+                level[c] += mean[c];
+                of_pixels += mean[c] * mean[c] - variance[c];
+            }
+        }
+        let of_blocks = level.iter().map(|level| level * level).sum::<f64>() / block.len().max(1) as f64;
+        SquaredRadiance { of_pixels, of_blocks }
+    }
+
+    pub fn plus(self, other: SquaredRadiance) -> SquaredRadiance {
+        SquaredRadiance { of_pixels: self.of_pixels + other.of_pixels, of_blocks: self.of_blocks + other.of_blocks }
+    }
+
+    /// The mean over the pixels and channels of an image.
+    pub fn mean(self, resolution: [u32; 2]) -> f64 {
+        self.of_pixels.max(self.of_blocks) / (3.0 * resolution.map(f64::from).iter().product::<f64>())
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,5 +1,5 @@
 //! The film: the sums of an image's samples.
-use super::{region::Region, tile::Tile};
+use super::{area::Area, region::Region, tile::Tile};
 use crate::{
     integrator::{TERMS, TILE},
     memory::{self, Reservation, TooMuch},
@@ -23,10 +23,7 @@ pub struct Film {
 impl Film {
     /// An empty film. The render threads allocate its memory with the first sample, tile by tile.
     pub fn new(resolution: [u32; 2]) -> Film {
-        let [width, height] = resolution;
-        let corners = |side: u32| (0..side).step_by(TILE as usize);
-        let tile = |x: u32, y: u32| Tile::new([x, y], [TILE.min(width - x), TILE.min(height - y)]);
-        let tiles = corners(height).flat_map(|y| corners(width).map(move |x| tile(x, y))).collect();
+        let tiles = Area::tiles(resolution).map(|Area { origin, size }| Tile::new(origin, size)).collect();
         Film { resolution, tiles, is_noting: false, shares: false, is_piloted: false, focus: None }
     }
 

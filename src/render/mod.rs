@@ -8,6 +8,7 @@
 //! ```
 //! The window states what it wants and never waits; see [`worker`].
 mod adaptive;
+pub mod area;
 mod block;
 pub mod checkpoint;
 mod coarse;
@@ -16,6 +17,7 @@ pub mod denoise;
 pub mod display;
 mod error_estimator;
 pub mod estimate;
+mod exact_sum;
 pub mod film;
 pub mod frame;
 pub mod halves;
@@ -24,6 +26,7 @@ pub mod layers;
 mod noise_layer;
 mod non_local_means;
 pub mod pass;
+mod pass_count;
 pub mod path_formula;
 pub mod path_samples;
 pub mod path_text;
@@ -32,12 +35,14 @@ pub mod region;
 #[cfg(feature = "cli")]
 pub mod replay_command;
 mod sample_counts;
+mod sampled_tile;
 mod scatter;
 mod scene_edit;
 pub mod series;
 mod session;
 pub mod settings_text;
 pub mod sharing;
+pub mod split;
 pub mod still;
 mod target;
 #[cfg(test)]

@@ -4,8 +4,44 @@ use serde_json::json;
 use super::{frame::Frame, tone::Display};
 use crate::scene::{Camera, RenderSettings, Scene};
 
-/// One JSON object in ASCII with all that an image depends on. `remarks` say which part of the image is shown, if that is not
-/// all.
+/// What an image depends on, and how it is shown.
+#[derive(Clone, Copy)]
+pub struct ImageOrigin<'a> {
+    /// Title of the scene.
+    pub title: &'a str,
+    /// Text of the scene.
+    pub scene: &'a str,
+    /// The camera.
+    pub camera: &'a Camera,
+    /// The settings of the estimate.
+    pub settings: &'a RenderSettings,
+    /// The display transform.
+    pub display: Display,
+}
+
+impl ImageOrigin<'_> {
+    /// One JSON object in ASCII with all that an image depends on. `remarks` say which part of the image is shown, if that is not
+    /// all.
+    pub fn text(&self, frame: &Frame, remarks: &[(&str, String)]) -> String {
+        let mut text = json!({
+            "program": concat!("Noisefall ", env!("CARGO_PKG_VERSION")),
+            "title": self.title,
+            "scene": self.scene,
+            "camera": self.camera,
+            "settings": self.settings,
+            "display": self.display,
+            "spp": frame.spp,
+            "mean_spp": frame.sample_counts().mean(),
+            "samples": frame.sample_counts().total,
+        });
+        for (name, remark) in remarks {
+            text[*name] = remark.as_str().into();
+        }
+        ascii(&text.to_string())
+    }
+}
+
+/// [`ImageOrigin::text`] of an image of a scene.
 pub fn settings_text(
     scene: &Scene,
     camera: &Camera,
@@ -14,21 +50,7 @@ pub fn settings_text(
     frame: &Frame,
     remarks: &[(&str, String)],
 ) -> String {
-    let mut text = json!({
-        "program": concat!("Noisefall ", env!("CARGO_PKG_VERSION")),
-        "title": scene.title,
-        "scene": *scene.source,
-        "camera": camera,
-        "settings": settings,
-        "display": display,
-        "spp": frame.spp,
-        "mean_spp": frame.sample_counts().mean(),
-        "samples": frame.sample_counts().total,
-    });
-    for (name, remark) in remarks {
-        text[*name] = remark.as_str().into();
-    }
-    ascii(&text.to_string())
+    ImageOrigin { title: &scene.title, scene: &scene.source, camera, settings, display }.text(frame, remarks)
 }
 
 /// JSON with every character beyond ASCII escaped: EXR has no Unicode text.

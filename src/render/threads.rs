@@ -12,10 +12,16 @@ use crate::{
 /// The render threads, each with its queues.
 pub struct Threads {
     pub(super) pool: ThreadPool,
-    pub(super) batches: Vec<Mutex<Batch>>,
-    /// Buffers for films with a series.
-    pub(super) terms: Vec<Mutex<Terms>>,
+    pub(super) buffers: Vec<Mutex<Buffers>>,
     pub(super) level: SimdLevel,
+}
+
+/// The queues of a thread.
+#[derive(Default)]
+pub struct Buffers {
+    pub(super) batch: Batch,
+    /// For films with a series.
+    pub(super) terms: Terms,
 }
 
 /// The input of a pass.
@@ -33,13 +39,13 @@ impl Threads {
     /// Starts `count` threads, or one per core if `count` is 0. Fails if the system refuses to start them.
     pub fn new(count: usize, level: SimdLevel) -> Result<Threads, ThreadPoolBuildError> {
         let pool = ThreadPoolBuilder::new().num_threads(count).thread_name(|i| format!("render {i}")).build()?;
-        let (batches, terms) = (0..pool.current_num_threads()).map(|_| Default::default()).unzip();
-        Ok(Threads { pool, batches, terms, level })
+        let buffers = (0..pool.current_num_threads()).map(|_| Mutex::default()).collect();
+        Ok(Threads { pool, buffers, level })
     }
 
     /// The number of threads.
     pub fn count(&self) -> usize {
-        self.batches.len()
+        self.buffers.len()
     }
 
     /// Runs a task on the pool, so that rayon's parallel iterators in it use these threads.
@@ -55,7 +61,7 @@ impl Threads {
         result: impl FnOnce(&[[f32; 4]], Segments) -> T,
     ) -> Result<T, Interrupted> {
         let thread = rayon::current_thread_index().unwrap_or(0);
-        let mut batch = self.batches[thread].lock().unwrap_or_else(PoisonError::into_inner);
-        trace_counting(self.level, work, &mut batch, interrupted).map(|segments| result(batch.radiance(), segments))
+        let Buffers { batch, .. } = &mut *self.buffers[thread].lock().unwrap_or_else(PoisonError::into_inner);
+        trace_counting(self.level, work, batch, interrupted).map(|segments| result(batch.radiance(), segments))
     }
 }

@@ -1,5 +1,11 @@
 //! A tile of the film: sums of samples per pixel, and counts per block of pixels.
-use super::{block::Block, region::Region, scatter::Scatter, tile_series::TileSeries};
+use super::{
+    area::{Area, valid},
+    block::Block,
+    region::Region,
+    scatter::Scatter,
+    tile_series::TileSeries,
+};
 use crate::integrator::{BLOCK, Blocks, TILE};
 
 /// The pixels of one tile, row by row. Sums are f64, so that the millionth sample still counts.
@@ -29,7 +35,6 @@ pub struct Tile {
 
 impl Tile {
     pub(super) fn new(origin: [u32; 2], size: [u32; 2]) -> Tile {
-        let [columns, rows] = size.map(|side| side.div_ceil(BLOCK));
         Tile {
             origin,
             size,
@@ -38,11 +43,16 @@ impl Tile {
             sum_of_squares: Vec::new(),
             before: Vec::new(),
             earlier: Vec::new(),
-            blocks: vec![Block::default(); (columns * rows) as usize],
+            blocks: vec![Block::default(); Area { origin, size }.blocks()],
             whole: Scatter::default(),
             series: None,
             invalid: 0,
         }
+    }
+
+    /// Where it lies.
+    pub(super) fn area(&self) -> Area {
+        Area { origin: self.origin, size: self.size }
     }
 
     /// Starts to store the terms of samples separately.
@@ -56,7 +66,7 @@ impl Tile {
 
     /// Samples of the pixels of one row, which counts from the tile's top.
     pub(super) fn counts(&self, row: usize) -> impl Iterator<Item = u32> {
-        let columns = self.size[0].div_ceil(BLOCK) as usize;
+        let columns = self.area().columns() as usize;
         let blocks = &self.blocks[row / BLOCK as usize * columns..][..columns];
         (0..self.size[0]).map(move |column| blocks[(column / BLOCK) as usize].spp)
     }
@@ -68,10 +78,7 @@ impl Tile {
     }
 
     pub(super) fn samples(&self) -> u64 {
-        let samples = |(block, state): (usize, &Block)| {
-            let [width, height] = self.block_size(self.place(block)).map(u64::from);
-            u64::from(state.spp) * width * height
-        };
+        let samples = |(block, state): (usize, &Block)| u64::from(state.spp) * self.area().block_pixels(block);
         self.blocks.iter().enumerate().map(samples).sum()
     }
 
@@ -104,20 +111,7 @@ impl Tile {
     /// Blocks with missing samples for the average `spp`, up to the capacity of a batch. None gets samples beyond the next power
     /// of two.
     pub(super) fn missing(&self, spp: u32) -> Blocks {
-        let mut missing = Blocks::default();
-        for ahead in 0.. {
-            let before = missing.iter().count();
-            for (block, state) in self.blocks.iter().enumerate() {
-                let sample = state.spp + ahead;
-                if sample < state.next_goal(spp) && !missing.is_full() {
-                    missing.push(self.corner(block), sample);
-                }
-            }
-            if missing.is_full() || missing.iter().count() == before {
-                break;
-            }
-        }
-        missing
+        self.area().batch(self.blocks.iter().map(|block| block.spp..block.next_goal(spp)))
     }
 
     /// Adds one sample to every pixel; slot = row · [`TILE`] + column. Returns the first pixel whose sample is invalid.
@@ -125,7 +119,7 @@ impl Tile {
         self.clear_if_new();
         let (mut invalid, mut total) = (None, 0.0);
         for block in 0..self.blocks.len() {
-            let [x, y] = self.place(block);
+            let [x, y] = self.area().place(block);
             let (sum, found) = self.add_block(block, &radiance[(y * TILE + x) as usize..], TILE as usize);
             invalid = invalid.or(found);
             total += sum;
@@ -140,9 +134,7 @@ impl Tile {
         self.clear_if_new();
         let mut invalid = None;
         for ((corner, sample), slots) in blocks.iter().zip(radiance.chunks((BLOCK * BLOCK) as usize)) {
-            let [column, row] = [0, 1].map(|axis| (corner[axis] - self.origin[axis]) / BLOCK);
-            let block = (row * self.size[0].div_ceil(BLOCK) + column) as usize;
-            let (_, found) = self.add_block(block, slots, BLOCK as usize);
+            let (_, found) = self.add_block(self.area().block_at(corner), slots, BLOCK as usize);
             invalid = invalid.or(found.map(|pixel| (pixel, sample)));
         }
         invalid
@@ -153,21 +145,14 @@ impl Tile {
     fn add_block(&mut self, block: usize, radiance: &[[f32; 4]], stride: usize) -> (f64, Option<[u32; 2]>) {
         let (mut first_invalid, mut total) = (None, 0.0);
         let (count, mut parts) = (f64::from(self.blocks[block].spp), self.blocks[block].parts);
-        let ([left, top], [width, height]) = (self.place(block), self.block_size(self.place(block)));
-        for row in 0..height {
-            let start = ((top + row) * self.size[0] + left) as usize;
-            let pixels = start..start + width as usize;
+        for (row, pixels) in self.area().block_rows(block).enumerate() {
             let sums = self.sum[pixels.clone()].iter_mut().zip(&mut self.sum_of_squares[pixels]);
-            for (column, ((sum, square), sample)) in sums.zip(&radiance[row as usize * stride..]).enumerate() {
-                let mut rgb = [sample[0], sample[1], sample[2]];
-                // One comparison a channel refuses negative numbers, infinities and NaN alike.
-                if !rgb.iter().all(|c| (0.0..=f32::MAX).contains(c)) {
+            for (column, ((sum, square), sample)) in sums.zip(&radiance[row * stride..]).enumerate() {
+                let rgb = valid(sample).unwrap_or_else(|| {
                     self.invalid += 1;
-                    let pixel = [self.origin[0] + left + column as u32, self.origin[1] + top + row];
-                    first_invalid = first_invalid.or(Some(pixel));
-                    rgb = [0.0; 3];
-                }
-                let rgb = [f64::from(rgb[0]), f64::from(rgb[1]), f64::from(rgb[2])];
+                    first_invalid = first_invalid.or(Some([column, row]));
+                    [0.0; 3]
+                });
                 let all = rgb[0] + rgb[1] + rgb[2];
                 parts.add(all, count, sum[0] + sum[1] + sum[2]);
                 total += all;
@@ -180,7 +165,8 @@ impl Tile {
         let state = &mut self.blocks[block];
         state.spp += 1;
         state.parts = parts;
-        (total, first_invalid)
+        let corner = self.area().corner(block);
+        (total, first_invalid.map(|place| [0, 1].map(|axis| corner[axis] + place[axis] as u32)))
     }
 
     /// Resets all pixels to black before the first sample.
@@ -195,22 +181,5 @@ impl Tile {
         }
         self.before.resize(pixels, [0.0; 3]);
         self.earlier.resize(pixels, [0.0; 3]);
-    }
-
-    /// Pixel coordinates of the upper left corner of a block.
-    pub(super) fn corner(&self, block: usize) -> [u32; 2] {
-        let place = self.place(block);
-        [0, 1].map(|axis| self.origin[axis] + place[axis])
-    }
-
-    /// Column and row, within the tile, of the upper left corner of a block.
-    pub(super) fn place(&self, block: usize) -> [u32; 2] {
-        let columns = self.size[0].div_ceil(BLOCK);
-        [block as u32 % columns * BLOCK, block as u32 / columns * BLOCK]
-    }
-
-    /// Width and height of the block with its corner there.
-    pub(super) fn block_size(&self, place: [u32; 2]) -> [u32; 2] {
-        [0, 1].map(|axis| BLOCK.min(self.size[axis] - place[axis]))
     }
 }

@@ -2,7 +2,7 @@
 use std::ops::Range;
 
 use super::{
-    estimate::{Doubling, Estimate, single},
+    estimate::{Doubling, Estimate, SquaredRadiance, single},
     scatter::Parts,
     tile::Tile,
 };
@@ -21,7 +21,9 @@ impl Tile {
     fn double_block(&mut self, block: usize, floor: f64) {
         let estimates = self.block_estimates(block);
         let mut before = Vec::with_capacity(estimates.len());
-        for (row, now) in self.block_rows(block).zip(estimates.chunks(self.block_size(self.place(block))[0] as usize)) {
+        for (row, now) in
+            self.area().block_rows(block).zip(estimates.chunks(self.area().block_size(self.area().place(block))[0] as usize))
+        {
             self.earlier[row.clone()].copy_from_slice(&self.before[row.clone()]);
             let means = &mut self.before[row];
             before.extend_from_slice(means);
@@ -35,38 +37,17 @@ impl Tile {
         }
     }
 
-    /// Index ranges of the pixels of a block, row by row.
-    fn block_rows(&self, block: usize) -> impl Iterator<Item = Range<usize>> + use<> {
-        let ([left, top], [width, height]) = (self.place(block), self.block_size(self.place(block)));
-        let starts = (top..top + height).map({
-            let columns = self.size[0];
-            move |row| (row * columns + left) as usize
-        });
-        starts.map(move |start| start..start + width as usize)
-    }
-
     /// The estimates of a block that has a sample, row by row.
     fn block_estimates(&self, block: usize) -> Vec<Estimate> {
-        self.block_rows(block).flat_map(|row| self.run(row, self.blocks[block].spp)).collect()
+        self.area().block_rows(block).flat_map(|row| self.run(row, self.blocks[block].spp)).collect()
     }
 
-    /// Sums over pixels and channels of two estimates of the squared radiance: squares of means minus their variance, and squares
-    /// of the means of blocks.
-    pub(super) fn squares(&self) -> [f64; 2] {
-        let mut sums = [0.0; 2];
-        for (block, state) in self.blocks.iter().enumerate().filter(|(_, state)| state.spp > 0) {
-            let (mut level, mut count) = ([0.0; 3], 0.0);
-            for Estimate { mean, variance_of_mean } in self.block_rows(block).flat_map(|row| self.run(row, state.spp)) {
-                let variance = variance_of_mean.unwrap_or_default();
-                (0..3).for_each(|c| {
-                    level[c] += mean[c];
-                    sums[0] += mean[c] * mean[c] - variance[c];
-                });
-                count += 1.0;
-            }
-            sums[1] += level.iter().map(|level| level * level).sum::<f64>() / count;
-        }
-        sums
+    /// The squared radiance of its blocks: see [`SquaredRadiance`].
+    pub(super) fn squares(&self) -> SquaredRadiance {
+        let blocks = (0..self.blocks.len()).filter(|block| self.blocks[*block].spp > 0);
+        blocks
+            .map(|block| SquaredRadiance::of(&self.block_estimates(block)))
+            .fold(SquaredRadiance::default(), SquaredRadiance::plus)
     }
 
     /// Variance of the mean over all pixels and channels, at least two samples each. If pixels share paths, their noise is
@@ -85,7 +66,7 @@ impl Tile {
 
     /// The means of the first samples of a pixel and of the rest, and the share of the first; `None` before the second sample.
     pub(super) fn halves(&self, [column, row]: [u32; 2]) -> Option<([[f32; 3]; 2], f32)> {
-        let block = &self.blocks[(row / BLOCK * self.size[0].div_ceil(BLOCK) + column / BLOCK) as usize];
+        let block = &self.blocks[(row / BLOCK * self.area().columns() + column / BLOCK) as usize];
         let first = block.first_half()?;
         let pixel = (row * self.size[0] + column) as usize;
         let mean = if first == block.doubled { self.before[pixel] } else { self.earlier[pixel] };

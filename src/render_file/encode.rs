@@ -17,7 +17,7 @@ macro_rules! numbers {
     };
 }
 
-numbers!(u8 i8 u32 u64 f32 f64);
+numbers!(u8 i8 u32 u64 i64 f32 f64);
 
 impl<T: Encode, const N: usize> Encode for [T; N] {
     #[inline]

@@ -21,7 +21,7 @@ macro_rules! numbers {
     };
 }
 
-numbers!(u8 i8 u32 u64 f32 f64);
+numbers!(u8 i8 u32 u64 i64 f32 f64);
 
 impl<T: Decode + Copy + Default, const N: usize> Decode for [T; N] {
     #[inline]

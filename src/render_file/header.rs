@@ -29,9 +29,23 @@ pub struct Header {
     /// Which samples of every pixel a file of [`Kind::Samples`] holds: ranges of indices, the second number excluded.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub samples: Vec<[u32; 2]>,
+    /// Facts of the scene for the image of a file of [`Kind::Samples`], which is made without the scene.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub image: Option<ImageFacts>,
     /// How the image differs from one that was rendered in one go, if it does.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub remarks: Vec<String>,
+}
+
+/// What the image of a scene says of it, and depends on.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ImageFacts {
+    /// Title of the scene.
+    pub title: String,
+    /// Exposure of the scene in stops.
+    pub exposure: f32,
+    /// Whether pixels share paths.
+    pub shares: bool,
 }
 
 /// What a file is for.

@@ -15,7 +15,7 @@ pub use self::{
     encode::Encode,
     error::RenderFileError,
     fields::Fields,
-    header::{Counters, Header, KeptScene, Kind, SceneChoices, Target},
+    header::{Counters, Header, ImageFacts, KeptScene, Kind, SceneChoices, Target},
     named_file::{NamedFile, sha256},
     reader::Reader,
     tag::Tag,

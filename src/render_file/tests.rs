@@ -21,6 +21,7 @@ fn header() -> Header {
         probe: vec![(0, sha256(b"radiance"))],
         counters: Counters { seconds: 0.1 + 0.2, ..Counters::default() },
         samples: Vec::new(),
+        image: None,
         remarks: Vec::new(),
     }
 }

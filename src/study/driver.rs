@@ -144,6 +144,7 @@ impl Study<'_> {
         for (number, (group, repeat)) in self.runs(&scene).enumerate() {
             let of_group = &mut runs[number % scene.groups.len()];
             let (settings, key) = self.key(&scene, group, repeat);
+            store.refresh()?;
             if let Some(found) = store.run(&key) {
                 of_group.push(found);
                 continue;

@@ -1,4 +1,7 @@
 //! The store of measurements: `study.csv`. Runs are found by their keys. Runs of other studies stay in it.
+//!
+//! Several processes can measure in one folder. Each reads what the others have written before it writes, under a lock. Stores are
+//! joined by appending one to the other.
 use std::{
     collections::HashMap,
     fs::File,
@@ -11,6 +14,9 @@ use crate::file::{open_regular, replace};
 
 /// Name of the file.
 pub const CSV: &str = "study.csv";
+
+/// The file whose lock is held while the store is written. The store itself is replaced, which would end a lock on it.
+const LOCK: &str = ".study.lock";
 
 /// The measurements in a folder.
 pub struct Store {
@@ -50,9 +56,12 @@ impl Store {
             let advice = "move it away, or give another folder";
             return Err(format!("was not written by `noisefall study` of this version: {advice}"));
         }
-        for line in reader.deserialize::<row::Row>() {
-            match line {
-                Ok(row) if row.is_whole() => store.push(row),
+        let header = header.clone();
+        for line in reader.byte_records() {
+            match line.map(|line| (line == header, line.deserialize::<row::Row>(Some(&header)))) {
+                Ok((_, Ok(row))) if row.is_whole() => store.push(row),
+                // It begins a store that was appended.
+                Ok((true, _)) => {}
                 _ => store.dropped += 1,
             }
         }
@@ -65,7 +74,15 @@ impl Store {
         if place == self.runs.len() {
             self.runs.push(Vec::new());
         }
-        self.runs[place].push(row);
+        let rows = &mut self.runs[place];
+        // A run that is there twice was measured by two processes at the same time, or is in two stores that were joined.
+        if rows.len() == row.checkpoints {
+            return;
+        }
+        if row.checkpoint == 1 {
+            self.dropped += std::mem::take(rows).len();
+        }
+        rows.push(row);
     }
 
     fn forget_incomplete(&mut self) {
@@ -94,14 +111,33 @@ impl Store {
         self.runs.is_empty()
     }
 
-    /// Adds the lines of a run, and writes them to the file before it returns.
+    /// Adds the lines of a run, and writes them to the file before it returns. Keeps what other processes have written.
     pub fn add(&mut self, rows: Vec<row::Row>) -> Result<(), StudyError> {
+        let _lock = self.lock()?;
+        self.refresh()?;
         rows.into_iter().for_each(|row| self.push(row));
         let path = self.folder.join(CSV);
         match self.bytes() {
             Ok(bytes) => Ok(replace(&path, &bytes)?),
             Err(reason) => Err(StudyError::File { path, reason }),
         }
+    }
+
+    /// Reads what other processes have written.
+    pub fn refresh(&mut self) -> Result<(), StudyError> {
+        *self = Store { dropped: self.dropped, ..Store::open(&self.folder)? };
+        Ok(())
+    }
+
+    /// Waits until no other process writes the store. On file systems without locks it does not wait.
+    fn lock(&self) -> Result<File, StudyError> {
+        let path = self.folder.join(LOCK);
+        let open = File::options().create(true).truncate(false).write(true).open(&path);
+        let lock = open.and_then(|file| match file.lock() {
+            Err(error) if error.kind() != ErrorKind::Unsupported => Err(error),
+            _ => Ok(file),
+        });
+        lock.map_err(|error| StudyError::File { path, reason: format!("cannot be locked: {error}") })
     }
 
     fn bytes(&self) -> Result<Vec<u8>, String> {

@@ -1,5 +1,5 @@
 //! `noisefall study`: a table of measurements and a report, which survive an interruption.
-use std::{collections::BTreeSet, fs};
+use std::{collections::BTreeSet, fs, process::Stdio};
 
 use crate::command_line::{Shell, scene, text};
 
@@ -88,6 +88,26 @@ fn a_study_that_was_cut_off_goes_on_where_it_was() {
     assert!(again.status.success() && told.contains("note: 2 lines of study.csv belong to incomplete runs"), "{told}");
     assert!(told.contains(&format!("{} of {runs} runs are already measured", runs - 1)), "{told}");
     assert_eq!(fs::read_to_string(&path).expect("measurements").lines().count(), lines);
+}
+
+#[test]
+fn two_studies_in_one_folder_at_once_lose_no_line() {
+    let shell = Shell::new();
+    let start = |scenes: &[&str]| {
+        let arguments = [&["study", "-o", "out"], &SMALL[..], scenes].concat();
+        shell.command(&arguments).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().expect("the program starts")
+    };
+    let [furnace, sky] = ["furnace", "bright_sky"].map(scene);
+    let both = [start(&[&furnace, &sky]), start(&[&sky, &furnace])];
+    for study in both {
+        let done = study.wait_with_output().expect("it ends");
+        assert!(done.status.success(), "{}", text(&done.stderr));
+    }
+    let again = shell.run(&[&["study", "-o", "out"], &SMALL[..], &[&furnace, &sky]].concat());
+    let told = text(&again.stderr);
+    let [found, runs] = [0, 2].map(|word| told.split(' ').nth(word).unwrap_or_default().to_owned());
+    assert!(again.status.success() && found == runs && told.contains("are already measured"), "{told}");
+    assert!(!told.contains("incomplete"), "{told}");
 }
 
 #[test]

@@ -99,7 +99,7 @@ impl KeptFile {
 }
 
 /// The figures of a render as its file has them.
-pub(in crate::render) fn counters(count: &PassCount, elapsed: Duration) -> Counters {
+pub fn counters(count: &PassCount, elapsed: Duration) -> Counters {
     let &PassCount { rays, cut_paths, invalid, .. } = count;
     let first_invalid = invalid.map(|SampleId { pixel: [x, y], sample }| [x, y, sample]);
     Counters { seconds: elapsed.as_secs_f64(), rays, cut_paths, first_invalid }

@@ -48,6 +48,7 @@ pub fn kept_header(
         probe: probe(request, threads),
         counters: Counters::default(),
         samples: Vec::new(),
+        image: None,
         remarks: Vec::new(),
     })
 }

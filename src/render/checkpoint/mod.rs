@@ -10,13 +10,10 @@ mod probe;
 #[cfg(test)]
 mod tests;
 
-pub(super) use self::{
-    keeper::Keeper,
-    kept_file::{KeptState, counters},
-};
+pub(super) use self::{keeper::Keeper, kept_file::KeptState};
 pub use self::{
     keeper::{KeepEvent, KeepPlan, reserve},
-    kept_file::{EXTENSION, KeptFile, KeptRender, UnreadableFile, is_kept_file},
+    kept_file::{EXTENSION, KeptFile, KeptRender, UnreadableFile, counters, is_kept_file},
     kept_scene::{file_differences, keep_scene, kept_header, reopen},
     probe::{probe, probe_difference},
 };

@@ -54,6 +54,37 @@ fn lines_that_are_cut_off_spoil_their_own_run_only() {
 }
 
 #[test]
+fn processes_that_write_at_once_lose_nothing() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let write = &|writer: u32| {
+        let mut store = Store::open(folder.path()).expect("a store");
+        // Every other run is measured by both.
+        for run in 0..20u32 {
+            let key = key::text(u64::from(run * 2 + run % 2 * writer));
+            store.add(rows(&key, 3)).expect("it can be written");
+        }
+    };
+    std::thread::scope(|scope| [0, 1].map(|writer| scope.spawn(move || write(writer))).map(|done| done.join().expect("it ends")));
+    let store = Store::open(folder.path()).expect("a store");
+    assert_eq!((store.len(), store.dropped), (30, 0));
+}
+
+#[test]
+fn stores_are_joined_by_appending_one_to_the_other() {
+    let folders = [0, 1].map(|_| tempfile::tempdir().expect("a folder"));
+    for (folder, keys) in folders.iter().zip([&KEYS[..], &KEYS[..1]]) {
+        let mut store = Store::open(folder.path()).expect("an empty store");
+        keys.iter().for_each(|key| store.add(rows(key, 3)).expect("it can be written"));
+    }
+    let [a, b] = folders.each_ref().map(|folder| std::fs::read(folder.path().join(CSV)).expect("a file"));
+    let path = folders[0].path().join(CSV);
+    std::fs::write(&path, [b, a].concat()).expect("it can be written");
+    let store = Store::open(folders[0].path()).expect("a store");
+    assert_eq!((store.len(), store.dropped), (2, 0));
+    assert_eq!(store.run(KEYS[1]), row::run(&rows(KEYS[1], 3)));
+}
+
+#[test]
 fn keys_tell_parts_apart() {
     assert_ne!(key::hash(&[b"ab", b"c"]), key::hash(&[b"a", b"bc"]));
     assert_ne!(key::hash_of_picture(&[[0.0; 3]]), key::hash_of_picture(&[[0.0, -0.0, 0.0]]));

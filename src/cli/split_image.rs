@@ -1,0 +1,127 @@
+//! The image of exact sums: written, and reported. It is the same whether the sums come from one render or from joined files.
+use std::process::ExitCode;
+
+use noisefall::{
+    quote,
+    render::{
+        Display, Frame, Status,
+        checkpoint::is_kept_file,
+        settings_text::ImageOrigin,
+        split::{NoSamples, Picture, SampleRanges},
+    },
+    render_file::{Counters, Header},
+    sampling::Sampler,
+};
+use serde_json::{Value, json};
+
+use super::{
+    figures,
+    messages::{Failure, tell},
+    output::Output,
+};
+
+/// Key of the ranges in the metadata of an image.
+const SAMPLES_KEY: &str = "sample_ranges";
+/// Key of those that are missing.
+const MISSING_KEY: &str = "missing_samples";
+
+/// Samples of an image, and where they go.
+pub struct SplitImage<'a> {
+    pub output: &'a Output,
+    /// What the image depends on.
+    pub header: &'a Header,
+    pub samples: &'a SampleRanges,
+    /// What is missing among the samples.
+    pub missing: SampleRanges,
+    pub json: bool,
+}
+
+/// Whether the output is a file of samples.
+pub fn is_sample_file(output: &Output) -> bool {
+    output.file().is_some_and(is_kept_file)
+}
+
+impl SplitImage<'_> {
+    /// An empty image.
+    pub fn picture(&self) -> Result<Picture, Failure> {
+        let shares = self.header.image.as_ref().is_some_and(|image| image.shares);
+        let picture = Picture::new(self.header.camera.resolution, self.samples.clone(), shares);
+        picture.map_err(|error| error.to_string())
+    }
+
+    /// Writes the image of a picture that is filled, and prints its line.
+    pub fn deliver(&self, picture: Picture, display: Display) -> Result<ExitCode, Failure> {
+        let frame = picture.frame();
+        let Header { scene, camera, settings, image, .. } = self.header;
+        let title = image.as_ref().map_or("", |image| &image.title);
+        let origin = ImageOrigin { title, scene: &scene.text, camera, settings, display };
+        let mut remarks = vec![(SAMPLES_KEY, self.samples.to_string())];
+        remarks.extend((!self.missing.is_empty()).then(|| (MISSING_KEY, self.missing.to_string())));
+        let delivered = self.output.write(&frame, &[], display, &origin.text(&frame, &remarks))?;
+        if delivered == ExitCode::SUCCESS {
+            self.report(Some(&frame))?;
+        }
+        Ok(delivered)
+    }
+
+    /// Prints the line about a file of samples, or about its image.
+    pub fn report(&self, frame: Option<&Frame>) -> Result<(), Failure> {
+        let Counters { cut_paths, first_invalid, .. } = self.header.counters;
+        if let Some([x, y, sample]) = first_invalid {
+            tell(&format!(
+                "warning: invalid samples were dropped; the first one: `noisefall render {} --pixel {x},{y} --sample {sample}`",
+                self.header.scene.name
+            ));
+        }
+        if !self.missing.is_empty() {
+            tell(&format!("warning: the samples {} are missing; the metadata of the image say so", self.missing));
+        }
+        let status = Status { cut_paths, ..Status::default() };
+        let bias = status.bias(&self.header.settings);
+        let text = if self.json { self.figures(frame, bias).to_string() } else { self.line(frame, bias) };
+        self.output.report(&text)
+    }
+
+    fn line(&self, frame: Option<&Frame>, bias: Option<String>) -> String {
+        let output = self.output.file().map_or_else(|| self.output.to_string(), quote::path);
+        let noise = frame.and_then(|frame| frame.rel_mse_estimate).map_or_else(String::new, |rel_mse| {
+            let bound = if self.is_exact() { "" } else { "at most " };
+            format!(", noise {bound}{:.2} %", 100.0 * rel_mse.sqrt())
+        });
+        let counts = frame.map_or_else(String::new, |frame| format!(" ({})", frame.sample_counts()));
+        let bias = bias.map_or_else(|| "unbiased".to_owned(), |why| format!("biased: {why}"));
+        let rendered = format!("rendered in {:.2} s", self.header.counters.seconds);
+        format!("{output}: samples {}{counts}{noise}, {bias}; {rendered}", self.samples)
+    }
+
+    fn figures(&self, frame: Option<&Frame>, bias: Option<String>) -> Value {
+        let Header { scene, camera, settings, counters, .. } = self.header;
+        let [width, height] = camera.resolution;
+        let mut figures = figures::settings(settings);
+        figures.extend(figures::named([
+            ("scene", json!(scene.name)),
+            ("width", json!(width)),
+            ("height", json!(height)),
+            ("samples", json!(self.samples.list())),
+            ("missing_samples", json!(self.missing.list())),
+            ("mean_spp", json!(frame.map(|frame| frame.sample_counts().mean()))),
+            ("seconds", json!(counters.seconds)),
+            ("rays", json!(counters.rays)),
+            ("rel_mse_estimate", json!(frame.and_then(|frame| frame.rel_mse_estimate))),
+            ("biased", json!(bias)),
+            ("cut_paths", json!(counters.cut_paths)),
+            ("program", json!(self.header.program)),
+        ]));
+        figures.into()
+    }
+
+    /// Whether variances of samples are exact, and not only upper bounds.
+    fn is_exact(&self) -> bool {
+        Sampler::is_independent(self.header.settings.sampler)
+    }
+}
+
+/// The message of an image in which pixels have no samples.
+pub fn without_samples(output: &Output, error: &NoSamples) -> Failure {
+    format!("{output}: {error}")
+}

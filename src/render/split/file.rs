@@ -1,0 +1,94 @@
+//! Files of samples: render files of the kind `samples`.
+use std::{
+    fs::File,
+    io::BufReader,
+    path::{Path, PathBuf},
+};
+
+use super::{ranges::SampleRanges, section, sums::TileSums};
+use crate::{
+    file::{self, WriteError, open_regular},
+    quote,
+    render::area::Area,
+    render_file::{Header, Kind, Reader, RenderFileError, Writer},
+};
+
+/// Error of reading a file of samples.
+#[derive(Debug, thiserror::Error)]
+#[error("{}: {error}", quote::path(path))]
+pub struct SampleFileError {
+    path: PathBuf,
+    error: RenderFileError,
+}
+
+/// A file of samples, read tile by tile.
+pub struct SampleFile {
+    path: PathBuf,
+    reader: Reader<BufReader<File>>,
+    samples: SampleRanges,
+}
+
+/// Writes the sums of the tiles of an image.
+pub fn write<'t>(path: &Path, header: &Header, tiles: impl Iterator<Item = &'t TileSums>) -> Result<(), WriteError> {
+    file::replace_by(path, |to| {
+        let mut writer = Writer::new(to, header)?;
+        for (place, sums) in (0..).zip(tiles) {
+            writer.section(&section::encode(place, sums))?;
+        }
+        writer.finish().map(drop)
+    })
+}
+
+impl SampleFile {
+    /// Opens a file, and checks its header.
+    pub fn open(path: &Path) -> Result<SampleFile, SampleFileError> {
+        let unreadable = |error| SampleFileError { path: path.to_owned(), error };
+        let file = open_regular(path).map_err(|error| unreadable(error.into()))?;
+        let reader = Reader::new(BufReader::new(file)).map_err(unreadable)?;
+        let samples = samples(reader.header()).map_err(unreadable)?;
+        Ok(SampleFile { path: path.to_owned(), reader, samples })
+    }
+
+    /// Its path.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// What it says about its image.
+    pub fn header(&self) -> &Header {
+        self.reader.header()
+    }
+
+    /// The samples that it has.
+    pub fn samples(&self) -> &SampleRanges {
+        &self.samples
+    }
+
+    /// Gives the sums of each tile to `take`, row by row from the top left.
+    pub fn read<E: From<SampleFileError>>(mut self, mut take: impl FnMut(usize, TileSums) -> Result<(), E>) -> Result<(), E> {
+        let unreadable = |error| SampleFileError { path: self.path.clone(), error };
+        let reader = &mut self.reader;
+        for (place, area) in Area::tiles(reader.header().camera.resolution).enumerate() {
+            let sums = match reader.section().map_err(unreadable)? {
+                Some((section::TAG, payload)) => section::decode(payload, place as u32, area).map_err(unreadable)?,
+                _ => return Err(unreadable(RenderFileError::contents(format!("tile {place} is missing"))).into()),
+            };
+            take(place, sums)?;
+        }
+        match reader.section().map_err(unreadable)? {
+            None => Ok(()),
+            Some((tag, _)) => Err(unreadable(RenderFileError::contents(format!("the section {tag} is not known"))).into()),
+        }
+    }
+}
+
+/// The samples of a file with this header, if it can be used.
+fn samples(header: &Header) -> Result<SampleRanges, RenderFileError> {
+    if header.kind != Kind::Samples || header.image.is_none() {
+        return Err(RenderFileError::contents("it holds a render to be continued (--resume), not samples to be joined"));
+    }
+    let camera = header.camera.check();
+    camera.map_err(|error| RenderFileError::contents(format!("its camera cannot be used: {error}")))?;
+    let samples = SampleRanges::of(&header.samples).filter(|samples| !samples.is_empty());
+    samples.ok_or_else(|| RenderFileError::contents("its ranges of samples make no sense"))
+}
