@@ -10,6 +10,9 @@ use super::{
     messages::{Failure, print},
 };
 
+/// An argument without characters. A truly empty one would be left out, and the source would stand in place of the date.
+const NO_DATE: &str = "\"\"";
+
 #[derive(clap::Args)]
 pub struct Arguments {
     /// Folder for the pages, such as ~/.local/share/man/man1; created if it does not exist
@@ -28,7 +31,7 @@ pub fn run(arguments: &Arguments, program: Command) -> Result<(), Failure> {
 }
 
 fn write(folder: &Path, command: Command) -> Result<(), Failure> {
-    let page = Man::new(command).manual("Noisefall").source(concat!("Noisefall ", env!("CARGO_PKG_VERSION")));
+    let page = Man::new(command).manual("Noisefall").source(concat!("Noisefall ", env!("CARGO_PKG_VERSION"))).date(NO_DATE);
     let (name, mut text) = (page.get_filename(), Vec::new());
     folder::make(folder, &name)?;
     page.render(&mut text).map_err(|error| format!("{name}: {error}"))?;
