@@ -13,6 +13,9 @@ Errors of scenes are `SceneError`, errors of images `RenderError`. Their texts a
 raise `ValueError`.
 """
 
+import json as _json
+from typing import Any as _Any
+
 from . import description
 from ._noisefall import NoisefallError, RenderError, SceneError, schema as _schema, scenes
 from .image import Comparison, Image, compare
@@ -42,8 +45,7 @@ __all__ = [
 ]
 
 
-def schema() -> dict:
+def schema() -> dict[str, _Any]:
     """The JSON Schema of scene files, as `noisefall schema` prints it."""
-    import json
-
-    return json.loads(_schema())
+    tree: dict[str, _Any] = _json.loads(_schema())
+    return tree

@@ -33,12 +33,14 @@ class Table:
 
     def dataclass(self, module: str) -> type:
         """The dataclass of the table."""
-        fields = [
-            (key.name, key.type, dataclasses.field(**({} if key.is_required else {"default": None}))) for key in self.keys
-        ]
-        made = dataclasses.make_dataclass(self.name, fields, kw_only=True, module=module)
+        fields = [(key.name, key.type, _field(key)) for key in self.keys]
+        made = dataclasses.make_dataclass(self.name, fields, kw_only=True, namespace={"__module__": module})
         made.__doc__ = "\n\n".join([self.doc, "\n".join(f"{key.name}: {key.doc}" for key in self.keys)]).strip()
         return made
+
+
+def _field(key: Key) -> Any:
+    return dataclasses.field() if key.is_required else dataclasses.field(default=None)
 
 
 def declarations() -> list[Table]:
@@ -89,9 +91,9 @@ class _Tables:
             case "object" if "properties" in schema:
                 return f"{self.table(schema, name, parent, doc)} | Mapping[str, Any]"
             case "object":
-                return f"Mapping[str, {self.type(schema['additionalProperties'], _singular(name), parent, doc)}]"
+                return f"Mapping[str, {self._entry(schema['additionalProperties'], name, parent)}]"
             case "array":
-                return f"Sequence[{self.type(schema['items'], _singular(name), parent, doc)}]"
+                return f"Sequence[{self._entry(schema['items'], name, parent)}]"
             case "number":
                 return "float"
             case "integer":
@@ -101,10 +103,11 @@ class _Tables:
             case _:
                 return "str"
 
+    def _entry(self, schema: dict[str, Any], name: str, parent: str) -> str:
+        """The type of an entry of a list, or of a table of tables by name."""
+        return self.type(schema, name.removesuffix("s"), parent, f"An entry of `{name.lower()}`.")
+
 
 def _class_name(key: str) -> str:
     return "".join(word.capitalize() for word in key.split("_"))
 
-
-def _singular(name: str) -> str:
-    return name.removesuffix("s")

@@ -4,8 +4,8 @@
 >>> scene = build(d.Description(
 ...     camera=d.Camera(eye=[0, 0, 4], look_at=[0, 0, 0], fov=40.0, resolution=[64, 64]),
 ...     materials={"white": d.Material(lambertian=d.Lambertian(albedo=0.7))},
-...     objects=[d.Object(shape=d.Shape(sphere=d.Sphere(radius=1.0)), material="white"),
-...              d.Object(shape=d.Shape(sphere=d.Sphere(center=[0, 4, 0])), emission=d.Emission(radiance=5.0))],
+...     objects=[d.Object(shape=d.Shape(sphere=d.Sphere(center=[0, 0, 0], radius=1.0)), material="white"),
+...              d.Object(shape=d.Shape(sphere=d.Sphere(center=[0, 4, 0], radius=1.0)), emission=d.Emission(radiance=5.0))],
 ... ))
 
 A field that is `None` is not in the scene file; the scene then has its default. Each class lists its fields with their meaning.

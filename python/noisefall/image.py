@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 from dataclasses import dataclass
 from functools import cached_property
@@ -57,28 +58,29 @@ class Image:
     @cached_property
     def figures(self) -> dict[str, Any]:
         """Figures under the names of `noisefall render --json`. With a `[truth]` in the scene they include the true error."""
-        return json.loads(self._native.figures())
+        figures: dict[str, Any] = json.loads(self._native.figures())
+        return figures
 
     @property
     def spp(self) -> int:
         """The number of samples that every pixel has at least."""
-        return self.figures["spp"]
+        return int(self.figures["spp"])
 
     @property
     def seconds(self) -> float:
         """Time spent rendering."""
-        return self.figures["seconds"]
+        return float(self.figures["seconds"])
 
     @property
     def noise(self) -> float | None:
         """The estimated relative noise: the root of relMSE. `None` before the second sample."""
         estimate = self.figures["rel_mse_estimate"]
-        return None if estimate is None else estimate**0.5
+        return None if estimate is None else math.sqrt(estimate)
 
     @property
     def stopped_by(self) -> str:
         """What ended the render: "samples", "time", "noise" or "callback"; "running" within a callback."""
-        return self.figures["stopped_by"]
+        return str(self.figures["stopped_by"])
 
     def srgb(self, *, exposure: float | None = None, tone: str | None = None) -> NDArray[np.uint8]:
         """The pixels as displayed, 8-bit sRGB: height × width × 3. `exposure` is in stops, that of the scene by default."""
@@ -101,7 +103,7 @@ class Image:
         return f"<noisefall.Image {width} × {height}, {self.spp} spp>"
 
 
-Comparable = Image | np.ndarray | str | os.PathLike
+Comparable = Image | NDArray[Any] | str | os.PathLike[str]
 
 
 @dataclass(frozen=True)

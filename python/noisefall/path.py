@@ -23,12 +23,13 @@ class Path:
     @property
     def end(self) -> str:
         """Why the path ended."""
-        return self.tree["end"]
+        return str(self.tree["end"])
 
     @property
     def vertices(self) -> list[dict[str, Any]]:
         """The vertices in order, with all terms of each."""
-        return self.tree["vertices"]
+        vertices: list[dict[str, Any]] = self.tree["vertices"]
+        return vertices
 
     def table(self) -> list[dict[str, Any]]:
         """A flat row for each vertex, such as `pandas.DataFrame` takes. Keys within keys are joined by dots (`light.pdf`), the
@@ -46,12 +47,8 @@ class Path:
 
 
 def _flat(value: Any, name: str = "") -> Iterator[tuple[str, Any]]:
-    if isinstance(value, Mapping):
-        items = value.items()
-    elif isinstance(value, list):
-        items = enumerate(value)
-    else:
+    if not isinstance(value, (Mapping, list)):
         yield name, value
         return
-    for key, item in items:
+    for key, item in value.items() if isinstance(value, Mapping) else enumerate(value):
         yield from _flat(item, f"{name}.{key}" if name else str(key))

@@ -114,12 +114,7 @@ impl Image {
     }
 
     /// The pixels as displayed: 8-bit sRGB with an opaque fourth channel.
-    fn srgb<'py>(
-        &self,
-        py: Python<'py>,
-        exposure: Option<f32>,
-        tone: Option<&str>,
-    ) -> PyResult<Bound<'py, PyArray3<u8>>> {
+    fn srgb<'py>(&self, py: Python<'py>, exposure: Option<f32>, tone: Option<&str>) -> PyResult<Bound<'py, PyArray3<u8>>> {
         let display = self.display(exposure, tone)?;
         let frame = &self.picture.frame;
         let codes = py.detach(|| {

@@ -16,16 +16,10 @@ use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::{exceptions::PyValueError, prelude::*};
 use serde_json::json;
 
-use crate::{errors::RenderError, interrupt::interruptible, settings::Settings};
+use crate::{interrupt::interruptible, settings::Settings};
 
 /// A sample as JSON and as text.
-pub fn replayed(
-    py: Python,
-    scene: &Scene,
-    pixel: [u32; 2],
-    sample: u32,
-    settings: &Settings,
-) -> PyResult<(String, String)> {
+pub fn replayed(py: Python, scene: &Scene, pixel: [u32; 2], sample: u32, settings: &Settings) -> PyResult<(String, String)> {
     let (camera, settings) = (settings.camera(scene)?, settings.settings(scene)?);
     check(pixel, camera.resolution)?;
     Ok(py.detach(|| {

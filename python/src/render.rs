@@ -1,9 +1,7 @@
 //! Progressive rendering, with a callback that can stop it.
-use std::{
-    sync::{
-        Arc,
-        mpsc::{Receiver, RecvTimeoutError, sync_channel},
-    },
+use std::sync::{
+    Arc,
+    mpsc::{Receiver, RecvTimeoutError, sync_channel},
 };
 
 use noisefall::{

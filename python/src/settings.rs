@@ -2,9 +2,7 @@
 use std::time::Duration;
 
 use noisefall::{
-    Budget, Camera, Estimator, RenderSettings, Reuse, Roulette, Sampler, Scene,
-    declare::Words,
-    sampling::Directions,
+    Budget, Camera, Estimator, RenderSettings, Reuse, Roulette, Sampler, Scene, declare::Words, sampling::Directions,
 };
 use pyo3::{PyErr, PyResult, exceptions::PyValueError};
 use serde::Deserialize;

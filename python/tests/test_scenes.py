@@ -18,7 +18,7 @@ def ball(**more):
         "camera": {"eye": [0, 0, 4], "look_at": [0, 0, 0], "fov": 40.0, "resolution": [32, 32]},
         "materials": {"white": {"lambertian": {"albedo": 0.7}}},
         "background": {"radiance": 1.0},
-        "objects": [{"shape": {"sphere": {"radius": 1.0}}, "material": "white"}],
+        "objects": [{"shape": {"sphere": {"center": [0, 0, 0], "radius": 1.0}}, "material": "white"}],
         **more,
     }
 
@@ -44,7 +44,7 @@ def test_dataclasses_and_dicts_say_the_same():
         camera=d.Camera(eye=[0, 0, 4], look_at=[0, 0, 0], fov=40.0, resolution=[32, 32]),
         materials={"white": d.Material(lambertian=d.Lambertian(albedo=np.float64(0.7)))},
         background=d.Background(radiance=1.0),
-        objects=[d.Object(shape=d.Shape(sphere=d.Sphere(radius=1.0)), material="white")],
+        objects=[d.Object(shape=d.Shape(sphere=d.Sphere(center=[0, 0, 0], radius=1.0)), material="white")],
     )
     a, b = (noisefall.build(tree).render(spp=2).radiance for tree in (described, ball()))
     assert np.array_equal(a, b)
@@ -77,7 +77,7 @@ def test_a_wrong_scene_is_an_error_with_the_words_of_the_program():
     with pytest.raises(noisefall.NoisefallError, match="there is no such file"):
         noisefall.load("no_such_scene.toml")
     with pytest.raises(noisefall.SceneError, match="radius"):
-        noisefall.build(ball(objects=[{"shape": {"sphere": {"radius": -1.0}}}]))
+        noisefall.build(ball(objects=[{"shape": {"sphere": {"center": [0, 0, 0], "radius": -1.0}}}]))
     with pytest.raises(TypeError):
         d.Sphere(radios=1.0)
     with pytest.raises(TypeError, match="cannot hold"):
@@ -85,7 +85,7 @@ def test_a_wrong_scene_is_an_error_with_the_words_of_the_program():
 
 
 def test_warnings_are_those_of_the_check():
-    scene = noisefall.build(ball(objects=[{"shape": {"sphere": {"radius": 1.0}}}]))
+    scene = noisefall.build(ball(objects=[{"shape": {"sphere": {"center": [0, 0, 0], "radius": 1.0}}}]))
     assert any("material" in warning for warning in scene.warnings)
     assert scene.remarks == []
 
