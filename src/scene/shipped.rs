@@ -31,6 +31,11 @@ impl ShippedScene {
         ShippedScene::all().into_iter().find(|scene| scene.name == name && !path.exists())
     }
 
+    /// The scene with this text.
+    pub fn of_text(text: &str) -> Option<ShippedScene> {
+        ShippedScene::all().into_iter().find(|scene| scene.text == text)
+    }
+
     /// The files that the scene names, by the paths that it names them by.
     pub fn files(&self) -> impl Iterator<Item = (&'static str, &'static [u8])> {
         let files = FOLDER.dirs().flat_map(Dir::files).filter_map(|file| Some((file.path().to_str()?, file.contents())));

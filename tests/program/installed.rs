@@ -32,6 +32,8 @@ fn scenes_can_be_named_where_there_is_no_file() {
     for name in ["sky_lit", "cornell_box"] {
         let line = json(&shell.run(&[&["render", name], &options[..]].concat()));
         assert_eq!((&line["scene"], &line["spp"]), (&name.into(), &1.into()));
+        // The rendered image carries the scene, but not the files that it names.
+        printed(&shell, &["check", "a.exr"]);
     }
     let wrong = shell.run(&[&["render", "cornel_box"], &options[..]].concat());
     assert!(text(&wrong.stderr).contains("`noisefall scenes` lists"), "{}", text(&wrong.stderr));
