@@ -1,6 +1,8 @@
 //! The validation can fail: an injected fault in the integrator fails the sections that test it.
 use std::collections::HashSet;
 
+use std::ops::ControlFlow;
+
 use super::*;
 
 /// Indices of the sections on the furnace, caps and roulette, directions, and spheres.
@@ -90,4 +92,15 @@ fn rows_of_files_are_those_of_the_report() {
 fn text_rows(text: &str) -> Vec<Vec<String>> {
     let mut reader = ::csv::ReaderBuilder::new().has_headers(false).from_reader(text.as_bytes());
     reader.records().map(|row| row.expect("a row").iter().map(str::to_owned).collect()).collect()
+}
+
+#[test]
+fn a_run_that_is_stopped_has_the_sections_that_are_finished() {
+    let mut seen = Vec::new();
+    let sections = Validation::new(Effort::Quick, None, 0).run_while(|number, section| {
+        seen.push((number, section.title));
+        ControlFlow::Break(())
+    });
+    assert_eq!((seen.len(), sections.len()), (1, 1));
+    assert_eq!(seen[0], (1, sections[0].title));
 }
