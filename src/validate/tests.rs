@@ -1,8 +1,6 @@
 //! The validation can fail: an injected fault in the integrator fails the sections that test it.
 use std::collections::HashSet;
 
-use std::ops::ControlFlow;
-
 use super::*;
 
 /// Indices of the sections on the furnace, caps and roulette, directions, and spheres.
