@@ -1,32 +1,41 @@
-"""Draws the error of two estimators against the number of samples.
+# %% [markdown]
+# # Convergence
+#
+# Draws the error of three samplers against the number of samples. Run it as a script, `python convergence.py [OUT.png]`, or cell by
+# cell in an editor that knows `# %%`.
 
-    python convergence.py [OUT.png]
-
-The scene is the furnace, in which the radiance is exactly 2, so that the error is known. Independent samples have a relMSE of σ²/N;
-Sobol samples fall faster.
-"""
-
+# %%
 import sys
 
 import matplotlib
 
-matplotlib.use("Agg")
+if "ipykernel" not in sys.modules:
+    matplotlib.use("Agg")
 
 import matplotlib.pyplot as plt
 import noisefall
 import numpy as np
 
+# %% [markdown]
+# Inside the furnace, a closed sphere that emits 1 and reflects half, the radiance is exactly 2. So the error of an image is known.
+
+# %%
+scene = noisefall.load("furnace")
+print(scene, "-", scene.notes)
+
+# %% [markdown]
+# One render makes a whole curve: it stops at each number of samples, and continues with the samples that it has.
+
+# %%
 SPP = [2**power for power in range(11)]
-SIZE = (128, 128)
-SAMPLERS = ["independent", "stratified", "sobol"]
 
 
-def curve(scene: noisefall.Scene, sampler: str) -> list[float]:
-    """relMSE at each number of samples. One render makes the whole curve."""
+def curve(sampler: str) -> list[float]:
+    """relMSE at each number of samples."""
     errors: list[float] = []
     scene.render(
         spp=SPP[-1],
-        size=SIZE,
+        size=(128, 128),
         sampler=sampler,
         reuse="off",
         stops=SPP,
@@ -35,21 +44,21 @@ def curve(scene: noisefall.Scene, sampler: str) -> list[float]:
     return errors
 
 
-def main() -> None:
-    out = sys.argv[1] if len(sys.argv) > 1 else "convergence.png"
-    scene = noisefall.load("furnace")
-    _, axes = plt.subplots(figsize=(6, 4), layout="constrained")
-    for sampler in SAMPLERS:
-        errors = curve(scene, sampler)
-        slope = np.polyfit(np.log(SPP), np.log(errors), 1)[0]
-        print(f"{sampler:<12} relMSE {errors[0]:.2e} at 1 spp, {errors[-1]:.2e} at {SPP[-1]} spp, slope {slope:+.2f}")
-        axes.loglog(SPP, errors, "o-", label=f"{sampler}, slope {slope:.2f}")
-    axes.set(xlabel="samples per pixel", ylabel="relMSE", title=scene.title)
-    axes.grid(which="both", alpha=0.3)
-    axes.legend()
-    plt.savefig(out, dpi=150)
-    print(out)
+curves = {sampler: curve(sampler) for sampler in ["independent", "stratified", "sobol"]}
 
+# %% [markdown]
+# The relMSE of independent samples is σ²/N, a slope of -1. That of stratified and Sobol samples falls faster.
 
-if __name__ == "__main__":
-    main()
+# %%
+figure, axes = plt.subplots(figsize=(6, 4), layout="constrained")
+for sampler, errors in curves.items():
+    slope = np.polyfit(np.log(SPP), np.log(errors), 1)[0]
+    print(f"{sampler:<12} relMSE {errors[0]:.2e} at 1 spp, {errors[-1]:.2e} at {SPP[-1]} spp, slope {slope:+.2f}")
+    axes.loglog(SPP, errors, "o-", label=f"{sampler}, slope {slope:.2f}")
+axes.set(xlabel="samples per pixel", ylabel="relMSE", title=scene.title)
+axes.grid(which="both", alpha=0.3)
+axes.legend()
+
+out = sys.argv[1] if len(sys.argv) > 1 and sys.argv[1].endswith((".png", ".svg", ".pdf")) else "convergence.png"
+figure.savefig(out, dpi=150)
+print(out)

@@ -2,7 +2,10 @@
 use std::sync::Arc;
 
 use noisefall::Frame;
-use pyo3::{prelude::*, types::PyDict};
+use pyo3::{
+    prelude::*,
+    types::{PyDict, PyTuple},
+};
 
 /// Numbers of a frame, row by row from the top left. `numpy.asarray` views them; the view keeps the frame alive.
 #[pyclass(frozen, module = "noisefall._noisefall")]
@@ -45,7 +48,7 @@ impl Pixels {
         let order = if cfg!(target_endian = "little") { '<' } else { '>' };
         let dict = PyDict::new(py);
         dict.set_item("version", 3)?;
-        dict.set_item("shape", pyo3::types::PyTuple::new(py, &self.shape)?)?;
+        dict.set_item("shape", PyTuple::new(py, &self.shape)?)?;
         dict.set_item("typestr", format!("{order}{}4", self.kind))?;
         dict.set_item("data", (self.address, READ_ONLY))?;
         Ok(dict)

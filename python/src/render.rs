@@ -5,10 +5,10 @@ use std::sync::{
 };
 
 use noisefall::{
-    Budget, Camera, Film, Publish, Published, RenderRequest, RenderSettings, RenderTask, Renderer, Scene, SimdLevel, State,
-    Target, Threads,
+    Budget, Camera, Film, Frame, Publish, Published, RenderRequest, RenderSettings, RenderTask, Renderer, Scene, SimdLevel,
+    State, Target, Threads,
 };
-use pyo3::prelude::*;
+use pyo3::{prelude::*, types::PyBool};
 
 use crate::{
     errors::RenderError,
@@ -19,6 +19,8 @@ use crate::{
 
 /// Number of the only image of a renderer.
 const IMAGE: u64 = 1;
+/// What ended a render whose callback stopped it.
+const STOPPED: &str = "callback";
 
 /// Renders an image. `callback` is called with the image so far, and stops the render if it returns `False`.
 pub fn render(py: Python, scene: &Arc<Scene>, settings: &Settings, callback: Option<&Py<PyAny>>) -> PyResult<Image> {
@@ -63,49 +65,64 @@ impl Job {
         let failed = |error: &dyn std::fmt::Display| RenderError::new_err(error.to_string());
         let [width, height] = self.camera.resolution;
         let _memory = Film::reserve([width, height]).map_err(|error| failed(&error))?;
+        let _series = self.bounces.then(|| Film::reserve_series([width, height])).transpose().map_err(|error| failed(&error))?;
         let threads = Threads::new(self.threads, SimdLevel::best()).map_err(|error| failed(&error))?;
         let (wake, woken) = sync_channel(1);
         let renderer = Renderer::new(threads, Publish::Sparse, move || {
             let _ = wake.try_send(());
         });
         let worker = Worker { renderer, woken };
-        let mut seen = None;
+        let (published, stopped_by) = self.picture(&worker, callback)?;
+        // A render that its callback stopped had no target: that of its bounces is what it has.
+        let target = match stopped_by {
+            STOPPED => Budget { max_spp: Some(published.frame.spp.max(1)), ..Budget::default() },
+            _ => self.budget,
+        };
+        let series = self.bounces.then(|| self.series(&worker, target)).transpose()?;
+        Ok(self.image(&published, series.as_ref(), stopped_by))
+    }
+
+    /// Renders the image from stop to stop. Returns it with what ended it.
+    fn picture(&self, worker: &Worker, callback: Option<&Py<PyAny>>) -> PyResult<(Published, &'static str)> {
+        let mut seen: Option<Arc<Frame>> = None;
         let mut show = |published: &Published| -> PyResult<GoesOn> {
-            let is_new = seen != Some(published.status.spp) && published.frame.spp > 0;
+            let is_new = published.frame.spp > 0 && seen.as_ref().is_none_or(|seen| !Arc::ptr_eq(seen, &published.frame));
             let Some(callback) = callback.filter(|_| is_new) else { return Ok(true) };
-            seen = Some(published.status.spp);
+            seen = Some(published.frame.clone());
             Python::attach(|py| {
                 let answer = callback.call1(py, (self.image(published, None, "running"),))?;
-                Ok(!answer.bind(py).is(pyo3::types::PyBool::new(py, false)))
+                Ok(!answer.bind(py).is(PyBool::new(py, false)))
             })
         };
-        let request = || RenderRequest { scene: self.scene.clone(), camera: self.camera, settings: self.settings };
-        let first = self.stops.first().copied().or(self.budget.max_spp);
-        worker.renderer.set_budget(Budget { max_spp: first, ..self.budget });
-        worker.renderer.submit(IMAGE, request());
-        let mut stops = self.stops.iter().copied().map(Some).chain([self.budget.max_spp]);
-        let (published, stopped_by) = loop {
-            let stop = stops.next().unwrap_or(self.budget.max_spp);
-            worker.renderer.set_budget(Budget { max_spp: stop, ..self.budget });
+        let last = self.budget.max_spp;
+        let mut stops = self.stops.iter().copied().map(Some);
+        let mut stop = stops.next().unwrap_or(last);
+        worker.renderer.set_budget(Budget { max_spp: stop, ..self.budget });
+        worker.renderer.submit(IMAGE, self.request());
+        loop {
             // Between stops that are asked for, nobody looks.
             let mut glance = |published: &Published| if self.stops.is_empty() { show(published) } else { Ok(true) };
             let (published, reached) = worker.wait(Renderer::latest, stop, &mut glance)?;
             let goes_on = show(&published)?;
             match reached {
-                None => break (published, "callback"),
-                Some(Target::Samples(_)) if stop != self.budget.max_spp && goes_on => {}
-                Some(Target::Samples(_)) if stop != self.budget.max_spp => break (published, "callback"),
-                Some(target) => break (published, target.name()),
+                Some(Target::Samples(_)) if stop != last && goes_on => {}
+                Some(target) if stop == last || !matches!(target, Target::Samples(_)) => return Ok((published, target.name())),
+                _ => return Ok((published, STOPPED)),
             }
-        };
-        let series = match self.bounces {
-            true => {
-                worker.renderer.submit_second(IMAGE, RenderTask::Series(request()));
-                Some(worker.wait(Renderer::latest_second, self.budget.max_spp, &mut |_| Ok(true))?.0)
-            }
-            false => None,
-        };
-        Ok(self.image(&published, series.as_ref(), stopped_by))
+            stop = stops.next().unwrap_or(last);
+            worker.renderer.set_budget(Budget { max_spp: stop, ..self.budget });
+        }
+    }
+
+    /// Renders the image by number of bounces, with samples of its own.
+    fn series(&self, worker: &Worker, budget: Budget) -> PyResult<Published> {
+        worker.renderer.set_budget(budget);
+        worker.renderer.submit_second(IMAGE, RenderTask::Series(self.request()));
+        worker.wait(Renderer::latest_second, budget.max_spp, &mut |_| Ok(true)).map(|(published, _)| published)
+    }
+
+    fn request(&self) -> RenderRequest {
+        RenderRequest { scene: self.scene.clone(), camera: self.camera, settings: self.settings }
     }
 
     fn image(&self, published: &Published, series: Option<&Published>, stopped_by: &'static str) -> Image {

@@ -5,7 +5,7 @@ use std::{
 };
 
 use noisefall::validate::{Effort, Section, Suite, Validation, json};
-use pyo3::prelude::*;
+use pyo3::{prelude::*, types::PyBool};
 
 use crate::interrupt::interruptible;
 
@@ -33,6 +33,6 @@ fn show(callback: Option<&Py<PyAny>>, number: usize, section: &Section) -> PyRes
     let Some(callback) = callback else { return Ok(true) };
     Python::attach(|py| {
         let answer = callback.call1(py, (number, section.title.replace('_', ""), section.holds()))?;
-        Ok(!answer.bind(py).is(pyo3::types::PyBool::new(py, false)))
+        Ok(!answer.bind(py).is(PyBool::new(py, false)))
     })
 }

@@ -108,6 +108,8 @@ def test_bounces_add_up_to_the_image(box):
     assert total.shape == image.radiance.shape
     assert abs(total.mean() / image.radiance.mean() - 1.0) < 0.05
     assert box.render(spp=1, size=SMALL).bounces is None
+    stopped = box.render(spp=10**9, size=SMALL, bounces=True, stops=[4], callback=lambda image: False)
+    assert stopped.spp == 4 and len(stopped.bounces) == len(image.bounces)
 
 
 def test_adaptive_sampling_counts_its_samples(box):
