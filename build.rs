@@ -4,7 +4,18 @@ use std::{path::Path, process::Command};
 #[allow(clippy::print_stdout, reason = "this is how a build script speaks to cargo")]
 fn main() {
     println!("cargo:rerun-if-changed=build.rs");
-    println!("cargo:rustc-env=NOISEFALL_COMMIT={}", commit().unwrap_or_else(|| "unknown".to_owned()));
+    println!("cargo:rustc-env=NOISEFALL_COMMIT={}", commit().or_else(packaged).unwrap_or_else(|| "unknown".to_owned()));
+}
+
+/// The commit that a package was made from, which cargo notes in it.
+fn packaged() -> Option<String> {
+    const NOTE: &str = ".cargo_vcs_info.json";
+    if Path::new(NOTE).exists() {
+        println!("cargo:rerun-if-changed={NOTE}");
+    }
+    let note = std::fs::read_to_string(NOTE).ok()?;
+    let commit = note.split_once("\"sha1\": \"")?.1.get(..12)?;
+    commit.chars().all(|c| c.is_ascii_hexdigit()).then(|| commit.to_owned())
 }
 
 fn commit() -> Option<String> {

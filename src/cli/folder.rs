@@ -6,6 +6,7 @@ use noisefall::file::{check, replace};
 use super::messages::{Failure, print};
 
 /// File name of a report.
+#[cfg(feature = "reports")]
 pub const REPORT: &str = "report.html";
 
 /// Creates the folder if it does not exist. Reports a problem with it, or with the file of this name in it, before the work
@@ -19,6 +20,7 @@ pub fn make(folder: &Path, name: &str) -> Result<(), Failure> {
 }
 
 /// Writes the report and prints its path.
+#[cfg(feature = "reports")]
 pub fn write_report(folder: &Path, html: &str) -> Result<(), Failure> {
     write(folder, REPORT, html, "report")
 }

@@ -1,12 +1,12 @@
 //! The command line. Exit status: 0 done, 1 failed with a message on standard error, 2 wrong usage, 130 interrupted.
 mod check;
 mod compare;
+mod completions;
 mod convert;
 #[cfg(feature = "reports")]
 mod evidence;
 mod figures;
 mod flip;
-#[cfg(feature = "reports")]
 mod folder;
 mod keeping;
 mod layers;
@@ -15,6 +15,7 @@ mod lists;
 mod live;
 mod loaded_image;
 mod loading;
+mod man;
 mod meant;
 mod merge;
 mod messages;
@@ -26,6 +27,7 @@ mod render_memory;
 mod replay;
 mod samples;
 mod scene_file;
+mod scenes;
 mod sequence;
 #[cfg(feature = "reports")]
 mod sheet;
@@ -45,7 +47,10 @@ use std::{
 };
 
 use clap::{CommandFactory, Parser, Subcommand};
-use noisefall::{declare::nearest, scene::description::SceneDescription};
+use noisefall::{
+    declare::nearest,
+    scene::{ShippedScene, description::SceneDescription},
+};
 
 pub use self::messages::Failure;
 use self::{
@@ -59,7 +64,8 @@ use self::{
 #[derive(Parser)]
 #[command(name = "noisefall", version, args_conflicts_with_subcommands = true)]
 struct Arguments {
-    /// Scene file to open in the window: .toml, .gltf, .glb, .xml (Mitsuba), .pbrt, .obj, .ply or .stl
+    /// Scene file to open in the window: .toml, .gltf, .glb, .xml (Mitsuba), .pbrt, .obj, .ply or .stl; or the name of a scene
+    /// that `noisefall scenes` lists
     scene: Option<PathBuf>,
     #[command(flatten)]
     options: SceneOptions,
@@ -96,6 +102,12 @@ enum Command {
     Convert(convert::Arguments),
     /// Print the JSON Schema of scene files, for editors
     Schema,
+    /// List the scenes that come with the program, or write their files
+    Scenes(scenes::Arguments),
+    /// Write manual pages of the program and its commands
+    Man(man::Arguments),
+    /// Print a script that completes commands and options in a shell
+    Completions(completions::Arguments),
 }
 
 pub fn run() -> ExitCode {
@@ -121,6 +133,9 @@ pub fn run() -> ExitCode {
         #[cfg(feature = "reports")]
         Some(Command::Sheet(arguments)) => sheet::run(&arguments),
         Some(Command::Schema) => schema().map(succeeded),
+        Some(Command::Scenes(arguments)) => scenes::run(&arguments).map(succeeded),
+        Some(Command::Man(arguments)) => man::run(&arguments, Arguments::command()).map(succeeded),
+        Some(Command::Completions(arguments)) => completions::run(&arguments, Arguments::command()).map(succeeded),
     };
     done.unwrap_or_else(|message| {
         tell(&message);
@@ -139,7 +154,8 @@ fn mistaken_command(arguments: &[OsString]) -> Option<String> {
     let word = arguments.first()?.to_str()?;
     let commands = Arguments::command();
     let names: Vec<_> = commands.get_subcommands().map(clap::Command::get_name).chain(["help"]).collect();
-    let is_path = word.starts_with('-') || word.contains(['.', '/', '\\']) || Path::new(word).exists();
+    let path = Path::new(word);
+    let is_path = word.starts_with('-') || word.contains(['.', '/', '\\']) || path.exists() || ShippedScene::of(path).is_some();
     if is_path || names.contains(&word) {
         return None;
     }

@@ -3,11 +3,12 @@ use std::path::Path;
 
 use serde::Deserialize;
 
-use super::{Camera, RenderSettings, Scene, diagnostic::SceneError, parse::parse};
-use crate::declare::check;
+use super::{Camera, RenderSettings, Scene, diagnostic::SceneError, parse::parse, shipped::ShippedScene};
 use crate::{
+    declare::check,
     file::open_regular,
     image::{carried_text, looks_like},
+    progress::Progress,
 };
 
 /// The metadata of an image.
@@ -29,7 +30,12 @@ pub fn load_carried(path: &Path) -> Option<Result<Scene, SceneError>> {
 }
 
 fn open(path: &Path, carried: Carried) -> Result<Scene, SceneError> {
-    let mut scene = parse(&path.display().to_string(), carried.scene).map_err(|error| {
+    // The files of a scene in the program are not beside the image.
+    let scene = match ShippedScene::of_text(&carried.scene) {
+        Some(shipped) => shipped.load(&Progress::default()),
+        None => parse(&path.display().to_string(), carried.scene),
+    };
+    let mut scene = scene.map_err(|error| {
         error.with_help("the image carries this scene: its textures and meshes are looked for beside the image")
     })?;
     let unusable = |what: String| SceneError::of_file(path, what, "open the scene file instead of the image");

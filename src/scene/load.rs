@@ -6,6 +6,7 @@ use super::{
     carried::load_carried,
     diagnostic::{SceneError, SourceText},
     parse::parse_watched,
+    shipped::ShippedScene,
 };
 use crate::{
     file::open_regular,
@@ -20,7 +21,7 @@ pub const LARGEST_FILE: u64 = 64 << 20;
 const OPENABLE: &str = "scenes are TOML, glTF, GLB, Mitsuba XML or PBRT files; meshes (OBJ, PLY, STL) and images that Noisefall has \
                         saved (PNG, EXR) open too";
 
-/// Reads and compiles a scene file, or the scene in an image file.
+/// Reads and compiles a scene file, the scene in an image file, or the scene of the program that has this name.
 pub fn load(path: &Path) -> Result<Scene, SceneError> {
     load_watched(path, &Progress::default())
 }
@@ -29,6 +30,9 @@ pub fn load(path: &Path) -> Result<Scene, SceneError> {
 pub fn load_watched(path: &Path, progress: &Progress) -> Result<Scene, SceneError> {
     if let Some(carried) = load_carried(path) {
         return carried;
+    }
+    if let Some(shipped) = ShippedScene::of(path) {
+        return shipped.load(progress);
     }
     parse_watched(&path.display().to_string(), read_text(path)?, progress)
 }
@@ -74,7 +78,7 @@ fn begins_as_scene(bytes: &[u8]) -> bool {
 fn read(path: &Path) -> Result<Vec<u8>, SceneError> {
     let unreadable = |error: std::io::Error| {
         let help = match error.kind() {
-            std::io::ErrorKind::NotFound => "check the path; scenes that come with Noisefall are in `scenes/`",
+            std::io::ErrorKind::NotFound => "check the path; `noisefall scenes` lists the scenes that come with Noisefall",
             std::io::ErrorKind::PermissionDenied => "check the permissions of the file",
             _ => OPENABLE,
         };

@@ -26,6 +26,7 @@ mod read;
 pub mod roulette;
 mod same_image;
 mod settings;
+mod shipped;
 mod shutter;
 pub mod surface;
 mod syntax;
@@ -63,6 +64,7 @@ pub use self::{
     rays::CameraRays,
     roulette::Roulette,
     settings::{RenderSettings, Reuse},
+    shipped::ShippedScene,
     shutter::{Moments, Shutter},
 };
 use crate::{

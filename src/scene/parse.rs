@@ -15,6 +15,7 @@ use super::{
     wording::in_plain_words,
 };
 use crate::{
+    declare::Assets,
     memory::{Size, reserve},
     progress::Progress,
 };
@@ -44,6 +45,11 @@ pub fn parse(name: &str, text: String) -> Result<Scene, SceneError> {
 
 /// The same, with progress and cancellation.
 pub fn parse_watched(name: &str, text: String, progress: &Progress) -> Result<Scene, SceneError> {
+    parse_with_assets(name, text, Assets::default(), progress)
+}
+
+/// The same, with files in memory.
+pub fn parse_with_assets(name: &str, text: String, assets: Assets, progress: &Progress) -> Result<Scene, SceneError> {
     let source = SourceText { name: name.to_owned(), text };
     let (description, damage, mut errors) = understood(&source)?;
     let nothing = || SceneError::of_file(Path::new(name), "this is not a scene", "a scene is one TOML file");
@@ -53,7 +59,7 @@ pub fn parse_watched(name: &str, text: String, progress: &Progress) -> Result<Sc
         return Err(SceneError::of_all(errors).unwrap_or_else(nothing));
     }
     let folder = Path::new(name).parent().unwrap_or(Path::new(""));
-    let files = Files { folder, progress: progress.clone(), ..Files::default() };
+    let files = Files { folder, assets, progress: progress.clone() };
     let text = source.text.clone();
     match compile(&description, SceneText::new(Box::new(move || text)), files, &damage, None) {
         Ok(scene) if errors.is_empty() => return Ok(scene),

@@ -17,6 +17,7 @@ mod tests;
 mod theory;
 
 use std::{
+    ops::ControlFlow,
     path::PathBuf,
     sync::atomic::{AtomicU32, Ordering},
 };
@@ -103,18 +104,34 @@ impl Validation {
         self.run_these(&sections::ALL, done)
     }
 
+    /// The same, until `done` stops it. Returns the sections that are finished.
+    pub fn run_while(&self, done: impl FnMut(usize, &Section) -> ControlFlow<()>) -> Vec<Section> {
+        self.run_these_while(&sections::ALL, done)
+    }
+
     /// Runs these sections, and pools their statements in a last one.
     fn run_these(&self, these: &[fn(&Validation) -> Section], mut done: impl FnMut(usize, &Section)) -> Vec<Section> {
+        self.run_these_while(these, |number, section| {
+            done(number, section);
+            ControlFlow::Continue(())
+        })
+    }
+
+    fn run_these_while(
+        &self,
+        these: &[fn(&Validation) -> Section],
+        mut done: impl FnMut(usize, &Section) -> ControlFlow<()>,
+    ) -> Vec<Section> {
         let mut sections = Vec::new();
         for (i, run) in (0..).zip(these) {
             self.measurement.store(i << 16, Ordering::Relaxed);
-            let section = run(self);
-            done(sections.len() + 1, &section);
-            sections.push(section);
+            sections.push(run(self));
+            if done(sections.len(), &sections[sections.len() - 1]).is_break() {
+                return sections;
+            }
         }
-        let all = pooled::section(&sections);
-        done(sections.len() + 1, &all);
-        sections.push(all);
+        sections.push(pooled::section(&sections));
+        let _ = done(sections.len(), &sections[sections.len() - 1]);
         sections
     }
 

@@ -91,3 +91,14 @@ fn text_rows(text: &str) -> Vec<Vec<String>> {
     let mut reader = ::csv::ReaderBuilder::new().has_headers(false).from_reader(text.as_bytes());
     reader.records().map(|row| row.expect("a row").iter().map(str::to_owned).collect()).collect()
 }
+
+#[test]
+fn a_run_that_is_stopped_has_the_sections_that_are_finished() {
+    let mut seen = Vec::new();
+    let sections = Validation::new(Effort::Quick, None, 0).run_while(|number, section| {
+        seen.push((number, section.title));
+        ControlFlow::Break(())
+    });
+    assert_eq!((seen.len(), sections.len()), (1, 1));
+    assert_eq!(seen[0], (1, sections[0].title));
+}

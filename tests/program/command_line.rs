@@ -63,6 +63,9 @@ fn every_command_has_help() {
         &["study", "--help"],
         &["sheet", "--help"],
         &["evidence", "--help"],
+        &["scenes", "--help"],
+        &["man", "--help"],
+        &["completions", "--help"],
     ] {
         let output = shell.run(arguments);
         assert!(output.status.success() && text(&output.stdout).contains("Usage: noisefall"));

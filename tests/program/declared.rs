@@ -7,6 +7,8 @@ use noisefall::{
 };
 use rand::{SeedableRng, rngs::SmallRng};
 
+use super::json_schema::fits;
+
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
@@ -134,40 +136,6 @@ fn a_number_just_outside_of_its_range_is_refused_by_name() {
         }
     }
     assert!(tried.len() > 30, "{tried:?}");
-}
-
-/// Whether a value fits a schema in objects, lists and choices. Ranges of numbers are not checked.
-fn fits(value: &serde_json::Value, schema: &serde_json::Value) -> bool {
-    if let Some(choices) = schema["anyOf"].as_array() {
-        return choices.iter().any(|choice| fits(value, choice));
-    }
-    if let Some(words) = schema["enum"].as_array() {
-        return words.contains(value);
-    }
-    match (schema["type"].as_str(), value) {
-        (Some("object"), serde_json::Value::Object(table)) => {
-            let has = |key: &serde_json::Value| key.as_str().is_some_and(|key| table.contains_key(key));
-            let all = |keys: &serde_json::Value| keys.as_array().into_iter().flatten().all(has);
-            let one_of = |choice: &serde_json::Value| {
-                choice["oneOf"].as_array().into_iter().flatten().filter(|one| all(&one["required"])).count() == 1
-            };
-            let known = |(key, value): (&String, &serde_json::Value)| match schema["properties"].get(key) {
-                Some(schema) => fits(value, schema),
-                None => schema["additionalProperties"].is_object() && fits(value, &schema["additionalProperties"]),
-            };
-            table.iter().all(known) && all(&schema["required"]) && schema["allOf"].as_array().into_iter().flatten().all(one_of)
-        }
-        (Some("array"), serde_json::Value::Array(items)) => {
-            let length = |key: &str, or: usize| schema[key].as_u64().map_or(or, |length| length as usize);
-            (length("minItems", 0)..=length("maxItems", usize::MAX)).contains(&items.len())
-                && items.iter().all(|item| fits(item, &schema["items"]))
-        }
-        (Some("number"), serde_json::Value::Number(_))
-        | (Some("string"), serde_json::Value::String(_))
-        | (Some("boolean"), serde_json::Value::Bool(_)) => true,
-        (Some("integer"), serde_json::Value::Number(number)) => number.is_u64() || number.is_i64(),
-        _ => false,
-    }
 }
 
 #[test]

@@ -1,10 +1,13 @@
 //! The machine-readable output of commands follows `docs/figures.schema.json`.
-use std::fs;
+use std::{collections::BTreeSet, fs};
 
 use noisefall::math::colour::linear_from_srgb;
 use serde_json::{Value, json};
 
-use super::command_line::{Shell, json as last_line, scene, text};
+use super::{
+    command_line::{Shell, json as last_line, scene, text},
+    json_schema::fits_part,
+};
 
 const SCHEMA: &str = include_str!("../../docs/figures.schema.json");
 
@@ -59,6 +62,42 @@ fn every_figure_is_described_and_every_described_figure_is_there() {
         names.sort();
         assert_eq!(names, expected.iter().collect::<Vec<_>>(), "{kind}");
         line.as_object().expect("an object").iter().for_each(|(name, value)| check(&schema, name, value));
+    }
+}
+
+#[test]
+fn replays_follow_the_schema() {
+    let shell = Shell::new();
+    let schema: Value = serde_json::from_str(SCHEMA).expect("the schema is JSON");
+    let mut present = BTreeSet::new();
+    for name in ["cornell_box", "glass_and_mirror", "lamps", "leaves", "textures_and_bump", "room_window"] {
+        for sample in ["0", "1", "lit"] {
+            for reuse in ["on", "off"] {
+                let options = ["--size", "32x32", "--sample", sample, "--reuse", reuse];
+                let line = last_line(&shell.run(&[&["render", name, "--pixel", "16,20", "--json"], &options[..]].concat()));
+                assert!(fits_part(&line, "replay", &schema), "{name}, {sample}: {line:#}");
+                let tables = [vec![&line], line["vertices"].as_array().expect("a list").iter().collect()].concat();
+                let keys = tables.into_iter().filter_map(Value::as_object).flatten().filter(|(_, value)| !value.is_null());
+                present.extend(keys.map(|(key, _)| key.clone()));
+            }
+        }
+    }
+    let of = |part: &str| schema["$defs"][part]["required"].as_array().expect("keys").clone();
+    for key in [of("replay"), of("vertex")].concat() {
+        assert!(present.contains(key.as_str().expect("a name")), "no path has {key}");
+    }
+}
+
+#[test]
+fn what_the_schema_does_not_describe_is_refused() {
+    let schema: Value = serde_json::from_str(SCHEMA).expect("the schema is JSON");
+    let replay = json!({ "radiance": [0.0, 0.5, 1], "alone": null, "shared": null, "vertices": [], "end": "cap" });
+    assert!(fits_part(&replay, "replay", &schema));
+    for (key, wrong) in [("radiance", json!([0.0, 1.0])), ("end", json!("bored")), ("vertices", json!([{}])), ("more", json!(1))]
+    {
+        let mut changed = replay.clone();
+        changed[key] = wrong;
+        assert!(!fits_part(&changed, "replay", &schema), "{key}");
     }
 }
 

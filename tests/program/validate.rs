@@ -1,7 +1,14 @@
 //! `noisefall validate`: a self-contained report, and an exit status that tells whether all statements hold.
 use std::{fs, path::Path};
 
-use crate::command_line::{Shell, text};
+use crate::{
+    command_line::{Shell, text},
+    json_schema::fits_part,
+};
+
+fn schema() -> serde_json::Value {
+    serde_json::from_str(include_str!("../../docs/figures.schema.json")).expect("the schema is JSON")
+}
 
 fn references() -> String {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/references").display().to_string()
@@ -25,6 +32,7 @@ fn a_quick_validation_holds_and_writes_a_report_that_needs_nothing_else() {
     let rows = fs::read_to_string(shell.path("new/report/report.csv")).expect("rows");
     let json: serde_json::Value =
         serde_json::from_str(&fs::read_to_string(shell.path("new/report/report.json")).expect("JSON")).expect("JSON");
+    assert!(fits_part(&json, "validation", &schema()), "{json:#}");
     let sections = json["sections"].as_array().expect("sections");
     let statements: usize = sections.iter().map(|section| section["statements"].as_array().map_or(0, Vec::len)).sum();
     assert_eq!((sections.len(), csv::Reader::from_reader(rows.as_bytes()).records().count()), (17, statements));
@@ -66,6 +74,9 @@ fn scenes_under_stress_hold_and_are_reported() {
     let report = fs::read_to_string(shell.path("report/report.html")).expect("a report");
     assert_eq!(report.matches("<section").count(), 8);
     assert!(report.matches("<svg").count() >= 5 && !report.contains("✗"));
+    let json = fs::read_to_string(shell.path("report/report.json")).expect("rows");
+    let json: serde_json::Value = serde_json::from_str(&json).expect("JSON");
+    assert!(fits_part(&json, "validation", &schema()), "{json:#}");
     assert!(!shell.path("report/stress").exists(), "nothing fails, nothing is kept");
 }
 

@@ -1,9 +1,12 @@
-//! The scenes of the list and the gallery: the files of the nearest `scenes/` folder, and files opened from elsewhere.
+//! The scenes of the list and the gallery: the files of the nearest `scenes/` folder, or else the scenes in the program, and files
+//! opened from elsewhere.
 use std::{
     fs::File,
     io::Read,
     path::{Path, PathBuf},
 };
+
+use noisefall::scene::ShippedScene;
 
 /// Number of bytes that are read to find a title, which is at the beginning of a file.
 const LONGEST_HEAD: u64 = 16 << 10;
@@ -11,7 +14,7 @@ const LONGEST_HEAD: u64 = 16 << 10;
 /// A scene file and its title.
 pub struct CatalogueEntry {
     pub name: String,
-    /// Canonical path, so each file has one.
+    /// Canonical path, so each file has one; the name of a scene in the program.
     pub path: PathBuf,
     /// The chapter of the gallery.
     pub chapter: &'static str,
@@ -46,9 +49,19 @@ pub enum SceneRequest {
 
 /// The shipped scenes in the order of their chapters; scenes without a chapter come last, sorted by name.
 pub fn find() -> Vec<CatalogueEntry> {
-    let mut scenes = folder().map_or_else(Vec::new, |folder| list(&folder));
+    let mut scenes = folder().map_or_else(shipped, |folder| list(&folder));
     scenes.sort_by_cached_key(|entry| (lesson(&entry.path).unwrap_or(usize::MAX), entry.name.to_lowercase()));
     scenes
+}
+
+/// The scenes in the program.
+fn shipped() -> Vec<CatalogueEntry> {
+    let entry = |scene: ShippedScene| {
+        let path = PathBuf::from(scene.name);
+        let title = title(&mut scene.text.as_bytes()).unwrap_or_default();
+        CatalogueEntry { name: name(&title, &path), chapter: chapter(&path), path }
+    };
+    ShippedScene::all().into_iter().map(entry).collect()
 }
 
 /// The place of a scene in the chapters.
@@ -88,16 +101,17 @@ fn list(folder: &Path) -> Vec<CatalogueEntry> {
     let paths = entries.filter_map(|entry| Some(entry.ok()?.path()));
     let scenes = paths.filter(|path| path.is_file() && path.extension().is_some_and(|extension| extension == "toml"));
     let entry = |path: PathBuf| {
-        let name = name(&title(&path).unwrap_or_default(), &path);
+        let title = File::open(&path).ok().and_then(|mut file| title(&mut file));
+        let name = name(&title.unwrap_or_default(), &path);
         CatalogueEntry { name, path: in_full(&path), chapter: chapter(&path) }
     };
     scenes.map(entry).collect()
 }
 
 /// Reads the title of a scene file, which comes before the first table.
-fn title(path: &Path) -> Option<String> {
+fn title(file: &mut dyn Read) -> Option<String> {
     let mut head = Vec::new();
-    File::open(path).ok()?.take(LONGEST_HEAD).read_to_end(&mut head).ok()?;
+    file.take(LONGEST_HEAD).read_to_end(&mut head).ok()?;
     let head = String::from_utf8_lossy(&head);
     let end = head.find("\n[").unwrap_or(head.len());
     let table: toml::Table = head[..end].parse().ok()?;
@@ -137,6 +151,17 @@ mod tests {
             CHAPTERS.iter().map(|(_, names)| names.len()).sum::<usize>(),
             "a chapter has a scene that is not there"
         );
+    }
+
+    #[test]
+    fn the_scenes_in_the_program_are_those_of_the_folder() {
+        let stems = |entries: Vec<CatalogueEntry>| {
+            let mut stems: Vec<_> = entries.into_iter().map(|entry| (entry.path.with_extension(""), entry.name)).collect();
+            stems.iter_mut().for_each(|(path, _)| *path = path.file_name().unwrap_or_default().into());
+            stems.sort();
+            stems
+        };
+        assert_eq!(stems(shipped()), stems(list(&Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes"))));
     }
 
     #[test]

@@ -55,7 +55,9 @@ pub fn compare(document: &Document) -> FileState {
 
 /// Saves a document that was opened from a file. `assets` are the files of the scene that are in memory. A file that another program has changed is replaced only if `replaces` says so.
 pub fn save(document: &Document, opened: Option<&Path>, assets: &Assets, path: &Path, replaces: bool) -> SaveResult {
-    if let Some(origin) = document.origin() {
+    // A scene in the program has its files in memory too.
+    let in_memory = opened.filter(|_| document.path().is_none() && !assets.is_empty());
+    if let Some(origin) = document.origin().or(in_memory) {
         let folder = origin.parent().unwrap_or(Path::new(""));
         let exported = export::write(Source { description: document.description(), assets, folder }, path);
         return exported.map_or_else(|error| SaveResult::Failed(error.to_string()), |_| SaveResult::Exported(document.version()));
@@ -103,6 +105,18 @@ mod tests {
         assert!(path.is_file() && document.path().is_none());
         let refused = save(&document, Some(&opened), &Assets::default(), &folder.path().join("no/room.toml"), false);
         assert!(matches!(refused, SaveResult::Failed(error) if error.contains("there is no folder")));
+    }
+
+    #[test]
+    fn a_scene_in_the_program_is_written_with_its_files() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("sky.toml");
+        let scene = noisefall::scene::load(Path::new("sky_lit")).expect("it is in the program");
+        let document = Document::untitled(&scene.source).expect("a scene");
+        let done = save(&document, Some(Path::new("sky_lit")), &scene.assets, &path, false);
+        assert!(matches!(done, SaveResult::Exported(version) if version == document.version()));
+        let again = noisefall::scene::load(&path).expect("its files are there");
+        assert!(again.assets.is_empty() && again.objects.len() == scene.objects.len());
     }
 
     #[test]

@@ -12,7 +12,7 @@ use noisefall::{
     import::{self, ImportOptions, Opened, Remarks},
     progress::Progress,
     render::{checkpoint::is_kept_file, truth::Reference},
-    scene::{BUILT_IN, Camera, Scene, Truth, built_in, description::SceneDescription, parse},
+    scene::{BUILT_IN, Camera, Scene, ShippedScene, Truth, built_in, description::SceneDescription, parse},
 };
 
 use super::{
@@ -251,11 +251,12 @@ fn open(scene: GivenScene) -> OpenResult {
         let lines = remarks.lines(remarks.len()).join("\n");
         return Err(format!("{}: with --strict, each of these is an error:\n{lines}", path.display()));
     }
-    // A picture carries its scene, and is not replaced by it.
+    // A picture carries its scene, and is not replaced by it. A scene in the program has no file.
     let is_picture = path.extension().is_some_and(|extension| !extension.eq_ignore_ascii_case("toml"));
+    let is_shipped = ShippedScene::of(&path).is_some();
     let document = match description {
         Some(description) => Ok(Document::imported(&path, &scene.source, (*description).clone())),
-        None if is_picture => Document::untitled(&scene.source),
+        None if is_picture || is_shipped => Document::untitled(&scene.source),
         None => Document::open(&path, &scene.source),
     };
     let name = catalogue::name(&scene.title, &path);

@@ -6,7 +6,11 @@ use std::{
 
 use crossbeam_channel::{Receiver, TryRecvError, unbounded};
 use egui::{Align2, ColorImage, RichText, ScrollArea, Sense, TextureHandle, TextureOptions, Ui, Vec2, vec2};
-use noisefall::render::{Display, image_file, tone::to_srgb};
+use include_dir::{Dir, include_dir};
+use noisefall::{
+    render::{Display, image_file, tone::to_srgb},
+    scene::ShippedScene,
+};
 
 use crate::viewer::background::{
     catalogue::{CatalogueEntry, SceneRequest},
@@ -157,7 +161,7 @@ fn columns(width: f32) -> usize {
 
 /// Whether the built-in scene is that of a file.
 fn is_built_in(entry: &CatalogueEntry) -> bool {
-    entry.path.ends_with("cornell_spheres.toml")
+    entry.path.file_stem().is_some_and(|stem| stem == "cornell_spheres")
 }
 
 /// The card of the built-in scene, which comes first in the chapter that has the same scene as a file.
@@ -166,8 +170,16 @@ fn built_in(chapter: &[CatalogueEntry]) -> Option<(&'static str, Option<PathBuf>
     Some((BUILT_IN_NAME, None, &same.path))
 }
 
-/// The image of a shipped scene: `assets/gallery/NAME.png` beside the folder that the scene is in.
+/// The images of the scenes in the program.
+static PICTURES: Dir = include_dir!("$CARGO_MANIFEST_DIR/assets/gallery");
+
+/// The image of a shipped scene: `assets/gallery/NAME.png` beside the folder that the scene is in, or in the program.
 fn picture(scene: &Path) -> Option<ColorImage> {
+    if let Some(shipped) = ShippedScene::of(scene) {
+        let png = PICTURES.get_file(format!("{}.png", shipped.name))?.contents();
+        let pixels = image::load_from_memory_with_format(png, image::ImageFormat::Png).ok()?.into_rgba8();
+        return Some(ColorImage::from_rgba_unmultiplied([pixels.width() as usize, pixels.height() as usize], &pixels));
+    }
     let folder = scene.parent()?.parent()?.join("assets").join("gallery");
     let picture = image_file::read(&folder.join(scene.file_stem()?).with_extension("png")).ok()?;
     let mut pixels = Vec::new();
@@ -184,6 +196,18 @@ fn covering(size: Vec2) -> egui::Rect {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_images_in_the_program_are_those_of_the_folder() {
+        let of_file =
+            |name: &str| picture(&Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes").join(name).with_extension("toml"));
+        let images = ShippedScene::all().into_iter().filter_map(|scene| Some((scene.name, picture(Path::new(scene.name))?)));
+        let images: Vec<_> = images.collect();
+        assert!(images.len() > 20);
+        for (name, image) in images {
+            assert!(of_file(name).is_some_and(|file| file.size == image.size && file.pixels == image.pixels), "{name}");
+        }
+    }
 
     #[test]
     fn a_row_has_as_many_cards_as_fit_but_at_least_one_and_at_most_six() {

@@ -1,0 +1,866 @@
+"""Dataclasses of the scene format. Made by `python -m noisefall.stubs`; do not edit."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Literal
+
+def to_dict(value: Any) -> Any:
+    """A tree of dicts and lists without dataclasses and without fields that are `None`."""
+
+@dataclass(kw_only=True)
+class Sky:
+    """A clear sky with a sun; black below the horizon."""
+
+    sky_scale: float | None = None
+    """Factor of the radiance of the sky."""
+    sun: Sequence[float] | None = None
+    """Direction towards the sun, of any length."""
+    sun_scale: float | None = None
+    """Factor of the radiance of the sun; 0 shows the sky alone."""
+    turbidity: float | None = None
+    """Haze: 2 is very clear, 10 is hazy."""
+
+@dataclass(kw_only=True)
+class Rotate:
+    """Rotation about an axis through the origin."""
+
+    axis: Sequence[float]
+    """Direction of the axis, of any length."""
+    degrees: float
+    """Angle, counter-clockwise when the axis points at the viewer. (°)"""
+
+@dataclass(kw_only=True)
+class Transform:
+    """An entry of `transform`."""
+
+    matrix: Sequence[Sequence[float]] | None = None
+    """Four rows of four numbers; the last row is 0, 0, 0, 1."""
+    rotate: Rotate | Mapping[str, Any] | None = None
+    """Rotation about an axis through the origin."""
+    scale: Sequence[float] | float | None = None
+    """Scale factors of x, y and z, or one factor for all."""
+    translate: Sequence[float] | None = None
+    """Translation. (m)"""
+
+@dataclass(kw_only=True)
+class Background:
+    """Radiance of rays that meet no surface."""
+
+    image: str | None = None
+    """Equirectangular image, such as EXR or HDR; its centre is towards −z."""
+    radiance: Sequence[float] | float | None = None
+    """Radiance of each channel. (W/(m² sr))"""
+    rotate: float | None = None
+    """Rotation of the image, counter-clockwise seen from above. (degrees)"""
+    scale: float | None = None
+    """Factor that multiplies the radiance."""
+    sky: Sky | Mapping[str, Any] | None = None
+    """A clear sky with a sun; black below the horizon."""
+    transform: Sequence[Transform | Mapping[str, Any]] | None = None
+    """Rotations and mirrorings of the image, applied after `rotate`."""
+
+@dataclass(kw_only=True)
+class Gaussian:
+    """A normal distribution, cut off at three standard deviations."""
+
+    sigma: float
+    """Standard deviation. (pixels)"""
+
+@dataclass(kw_only=True)
+class Tent:
+    """Falls linearly to 0."""
+
+    radius: float
+    """Radius of the tent. (pixels)"""
+
+@dataclass(kw_only=True)
+class Filter:
+    """How a pixel weights the light around its centre. Default: "box"."""
+
+    gaussian: Gaussian | Mapping[str, Any] | None = None
+    """A normal distribution, cut off at three standard deviations."""
+    tent: Tent | Mapping[str, Any] | None = None
+    """Falls linearly to 0."""
+
+@dataclass(kw_only=True)
+class Lens:
+    """A thin lens. Default: a pinhole."""
+
+    focus: float
+    """Distance of the plane in focus from the eye, along the axis. (m)"""
+    radius: float
+    """Radius of the lens; 0 is a pinhole. (m)"""
+
+@dataclass(kw_only=True)
+class Motion:
+    """An entry of `motion`."""
+
+    matrix: Sequence[Sequence[float]] | None = None
+    """Four rows of four numbers; the last row is 0, 0, 0, 1."""
+    rotate: Rotate | Mapping[str, Any] | None = None
+    """Rotation about an axis through the origin."""
+    scale: Sequence[float] | float | None = None
+    """Scale factors of x, y and z, or one factor for all."""
+    translate: Sequence[float] | None = None
+    """Translation. (m)"""
+
+@dataclass(kw_only=True)
+class Orthographic:
+    """Parallel projection."""
+
+    width: float
+    """Width of the image in the scene. (m)"""
+
+@dataclass(kw_only=True)
+class Projection:
+    """How the scene is projected. Default: "perspective"."""
+
+    orthographic: Orthographic | Mapping[str, Any] | None = None
+    """Parallel projection."""
+
+@dataclass(kw_only=True)
+class Camera:
+    """Position, direction and lens of the camera."""
+
+    eye: Sequence[float]
+    """Position of the camera. (m)"""
+    filter: Literal['box', 'tent', 'gaussian'] | Filter | Mapping[str, Any] | None = None
+    """How a pixel weights the light around its centre. Default: "box"."""
+    fov: float | None = None
+    """Field of view across the width of the image. Perspective cameras require it, others have none. (°)"""
+    lens: Lens | Mapping[str, Any] | None = None
+    """A thin lens. Default: a pinhole."""
+    look_at: Sequence[float]
+    """Point that appears at the centre of the image. (m)"""
+    motion: Sequence[Motion | Mapping[str, Any]] | None = None
+    """Transforms that move the camera from time 0 to 1."""
+    projection: Literal['perspective'] | Projection | Mapping[str, Any] | None = None
+    """How the scene is projected. Default: "perspective"."""
+    resolution: Sequence[int]
+    """Width and height. (pixels)"""
+    shift: Sequence[float] | None = None
+    """How far the image plane is shifted to the right and up, which keeps upright lines parallel, in widths of the image."""
+    shutter: Sequence[float] | None = None
+    """Times at which the shutter opens and closes, from 0 to 1 of the motion. Default: time 0."""
+    up: Sequence[float] | None = None
+    """Direction that points up in the image. Default: [0, 1, 0]."""
+
+@dataclass(kw_only=True)
+class Directional:
+    """Light from a direction, of a sun far away."""
+
+    direction: Sequence[float] | None = None
+    """Direction in which the light travels, of any length."""
+    irradiance: Sequence[float] | float | None = None
+    """Irradiance of a surface that faces the light. (W/m²)"""
+
+@dataclass(kw_only=True)
+class Point:
+    """A lamp without size that shines equally in all directions."""
+
+    intensity: Sequence[float] | float | None = None
+    """Radiant intensity of each channel. (W/sr)"""
+    position: Sequence[float] | None = None
+    """Where it stands. (m)"""
+
+@dataclass(kw_only=True)
+class Projector:
+    """An image that is cast from a point."""
+
+    angle: float | None = None
+    """Angle between the axis and the edge of a cone, where the light ends; 180 for no cone. (degrees)"""
+    aspect: float | None = None
+    """Width of the image over its height; 0 for that of the file."""
+    encoding: Literal['srgb', 'linear'] | None = None
+    """Encoding of the file's numbers; EXR and HDR are always linear."""
+    flat: bool | None = None
+    """Whether a screen that faces it is lit evenly; otherwise the intensity is the same in all directions."""
+    fov: float | None = None
+    """Angle across the width of the image. (degrees)"""
+    image: str | None = None
+    """The image file, relative to the scene; a white square if it is empty."""
+    inner: float | None = None
+    """Angle up to which a cone does not dim the image; between it and `angle`, the light falls linearly. (degrees)"""
+    position: Sequence[float] | None = None
+    """Where it stands. (m)"""
+    scale: float | None = None
+    """Radiant intensity on the axis where the image is 1. (W/sr)"""
+    target: Sequence[float] | None = None
+    """A point on its axis. (m)"""
+    tint: Sequence[float] | float | None = None
+    """Factor of the colors of the image."""
+    up: Sequence[float] | None = None
+    """Upwards in the image."""
+
+@dataclass(kw_only=True)
+class Spot:
+    """A lamp without size that shines within a cone."""
+
+    angle: float | None = None
+    """Angle between the axis and the edge of the cone, where the light ends. (degrees)"""
+    falloff: Literal['smooth', 'linear', 'square'] | None = None
+    """How the intensity falls between the two angles."""
+    inner: float | None = None
+    """Angle up to which the intensity is that of the axis; at most `angle`. (degrees)"""
+    intensity: Sequence[float] | float | None = None
+    """Radiant intensity on the axis. (W/sr)"""
+    position: Sequence[float] | None = None
+    """Where it stands. (m)"""
+    target: Sequence[float] | None = None
+    """A point on its axis. (m)"""
+
+@dataclass(kw_only=True)
+class Lamp:
+    """An entry of `lamps`."""
+
+    directional: Directional | Mapping[str, Any] | None = None
+    """Light from a direction, of a sun far away."""
+    name: str | None = None
+    """Name in the window."""
+    point: Point | Mapping[str, Any] | None = None
+    """A lamp without size that shines equally in all directions."""
+    projector: Projector | Mapping[str, Any] | None = None
+    """An image that is cast from a point."""
+    spot: Spot | Mapping[str, Any] | None = None
+    """A lamp without size that shines within a cone."""
+    transform: Sequence[Transform | Mapping[str, Any]] | None = None
+    """Transforms, applied from the first to the last."""
+
+@dataclass(kw_only=True)
+class Blend:
+    """A mixture of two materials, each of which may be a blend or `null`."""
+
+    first: str
+    """Name of the first material."""
+    second: str
+    """Name of the second material."""
+    weight: float | Mapping[str, str] | None = None
+    """Fraction of the second material."""
+
+@dataclass(kw_only=True)
+class Bump:
+    """Height field that tilts the shading normal."""
+
+    height: float
+    """Height of luminance 1 above luminance 0. (m)"""
+    texture: str
+    """The name of a texture."""
+
+@dataclass(kw_only=True)
+class Conductor:
+    """Metal, smooth or rough: microfacets with Fresnel's reflectance."""
+
+    alpha: float | Mapping[str, str] | None = None
+    """Width of the distribution of microfacet slopes; 0 is smooth."""
+    anisotropy: float | None = None
+    """How much longer the highlight is along the tangent ∂p/∂u; 0 is round."""
+    distribution: Literal['ggx', 'beckmann'] | None = None
+    """Distribution of the microfacets; the light that scatters more than once between Beckmann facets is lost."""
+    energy_compensation: bool | None = None
+    """Whether to add the light that scatters more than once between microfacets."""
+    eta: Sequence[float] | float | None = None
+    """Real part of the complex index of refraction."""
+    f0: Sequence[float] | float | Mapping[str, str] | None = None
+    """Reflectance at normal incidence; it rises to 1 at grazing angles by Schlick's approximation."""
+    k: Sequence[float] | float | None = None
+    """Imaginary part of the index: how strongly the metal absorbs light."""
+    reflectance: Sequence[float] | float | Mapping[str, str] | None = None
+    """Reflectance of the microfacets, the same at every angle."""
+    roughness: float | Mapping[str, str] | None = None
+    """Square root of α; 0 is smooth."""
+    tangent_rotation: float | None = None
+    """Rotation of the tangent about the normal. (degrees)"""
+
+@dataclass(kw_only=True)
+class Dielectric:
+    """Glass, water: an interface that reflects and refracts, smooth or rough."""
+
+    alpha: float | Mapping[str, str] | None = None
+    """Width of the distribution of microfacet slopes; 0 is smooth."""
+    anisotropy: float | None = None
+    """How much longer the highlight is along the tangent ∂p/∂u; 0 is round."""
+    distribution: Literal['ggx', 'beckmann'] | None = None
+    """Distribution of the microfacets; the light that scatters more than once between Beckmann facets is lost."""
+    energy_compensation: bool | None = None
+    """Whether to add the light that scatters more than once between microfacets."""
+    ior: float
+    """Index of refraction inside."""
+    ior_outside: float | None = None
+    """Index of refraction on the side of the normal."""
+    roughness: float | Mapping[str, str] | None = None
+    """Square root of α; 0 is smooth."""
+    specular_reflectance: Sequence[float] | float | Mapping[str, str] | None = None
+    """Factor of the light that the surface reflects; 1 for a physical one."""
+    specular_transmittance: Sequence[float] | float | Mapping[str, str] | None = None
+    """Factor of the light that passes the surface; 1 for a physical one."""
+    tangent_rotation: float | None = None
+    """Rotation of the tangent about the normal. (degrees)"""
+    transmittance: Sequence[float] | float | None = None
+    """Fraction of the light that one metre of the interior transmits."""
+
+@dataclass(kw_only=True)
+class DiffuseTransmission:
+    """A thin sheet, such as a leaf or paper, that reflects and transmits diffusely."""
+
+    reflectance: Sequence[float] | float | Mapping[str, str]
+    """Fraction of the light that is reflected, per channel."""
+    transmittance: Sequence[float] | float | Mapping[str, str]
+    """Fraction of the light that is transmitted, per channel."""
+
+@dataclass(kw_only=True)
+class Disney:
+    """Disney's principled BSDF, exactly as in Mitsuba; bright, rough surfaces reflect more light than arrives."""
+
+    anisotropic: float | Mapping[str, str] | None = None
+    """How much longer the highlight is along the tangent; 0 is round."""
+    base_color: Sequence[float] | float | Mapping[str, str] | None = None
+    """Albedo of the diffuse base, and reflectance of the metal at normal incidence."""
+    clearcoat: float | Mapping[str, str] | None = None
+    """Amount of the clear coat, which takes no light from the base."""
+    clearcoat_gloss: float | Mapping[str, str] | None = None
+    """Sharpness of the clear coat: its facets have a width from 0.1 to 0.001."""
+    flatness: float | Mapping[str, str] | None = None
+    """How far the diffuse lobe is that of thin subsurface scattering."""
+    ior: float | None = None
+    """Index of refraction; 1 reflects nothing, not even as metal."""
+    metallic: float | Mapping[str, str] | None = None
+    """Fraction of the base that is metal."""
+    roughness: float | Mapping[str, str] | None = None
+    """Square root of the width α of the GGX distribution."""
+    sheen: float | Mapping[str, str] | None = None
+    """Amount of light that fibres reflect at grazing angles."""
+    sheen_tint: float | Mapping[str, str] | None = None
+    """How far the sheen has the hue of the base color."""
+    spec_tint: float | Mapping[str, str] | None = None
+    """How far the interface reflects in the hue of the base color."""
+    spec_trans: float | Mapping[str, str] | None = None
+    """Fraction of the base, besides metal, that is clear and refracts."""
+
+@dataclass(kw_only=True)
+class Lambertian:
+    """Ideal diffuse reflection: the same radiance in all directions."""
+
+    albedo: Sequence[float] | float | Mapping[str, str]
+    """Fraction of the light that is reflected, per channel."""
+
+@dataclass(kw_only=True)
+class Mirror:
+    """A smooth mirror."""
+
+    reflectance: Sequence[float] | float | Mapping[str, str]
+    """Fraction of the light that is reflected, the same at every angle."""
+
+@dataclass(kw_only=True)
+class Null:
+    """A surface that light passes unchanged."""
+
+
+@dataclass(kw_only=True)
+class Plastic:
+    """A diffuse base under a clear coat, smooth or rough."""
+
+    albedo: Sequence[float] | float | Mapping[str, str]
+    """Fraction of the light that the base reflects, without its coat."""
+    alpha: float | Mapping[str, str] | None = None
+    """Width of the distribution of microfacet slopes; 0 is smooth."""
+    ior: float
+    """Index of refraction of the coat."""
+    roughness: float | Mapping[str, str] | None = None
+    """Square root of α; 0 is smooth."""
+
+@dataclass(kw_only=True)
+class Principled:
+    """OpenPBR Surface: diffuse base, metal or glass, with coat, fuzz and thin film."""
+
+    base_color: Sequence[float] | float | Mapping[str, str] | None = None
+    """Albedo of the diffuse base, and reflectance of the metal at normal incidence."""
+    base_diffuse_roughness: float | Mapping[str, str] | None = None
+    """Roughness of the diffuse base; 0 is Lambertian."""
+    base_metalness: float | Mapping[str, str] | None = None
+    """Fraction of the base that is metal."""
+    base_weight: float | Mapping[str, str] | None = None
+    """Factor of the base color."""
+    coat_color: Sequence[float] | float | Mapping[str, str] | None = None
+    """Fraction of the light that the coat transmits, in and out."""
+    coat_darkening: float | Mapping[str, str] | None = None
+    """How much reflections inside the coat darken the base."""
+    coat_ior: float | None = None
+    """Index of refraction of the coat."""
+    coat_roughness: float | Mapping[str, str] | None = None
+    """Square root of the width α of the coat."""
+    coat_roughness_anisotropy: float | Mapping[str, str] | None = None
+    """Anisotropy of the coat; 0 is round."""
+    coat_weight: float | Mapping[str, str] | None = None
+    """Fraction of the surface under a clear coat."""
+    fuzz_color: Sequence[float] | float | Mapping[str, str] | None = None
+    """Albedo of the fuzz."""
+    fuzz_roughness: float | Mapping[str, str] | None = None
+    """Roughness of the fuzz."""
+    fuzz_weight: float | Mapping[str, str] | None = None
+    """Fraction of the surface under fuzz."""
+    specular_color: Sequence[float] | float | Mapping[str, str] | None = None
+    """Tint of the reflection off the interface; of metals, at grazing angles."""
+    specular_ior: float | None = None
+    """Index of refraction of the base."""
+    specular_roughness: float | Mapping[str, str] | None = None
+    """Square root of the width α of the GGX distribution."""
+    specular_roughness_anisotropy: float | Mapping[str, str] | None = None
+    """How much longer the highlight is along the tangent; 0 is round."""
+    specular_weight: float | Mapping[str, str] | None = None
+    """Factor of the reflectance of the interface; of metals, at grazing angles too."""
+    tangent_rotation: float | None = None
+    """Rotation of the tangent about the normal. (degrees)"""
+    thin_film_ior: float | None = None
+    """Index of refraction of the film."""
+    thin_film_thickness: float | Mapping[str, str] | None = None
+    """Thickness of the film. (µm)"""
+    thin_film_weight: float | Mapping[str, str] | None = None
+    """Fraction of the surface with a thin film."""
+    thin_walled: bool | None = None
+    """Whether the surface is a thin sheet, which refracts nothing."""
+    transmission_color: Sequence[float] | float | Mapping[str, str] | None = None
+    """Color of the light that passes: at each interface, or after the depth."""
+    transmission_depth: float | None = None
+    """Distance after which the inside has its color; 0 tints the interface. (m)"""
+    transmission_weight: float | Mapping[str, str] | None = None
+    """Fraction of the base, besides metal, that is clear and refracts."""
+
+@dataclass(kw_only=True)
+class RoughPlastic:
+    """A diffuse base under a clear coat whose facets scatter light once, as in Mitsuba."""
+
+    albedo: Sequence[float] | float | Mapping[str, str]
+    """Fraction of the light that the base reflects, without its coat."""
+    alpha: float | Mapping[str, str] | None = None
+    """Width of the distribution of microfacet slopes; 0 is smooth."""
+    distribution: Literal['ggx', 'beckmann'] | None = None
+    """Distribution of the microfacets."""
+    internal_reflectance: float | None = None
+    """Fraction of the light from the base that the coat returns to it; larger values than that of a smooth coat count as it."""
+    ior: float
+    """Index of refraction of the coat."""
+    nonlinear: bool | None = None
+    """Whether reflections between base and coat make the color more saturated."""
+    roughness: float | Mapping[str, str] | None = None
+    """Square root of α; 0 is smooth."""
+    specular_reflectance: Sequence[float] | float | None = None
+    """Factor of the light that the surface reflects; 1 for a physical one."""
+
+@dataclass(kw_only=True)
+class ThinDielectric:
+    """A thin pane of glass: reflects and transmits without refraction."""
+
+    ior: float
+    """Index of refraction of the pane relative to its surroundings."""
+    specular_reflectance: Sequence[float] | float | None = None
+    """Factor of the light that the surface reflects; 1 for a physical one."""
+    specular_transmittance: Sequence[float] | float | None = None
+    """Factor of the light that passes the surface; 1 for a physical one."""
+    transmittance: Sequence[float] | float | None = None
+    """Fraction of the light that the inside of the pane transmits at normal incidence."""
+
+@dataclass(kw_only=True)
+class Material:
+    """An entry of `materials`."""
+
+    blend: Blend | Mapping[str, Any] | None = None
+    """A mixture of two materials, each of which may be a blend or `null`."""
+    bump: Bump | Mapping[str, Any] | None = None
+    """Height field that tilts the shading normal."""
+    conductor: Conductor | Mapping[str, Any] | None = None
+    """Metal, smooth or rough: microfacets with Fresnel's reflectance."""
+    dielectric: Dielectric | Mapping[str, Any] | None = None
+    """Glass, water: an interface that reflects and refracts, smooth or rough."""
+    diffuse_transmission: DiffuseTransmission | Mapping[str, Any] | None = None
+    """A thin sheet, such as a leaf or paper, that reflects and transmits diffusely."""
+    disney: Disney | Mapping[str, Any] | None = None
+    """Disney's principled BSDF, exactly as in Mitsuba; bright, rough surfaces reflect more light than arrives."""
+    lambertian: Lambertian | Mapping[str, Any] | None = None
+    """Ideal diffuse reflection: the same radiance in all directions."""
+    mirror: Mirror | Mapping[str, Any] | None = None
+    """A smooth mirror."""
+    normal_map: str | None = None
+    """A linear image of shading normals."""
+    null: Null | Mapping[str, Any] | None = None
+    """A surface that light passes unchanged."""
+    opacity: float | Mapping[str, str] | None = None
+    """Fraction of the light that meets the surface; the rest passes unchanged. Default: 1."""
+    plastic: Plastic | Mapping[str, Any] | None = None
+    """A diffuse base under a clear coat, smooth or rough."""
+    principled: Principled | Mapping[str, Any] | None = None
+    """OpenPBR Surface: diffuse base, metal or glass, with coat, fuzz and thin film."""
+    rough_plastic: RoughPlastic | Mapping[str, Any] | None = None
+    """A diffuse base under a clear coat whose facets scatter light once, as in Mitsuba."""
+    thin_dielectric: ThinDielectric | Mapping[str, Any] | None = None
+    """A thin pane of glass: reflects and transmits without refraction."""
+    two_sided: bool | None = None
+    """Whether the back reflects too. Default: true."""
+
+@dataclass(kw_only=True)
+class Emission:
+    """Light that the surface emits."""
+
+    radiance: Sequence[float] | float | None = None
+    """Radiance of each channel. (W/(m² sr))"""
+    scale: float | None = None
+    """Factor that multiplies the radiance."""
+    texture: str | None = None
+    """The name of a texture."""
+    two_sided: bool | None = None
+    """Whether the back emits too."""
+
+@dataclass(kw_only=True)
+class Cuboid:
+    """A box with edges along the axes."""
+
+    max: Sequence[float]
+    """Corner with the largest coordinates. (m)"""
+    min: Sequence[float]
+    """Corner with the smallest coordinates. (m)"""
+
+@dataclass(kw_only=True)
+class Cylinder:
+    """A circular cylinder between two points."""
+
+    base: Sequence[float]
+    """Centre of one end. (m)"""
+    capped: bool | None = None
+    """Whether disks close the ends."""
+    radius: float
+    """Radius. (m)"""
+    top: Sequence[float]
+    """Centre of the other end. (m)"""
+
+@dataclass(kw_only=True)
+class Disk:
+    """A flat disk."""
+
+    center: Sequence[float]
+    """Centre. (m)"""
+    normal: Sequence[float]
+    """Normal of the front, of any length."""
+    radius: float
+    """Radius. (m)"""
+
+@dataclass(kw_only=True)
+class Bounds:
+    """Bounding box."""
+
+    max: Sequence[float]
+    """Corner with the largest coordinates. (m)"""
+    min: Sequence[float]
+    """Corner with the smallest coordinates. (m)"""
+
+@dataclass(kw_only=True)
+class Isosurface:
+    """The surface where an expression is zero. The expression is negative inside."""
+
+    bounds: Bounds | Mapping[str, Any]
+    """Bounding box."""
+    expression: str
+    """Expression in x, y and z, in metres."""
+
+@dataclass(kw_only=True)
+class Heightfield:
+    """Hills of noise over x and z from −1 to 1."""
+
+    quads: int
+    """Quads along each side, of two triangles each."""
+    seed: int | None = None
+    """Random seed of the hills."""
+
+@dataclass(kw_only=True)
+class Knot:
+    """A torus knot."""
+
+    triangles: int
+    """Approximate number of triangles."""
+
+@dataclass(kw_only=True)
+class Mesh:
+    """Triangles from a file, from lists, or procedural."""
+
+    heightfield: Heightfield | Mapping[str, Any] | None = None
+    """Hills of noise over x and z from −1 to 1."""
+    knot: Knot | Mapping[str, Any] | None = None
+    """A torus knot."""
+    path: str | None = None
+    """OBJ, PLY or STL file."""
+    smooth: bool | None = None
+    """Whether normals are interpolated over the triangles."""
+    triangles: Sequence[Sequence[int]] | None = None
+    """Three vertex indices per triangle, counted from 0."""
+    vertices: Sequence[Sequence[float]] | None = None
+    """Corners of the triangles. (m)"""
+
+@dataclass(kw_only=True)
+class Rectangle:
+    """A parallelogram, given by a corner and two edges."""
+
+    edge_u: Sequence[float]
+    """Edge from that corner to the corner where u = 1. (m)"""
+    edge_v: Sequence[float]
+    """Edge from that corner to the corner where v = 1. The front is the side of u × v. (m)"""
+    origin: Sequence[float]
+    """The corner where u = v = 0. (m)"""
+
+@dataclass(kw_only=True)
+class Sphere:
+    """A sphere; non-uniform scaling makes an ellipsoid."""
+
+    center: Sequence[float]
+    """Centre. (m)"""
+    radius: float
+    """Radius. (m)"""
+
+@dataclass(kw_only=True)
+class SphereField:
+    """Many spheres at random positions, each a separate object."""
+
+    bounds: Bounds | Mapping[str, Any]
+    """Bounding box."""
+    count: int
+    """Number of spheres."""
+    seed: int | None = None
+    """Random seed of the positions."""
+
+@dataclass(kw_only=True)
+class Triangle:
+    """A triangle, given by its corners."""
+
+    a: Sequence[float]
+    """The corner where u = v = 0. (m)"""
+    b: Sequence[float]
+    """The corner where u = 1. (m)"""
+    c: Sequence[float]
+    """The corner where v = 1. (m)"""
+
+@dataclass(kw_only=True)
+class Shape:
+    """Shape of the object."""
+
+    cuboid: Cuboid | Mapping[str, Any] | None = None
+    """A box with edges along the axes."""
+    cylinder: Cylinder | Mapping[str, Any] | None = None
+    """A circular cylinder between two points."""
+    disk: Disk | Mapping[str, Any] | None = None
+    """A flat disk."""
+    isosurface: Isosurface | Mapping[str, Any] | None = None
+    """The surface where an expression is zero. The expression is negative inside."""
+    mesh: Mesh | Mapping[str, Any] | None = None
+    """Triangles from a file, from lists, or procedural."""
+    rectangle: Rectangle | Mapping[str, Any] | None = None
+    """A parallelogram, given by a corner and two edges."""
+    sphere: Sphere | Mapping[str, Any] | None = None
+    """A sphere; non-uniform scaling makes an ellipsoid."""
+    sphere_field: SphereField | Mapping[str, Any] | None = None
+    """Many spheres at random positions, each a separate object."""
+    triangle: Triangle | Mapping[str, Any] | None = None
+    """A triangle, given by its corners."""
+
+@dataclass(kw_only=True)
+class Object:
+    """An entry of `objects`."""
+
+    emission: Emission | Mapping[str, Any] | None = None
+    """Light that the surface emits."""
+    flip: bool | None = None
+    """Whether to reverse the normal."""
+    material: str | None = None
+    """Name of the material. Default: black."""
+    motion: Sequence[Motion | Mapping[str, Any]] | None = None
+    """Transforms that move the object from time 0 to 1."""
+    name: str | None = None
+    """Name in the window."""
+    shape: Shape | Mapping[str, Any]
+    """Shape of the object."""
+    transform: Sequence[Transform | Mapping[str, Any]] | None = None
+    """Transforms, applied from the first to the last."""
+
+@dataclass(kw_only=True)
+class Throughput:
+    """Survival probability is the throughput's largest component, at most 0.95: paths that carry little end early."""
+
+    start: int | None = None
+    """The first bounce at which a path can end."""
+
+@dataclass(kw_only=True)
+class Roulette:
+    """Ends paths at random and weights the survivors, so that the mean does not change."""
+
+    fixed: float | None = None
+    """Survival probability at every bounce."""
+    throughput: Throughput | Mapping[str, Any] | None = None
+    """Survival probability is the throughput's largest component, at most 0.95: paths that carry little end early."""
+
+@dataclass(kw_only=True)
+class Render:
+    """The settings that the scene opens with."""
+
+    adaptive: bool | None = None
+    """Whether noisier pixels get more samples."""
+    directions: Literal['uniform', 'cosine', 'bsdf'] | None = None
+    """How directions are sampled at diffuse surfaces."""
+    estimator: Literal['path', 'light', 'mis'] | None = None
+    """How direct light is estimated. All estimators converge to the same image."""
+    exposure: float | None = None
+    """Exposure of the displayed image. One stop doubles the brightness; samples do not change. (stops)"""
+    max_bounces: int | None = None
+    """Highest number of bounces. A cap makes the image too dark. Default: no cap."""
+    reuse: Literal['auto', 'on', 'off'] | None = None
+    """Whether neighbouring pixels share path suffixes (Bekaert, Sbert and Halton 2002)."""
+    roulette: Literal['off', 'throughput'] | Roulette | Mapping[str, Any] | None = None
+    """Ends paths at random and weights the survivors, so that the mean does not change."""
+    sampler: Literal['independent', 'stratified', 'sobol', 'bluenoise'] | None = None
+    """How the samples of a pixel are distributed."""
+    seed: int | None = None
+    """Random seed of the samples."""
+    spp: int | None = None
+    """Samples per pixel at which the render stops. Default: no limit."""
+
+@dataclass(kw_only=True)
+class Checker:
+    """Alternating squares of two colours over u and v."""
+
+    even: Sequence[float] | float | Mapping[str, str]
+    """Colour of the square at u = v = 0 and of every second one."""
+    odd: Sequence[float] | float | Mapping[str, str]
+    """Colour of the other squares."""
+    scale: float
+    """Squares along each side of the unit square."""
+
+@dataclass(kw_only=True)
+class Image:
+    """An image over the unit square of u and v."""
+
+    channel: Literal['rgb', 'red', 'green', 'blue', 'alpha'] | None = None
+    """The channels that are used."""
+    encoding: Literal['srgb', 'linear'] | None = None
+    """Encoding of the file's numbers; EXR and HDR are always linear."""
+    filter: Literal['bilinear', 'nearest'] | None = None
+    """Interpolation between texels."""
+    offset: Sequence[float] | None = None
+    """Added to u and v at last."""
+    path: str
+    """PNG, JPEG, TGA, WebP, EXR or HDR file."""
+    rotate: float | None = None
+    """Rotation of u towards v, applied second. (degrees)"""
+    scale: Sequence[float] | None = None
+    """Factors of u and of v, which points downwards; applied first."""
+    wrap_u: Literal['repeat', 'mirror', 'clamp', 'black'] | None = None
+    """What continues the image in u."""
+    wrap_v: Literal['repeat', 'mirror', 'clamp', 'black'] | None = None
+    """What continues the image in v."""
+
+@dataclass(kw_only=True)
+class Mix:
+    """A mixture of two colors or textures."""
+
+    a: Sequence[float] | float | Mapping[str, str]
+    """Color where the weight is 0."""
+    b: Sequence[float] | float | Mapping[str, str]
+    """Color where the weight is 1."""
+    weight: float | Mapping[str, str] | None = None
+    """Fraction of the second color; a texture counts by its luminance."""
+
+@dataclass(kw_only=True)
+class Noise:
+    """Perlin noise in world space, between two colours."""
+
+    high: Sequence[float] | float
+    """The colour at 1."""
+    low: Sequence[float] | float
+    """The colour at 0."""
+    octaves: int
+    """Layers of noise, each of twice the frequency and half the amplitude."""
+    scale: float
+    """Cells of the first octave per metre. (1/m)"""
+
+@dataclass(kw_only=True)
+class Product:
+    """The product of two colors or textures."""
+
+    a: Sequence[float] | float | Mapping[str, str]
+    """First factor."""
+    b: Sequence[float] | float | Mapping[str, str]
+    """Second factor."""
+
+@dataclass(kw_only=True)
+class Stop:
+    """An entry of `stops`."""
+
+    at: float
+    """Place on the scale."""
+    color: Sequence[float] | float
+    """The color there."""
+
+@dataclass(kw_only=True)
+class Ramp:
+    """Colors along a scale, interpolated between stops."""
+
+    input: float | Mapping[str, str]
+    """Place on the scale; a texture counts by its luminance."""
+    stops: Sequence[Stop | Mapping[str, Any]] | None = None
+    """Colors by place, in ascending order."""
+
+@dataclass(kw_only=True)
+class VertexColor:
+    """The colors of a mesh’s vertices, interpolated; white without them."""
+
+    channel: Literal['rgb', 'red', 'green', 'blue', 'alpha'] | None = None
+    """The channels that are used."""
+
+@dataclass(kw_only=True)
+class Texture:
+    """An entry of `textures`."""
+
+    checker: Checker | Mapping[str, Any] | None = None
+    """Alternating squares of two colours over u and v."""
+    image: Image | Mapping[str, Any] | None = None
+    """An image over the unit square of u and v."""
+    mix: Mix | Mapping[str, Any] | None = None
+    """A mixture of two colors or textures."""
+    noise: Noise | Mapping[str, Any] | None = None
+    """Perlin noise in world space, between two colours."""
+    product: Product | Mapping[str, Any] | None = None
+    """The product of two colors or textures."""
+    ramp: Ramp | Mapping[str, Any] | None = None
+    """Colors along a scale, interpolated between stops."""
+    vertex_color: VertexColor | Mapping[str, Any] | None = None
+    """The colors of a mesh’s vertices, interpolated; white without them."""
+
+@dataclass(kw_only=True)
+class Truth:
+    """What the image converges to, if that is known."""
+
+    image: str | None = None
+    """Reference image, of the resolution of the camera."""
+    radiance: Sequence[float] | float | None = None
+    """Radiance of each channel. (W/(m² sr))"""
+
+@dataclass(kw_only=True)
+class Description:
+    """A scene file."""
+
+    background: Background | Mapping[str, Any] | None = None
+    """Radiance of rays that meet no surface."""
+    camera: Camera | Mapping[str, Any]
+    """Position, direction and lens of the camera."""
+    format: int | None = None
+    """The version of the format: 1."""
+    lamps: Sequence[Lamp | Mapping[str, Any]] | None = None
+    """Lamps without surface, one table each."""
+    materials: Mapping[str, Material | Mapping[str, Any]] | None = None
+    """Materials by name."""
+    notes: str | None = None
+    """Notes for readers."""
+    objects: Sequence[Object | Mapping[str, Any]] | None = None
+    """The objects of the scene, one table each."""
+    render: Render | Mapping[str, Any] | None = None
+    """The settings that the scene opens with."""
+    textures: Mapping[str, Texture | Mapping[str, Any]] | None = None
+    """Textures by name."""
+    title: str | None = None
+    """What the window and reports call the scene."""
+    truth: Truth | Mapping[str, Any] | None = None
+    """What the image converges to, if that is known."""
