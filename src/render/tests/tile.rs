@@ -65,7 +65,7 @@ fn blocks_have_places_sizes_and_corners() {
     let tile = tile();
     assert_eq!(tile.blocks.len(), 6);
     assert_eq!([0, 2, 3, 5].map(|block| tile.area().corner(block)), [[64, 32], [80, 32], [64, 40], [80, 40]]);
-    assert_eq!([0, 2, 3, 5].map(|block| tile.block_size(tile.place(block))), [[8, 8], [3, 8], [8, 5], [3, 5]]);
+    assert_eq!([0, 2, 3, 5].map(|block| tile.area().block_size(tile.area().place(block))), [[8, 8], [3, 8], [8, 5], [3, 5]]);
 }
 
 /// Brings a tile whose blocks have rates to an average, as a pass does.
@@ -117,8 +117,8 @@ fn an_invalid_sample_of_a_block_is_named_with_its_number() {
     let mut tile = tile();
     tile.blocks[4].rate = 1;
     let mut blocks = Blocks::default();
-    blocks.push(tile.corner(0), 0);
-    blocks.push(tile.corner(4), 7);
+    blocks.push(tile.area().corner(0), 0);
+    blocks.push(tile.area().corner(4), 7);
     let mut radiance = vec![[1.0; 4]; 2 * 64];
     radiance[64 + 3 * 8 + 2][1] = f32::NAN;
     assert_eq!(tile.add_blocks(&blocks, &radiance), Some(([64 + 8 + 2, 32 + 8 + 3], 7)));
