@@ -195,7 +195,8 @@ pub fn message(event: &KeepEvent) -> Option<String> {
         KeepEvent::Kept => None,
         KeepEvent::Slower { took, every } => {
             let (took, every) = (took.as_secs_f64(), every.as_secs_f64());
-            Some(format!("note: a checkpoint takes {took:.2} s, so that they are {every:.0} s apart, to take 1 % of the time"))
+            let often = format!("a checkpoint takes {took:.2} s, so they are at least {every:.0} s apart");
+            Some(format!("note: {often}: together they take 1 % of the time at most"))
         }
         KeepEvent::Failed(error) => Some(format!("warning: no checkpoint was written: {error}; the render goes on")),
     }

@@ -113,7 +113,7 @@ impl Rendering {
     /// Tells after an interruption how the render is continued.
     pub fn tell_how_to_go_on(&self, output: &Output) {
         let Checkpoints { path, failure, .. } = &self.checkpoints;
-        if let Some(path) = path.as_ref().filter(|_| self.is_interrupted() && failure.is_none()) {
+        if let Some(path) = path.as_ref().filter(|path| self.is_interrupted() && failure.is_none() && path.exists()) {
             let path = quoted(&path.to_string_lossy());
             tell(&format!("{path} keeps the render: `noisefall render --resume {path} -o {output}` continues it"));
         }

@@ -70,5 +70,5 @@ pub use self::{
     target::Target,
     tone::{Display, ToneMap},
     white_balance::WhiteBalance,
-    worker::Renderer,
+    worker::{KeepHandle, Renderer},
 };

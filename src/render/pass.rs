@@ -53,9 +53,11 @@ impl Threads {
                 }
             }
             count = count.merge(self.to_next_doubling(job, film, spp, interrupted));
+            // After an interruption some blocks may be ahead. What is recorded of them waits until all have doubled.
             let is_there = film.tiles_in_focus().all(|tile| tile.has_reached(spp));
-            film.is_noting = is_there;
-            if !is_there {
+            let is_done = film.tiles_in_focus().all(|tile| tile.distance_to(spp) == 0);
+            film.is_noting = is_there && !(is_done && film.tiles_in_focus().any(|tile| tile.is_ahead_of(spp)));
+            if !film.is_noting {
                 return count;
             }
         }

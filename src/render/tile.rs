@@ -96,6 +96,11 @@ impl Tile {
         self.blocks.iter().all(|block| block.spp >= block.next_goal(spp))
     }
 
+    /// Whether the samples of a block have doubled that are beyond its goal for the average `spp`.
+    pub(super) fn is_ahead_of(&self, spp: u32) -> bool {
+        self.blocks.iter().any(|block| block.has_doubled() && block.spp > block.goal(spp))
+    }
+
     /// Updates `spp` if no samples are missing for the average `spp`.
     pub(super) fn note_average(&mut self, spp: u32) {
         if self.distance_to(spp) == 0 {

@@ -21,7 +21,7 @@ use std::{
 
 use crossbeam_channel::{Receiver, Sender};
 
-pub use self::handle::Renderer;
+pub use self::handle::{KeepHandle, Renderer};
 use super::{
     checkpoint::{KeepPlan, Keeper, KeptRender},
     protocol::{Budget, Publish, Published, RenderRequest, RenderTask, State},
@@ -42,6 +42,8 @@ enum Message {
     Keep(Option<Box<KeepPlan>>),
     /// Keeps it now, and answers when the file is there.
     KeepNow(Sender<()>),
+    /// Keeps the first image once, if it has this number.
+    KeepOnce(u64, Box<KeepPlan>),
     Threads(Threads),
     Quit,
 }
@@ -179,6 +181,7 @@ impl Worker {
             }
             Message::Keep(plan) => self.set_plan(plan.map(|plan| *plan)),
             Message::KeepNow(kept) => self.keep_now(&kept),
+            Message::KeepOnce(generation, plan) => self.keep_once(generation, *plan),
             Message::Edit(generation, edit) => self.edits.set(Some((generation, edit))),
             Message::StopSecond => {
                 self.sessions[1].take().into_iter().for_each(|session| drop(self.kept.keep(session)));

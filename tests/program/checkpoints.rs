@@ -100,7 +100,7 @@ fn a_scene_that_has_changed_is_noticed_and_anyway_is_labelled() {
     };
     sky(200);
     let text = "format = 1\n[camera]\neye = [0, 0, 0]\nlook_at = [0, 0, 1]\nfov = 60\nresolution = [16, 16]\n\
-                [background]\nimage = { path = \"sky.png\" }\n";
+                [background]\nimage = \"sky.png\"\n";
     fs::write(shell.path("sky.toml"), text).expect("it is written");
     done(&shell, &["render", "sky.toml", "-o", "a.exr", "--checkpoint", "a.nf", "--spp", "2"]);
     // The scene is in the file; only what it names must be there.
@@ -118,6 +118,18 @@ fn a_scene_that_has_changed_is_noticed_and_anyway_is_labelled() {
     assert!(settings.to_string().contains("\"continued\":") && settings.to_string().contains("sky.png has "));
     // It stays labelled.
     assert!(done(&shell, &["render", "--resume", "a.nf", "-o", "b.exr", "--spp", "9"]).contains(label));
+}
+
+#[test]
+fn a_scene_of_another_program_with_its_meshes_is_read_again() {
+    let shell = Shell::new();
+    done(&shell, &["convert", &scene("cornell_box"), "-o", "box.glb"]);
+    begin(&shell, "box.glb", &["--reuse", "on"]);
+    done(&shell, &["render", "--resume", "a.nf", "-o", "b.exr", "--spp", "20"]);
+    done(&shell, &[&["render", "box.glb", "-o", "c.exr", "--spp", "20", "--reuse", "on"], &SIZE[..]].concat());
+    assert!(bytes(&shell, "b.exr") == bytes(&shell, "c.exr"));
+    fs::remove_file(shell.path("box.glb")).expect("it is there");
+    assert!(refused(&shell, &["render", "--resume", "a.nf", "-o", "b.exr"]).contains("box.glb is missing"));
 }
 
 #[test]

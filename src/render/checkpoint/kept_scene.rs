@@ -68,6 +68,12 @@ fn named_files(scene: &Scene, kept: &KeptScene, known: Option<&SceneDescription>
     paths.into_iter().map(named).collect()
 }
 
+/// Says which files that the scene names are not what they were.
+pub fn file_differences(header: &Header, file: &Path) -> Vec<String> {
+    let folder = folder_of(&header.scene, file);
+    header.files.iter().filter_map(|named| named.difference(&folder)).collect()
+}
+
 /// Opens the scene of a file again.
 pub fn reopen(kept: &KeptScene, file: &Path, progress: &Progress) -> Result<Opened, SceneError> {
     let path = folder_of(kept, file).join(&kept.name);
@@ -84,7 +90,7 @@ pub fn reopen(kept: &KeptScene, file: &Path, progress: &Progress) -> Result<Open
 }
 
 /// The folder of the files that a scene names: where it was, or else that of the render file.
-pub(super) fn folder_of(kept: &KeptScene, file: &Path) -> PathBuf {
+fn folder_of(kept: &KeptScene, file: &Path) -> PathBuf {
     let was = PathBuf::from(&kept.folder);
     let beside = || file.parent().unwrap_or(Path::new("")).to_owned();
     if was.is_absolute() && was.is_dir() { was } else { beside() }

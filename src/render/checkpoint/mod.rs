@@ -14,8 +14,8 @@ pub(super) use self::{keeper::Keeper, kept_file::KeptState};
 pub use self::{
     keeper::{KeepEvent, KeepPlan, reserve},
     kept_file::{EXTENSION, KeptFile, KeptRender, UnreadableFile, counters, is_kept_file},
-    kept_scene::{keep_scene, kept_header, reopen},
-    probe::{file_differences, probe, probe_difference},
+    kept_scene::{file_differences, keep_scene, kept_header, reopen},
+    probe::{probe, probe_difference},
 };
 
 /// The key of the remark that an image was continued with another scene or program.

@@ -3,7 +3,6 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use rayon::prelude::*;
 
-use super::kept_scene::folder_of;
 use crate::{
     integrator::{TILE, Work},
     render::{film::Film, protocol::RenderRequest, sharing::resolved, threads::Threads, tile::Tile},
@@ -43,12 +42,6 @@ fn hash(radiance: &[[f32; 4]], [width, height]: [u32; 2]) -> String {
         radiance[row..row + width as usize].iter().for_each(|[r, g, b, _]| [*r, *g, *b].encode(&mut bytes));
     }
     sha256(&bytes)
-}
-
-/// Says which files that the scene names are not what they were.
-pub fn file_differences(header: &Header, file: &std::path::Path) -> Vec<String> {
-    let folder = folder_of(&header.scene, file);
-    header.files.iter().filter_map(|named| named.difference(&folder)).collect()
 }
 
 /// Says that the samples are not those of a file; `None` if they are.

@@ -17,6 +17,26 @@ use crate::render::{
     threads::Threads,
 };
 
+/// Asks the worker for checkpoints, from any thread.
+#[derive(Clone)]
+pub struct KeepHandle {
+    sender: Sender<Message>,
+    shared: Arc<Shared>,
+}
+
+impl KeepHandle {
+    /// Keeps the first image once, if it has this number still. The events of the plan have the result.
+    pub fn keep_once(&self, generation: u64, plan: KeepPlan) {
+        send(&self.sender, &self.shared, Message::KeepOnce(generation, Box::new(plan)));
+    }
+}
+
+fn send(sender: &Sender<Message>, shared: &Shared, message: Message) {
+    // Counted before it is sent: a pass that sees the count stops and finds the message, at the latest a moment later.
+    shared.sent.fetch_add(1, Ordering::SeqCst);
+    let _ = sender.send(message);
+}
+
 /// The handle to the worker. Dropping it stops the thread.
 pub struct Renderer {
     sender: Sender<Message>,
@@ -56,6 +76,11 @@ impl Renderer {
         let (sender, receiver) = bounded(1);
         self.send(Message::KeepNow(sender));
         receiver
+    }
+
+    /// What asks for checkpoints from other threads.
+    pub fn keep_handle(&self) -> KeepHandle {
+        KeepHandle { sender: self.sender.clone(), shared: self.shared.clone() }
     }
 
     /// Compiles a changed scene and renders it instead of earlier requests. The threads and the film stay.
@@ -99,9 +124,7 @@ impl Renderer {
     }
 
     fn send(&self, message: Message) {
-        // Counted before it is sent: a pass that sees the count stops and finds the message, at the latest a moment later.
-        self.shared.sent.fetch_add(1, Ordering::SeqCst);
-        let _ = self.sender.send(message);
+        send(&self.sender, &self.shared, message);
     }
 }
 

@@ -30,6 +30,20 @@ impl Worker {
         let _ = kept.send(());
     }
 
+    /// Writes the image of this number by a plan of its own. The events have the result.
+    pub(super) fn keep_once(&mut self, generation: u64, plan: KeepPlan) {
+        let events = plan.events.clone();
+        let first = self.sessions[0].as_ref().filter(|first| first.generation() == generation && first.can_be_kept());
+        let kept = match first {
+            None => Err("the image has changed, or has no samples yet".to_owned()),
+            Some(first) => Keeper::new(plan)
+                .map(|mut keeper| first.checkpoint(&mut keeper, &self.threads))
+                .map_err(|error| error.to_string()),
+        };
+        // A keeper reports when it is dropped.
+        kept.err().into_iter().for_each(|error| _ = events.send(KeepEvent::Failed(error)));
+    }
+
     fn keep(&mut self) {
         let first = self.sessions[0].as_ref().filter(|first| first.can_be_kept());
         if let (Some(keeper), Some(session)) = (&mut self.keeper, first) {

@@ -185,7 +185,11 @@ impl App {
         if dialogs.tev.take().is_some() || dialogs.sequence.take().is_some() || dialogs.existing_frames.take().is_some() {
             return;
         }
-        if dialogs.unsaved.take().is_some() || dialogs.conflict.take().is_some() || dialogs.recovery.take().is_some() {
+        if dialogs.unsaved.take().is_some()
+            || dialogs.conflict.take().is_some()
+            || dialogs.recovery.take().is_some()
+            || dialogs.unfinished.take().is_some()
+        {
             return;
         }
         // Escape gives the edit of a field up, and nothing else.

@@ -32,6 +32,7 @@ impl App {
         self.show_unsaved();
         self.show_conflict();
         self.show_recovery();
+        self.show_unfinished();
         scene_error::show_of_file(ctx, &mut self.dialogs.file_error);
         if let Some(opened) = self.session.opened.as_ref().filter(|_| self.dialogs.remarks) {
             remarks::show(ctx, &mut self.dialogs.remarks, &opened.remarks);

@@ -9,6 +9,7 @@ use crate::viewer::background::{
 use crate::viewer::dialogs::{
     connect_tev::{self, TevDialog},
     save::OtherExport,
+    save_target::SaveTarget,
     sequence::{self, SequenceAnswer, SequenceDialog},
 };
 use crate::viewer::panels::exports::{self, ExportCommand};
@@ -20,6 +21,7 @@ impl App {
             OtherExport::Sequence => {
                 self.dialogs.sequence = Some(SequenceDialog::new(self.session.path(), self.session.budget.max_spp));
             }
+            OtherExport::Progress => self.open_save_dialog(SaveTarget::Progress),
             OtherExport::Tev => self.dialogs.tev = Some(TevDialog::new(&self.background.tev.address)),
         }
     }

@@ -29,6 +29,7 @@ impl App {
         CentralPanel::no_frame().show(ui, |ui| self.canvas(ui));
         self.show_dialogs(&ctx);
         self.keep_changes();
+        self.keep_progress();
         self.record_step();
         self.update_title();
         let compiled = self.session.opened.as_ref().map(|opened| &opened.scene.compiled);

@@ -13,6 +13,7 @@ mod file_tasks;
 mod frame;
 mod gizmo;
 mod history;
+mod keeping;
 mod loading;
 mod outliner_actions;
 mod outside;

@@ -37,6 +37,7 @@ impl App {
             SaveTarget::Scene => return self.save_scene_to(&path),
             SaveTarget::Picture => return self.save_to(path),
             SaveTarget::Layers => return self.save_layers_to(path),
+            SaveTarget::Progress => return self.save_progress_to(path),
             SaveTarget::CurvesCsv => self.instruments.history.csv(),
             SaveTarget::CurvesSvg => Ok(self.instruments.history.svg().into_bytes()),
             SaveTarget::Path => {
@@ -66,7 +67,7 @@ impl App {
         let denoised = self.background.denoiser.of(&shown).filter(|_| self.shown_view().is_denoised());
         let frame = denoised.unwrap_or(shown);
         let request = self.full_display_request(frame.clone());
-        let remarks = remarks(&request, &path);
+        let remarks = [remarks(&request, &path), self.mixed_remark()].concat();
         let display = self.session.look.display;
         let settings = settings_text(&of.scene, &of.camera, &of.settings, display, &frame, &remarks);
         self.background.saver.save(path, move |path| {

@@ -30,12 +30,18 @@ impl App {
         if series.is_none() {
             self.tell("The file has no bounces. Open Bounces (F4) before saving to include them.".to_owned(), false);
         }
-        let threads = self.session.threads;
-        self.background.saver.save(path, move |path| write(&frame, series.as_ref(), &of, threads, path));
+        let (threads, remarks) = (self.session.threads, self.mixed_remark());
+        self.background.saver.save(path, move |path| write(&frame, series.as_ref(), &of, (threads, &remarks), path));
     }
 }
 
-fn write(frame: &Frame, bounces: Option<&Arc<Frame>>, of: &RenderRequest, threads: usize, path: &Path) -> Result<(), String> {
+fn write(
+    frame: &Frame,
+    bounces: Option<&Arc<Frame>>,
+    of: &RenderRequest,
+    (threads, remarks): (usize, &[(&str, String)]),
+    path: &Path,
+) -> Result<(), String> {
     let RenderRequest { scene, camera, settings } = of;
     let _layers = reserve(&Layer::ALL, camera.resolution).map_err(|error| error.to_string())?;
     let _features = Features::reserve(camera.resolution).map_err(|error| error.to_string())?;
@@ -44,7 +50,7 @@ fn write(frame: &Frame, bounces: Option<&Arc<Frame>>, of: &RenderRequest, thread
     let seen = pool.install(|| features(SimdLevel::best(), scene, camera, &|| false));
     let series = bounces.and_then(|frame| frame.series.as_ref());
     let (channels, _) = channels(&Layer::ALL, frame, &LayerSources { features: seen.as_ref(), series });
-    let text = settings_text(scene, camera, settings, Display::default(), frame, &[]);
+    let text = settings_text(scene, camera, settings, Display::default(), frame, remarks);
     let contents = Contents { frame, channels: &channels, settings: &text };
     contents.save(Display::default(), path).map_err(|error| error.to_string())
 }

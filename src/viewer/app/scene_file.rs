@@ -44,6 +44,8 @@ impl App {
         if closes && !self.window.quits && self.has_unsaved_changes() {
             self.ctx.send_viewport_cmd(ViewportCommand::CancelClose);
             self.ask_to_leave(Leaving::Quit);
+        } else if closes {
+            self.background.progress.forget();
         }
     }
 

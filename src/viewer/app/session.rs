@@ -12,6 +12,8 @@ use crate::viewer::instruments::{bounces::Bounces, compare::comparison::Comparis
 
 pub struct Session {
     pub opened: Option<OpenedScene>,
+    /// How the image of a render that was continued differs from one that was rendered in one go.
+    pub mixed: Vec<String>,
     /// An edit of the scene that is not requested yet.
     pub waiting_edit: Option<Arc<SceneDescription>>,
     /// The scenes before the edits.
@@ -35,6 +37,7 @@ impl Session {
         let scene = built_in();
         Session {
             opened: None,
+            mixed: Vec::new(),
             waiting_edit: None,
             earlier: EarlierScenes::default(),
             submitted_edit: None,

@@ -17,6 +17,7 @@ use crate::viewer::background::{
     file_watcher::FileWatcher,
     loader::{GivenScene, Loader},
     preferences::Preferences,
+    progress_keeper::ProgressKeeper,
     recovery_keeper::RecoveryKeeper,
     render_worker::RenderWorkerHandle,
     saver::Saver,
@@ -64,6 +65,7 @@ pub struct Background {
     pub saver: Saver,
     pub files: FileWatcher,
     pub recovery: RecoveryKeeper,
+    pub progress: ProgressKeeper,
     /// The image that is drawn for the clipboard.
     pub copying: Option<BackgroundTask<egui::ColorImage>>,
     pub features: FeatureFinder,
@@ -88,6 +90,7 @@ impl App {
             saver: Saver::new(ctx),
             files: FileWatcher::idle(),
             recovery: RecoveryKeeper::default(),
+            progress: ProgressKeeper::default(),
             copying: None,
             features: FeatureFinder::new(ctx),
             denoiser: Denoiser::new(ctx),
@@ -118,6 +121,9 @@ impl App {
     /// Watches the files of the open scene, and keeps unsaved changes of this user in case the program ends unexpectedly.
     pub fn use_disk(&mut self) {
         self.background.recovery = RecoveryKeeper::of_user();
+        if let Some(folder) = self.background.recovery.folder() {
+            self.background.progress = ProgressKeeper::in_folder(&self.ctx, folder);
+        }
         match FileWatcher::start(&self.ctx) {
             Ok(files) => self.background.files = files,
             Err(error) => self.tell(format!("Changes by other programs are not noticed: {error}"), true),

@@ -6,7 +6,7 @@ use noisefall::{
     scene::{Camera, RenderSettings},
 };
 
-use crate::viewer::background::{recovery_files::FoundRecovery, sequence_task::SequenceRequest};
+use crate::viewer::background::{progress_keeper::FoundRender, recovery_files::FoundRecovery, sequence_task::SequenceRequest};
 use crate::viewer::canvas::{interaction::Tool, picture_view::PictureView};
 use crate::viewer::dialogs::{
     choose_file::FileDialog, conflict::Conflict, connect_tev::TevDialog, gallery::Gallery, notices::Notices, open::OpenDialog,
@@ -63,6 +63,7 @@ pub struct Dialogs {
     pub conflict: Option<Conflict>,
     /// Unsaved changes that can be restored.
     pub recovery: Option<FoundRecovery>,
+    pub unfinished: Option<FoundRender>,
     /// Why the last scene could not be opened.
     pub scene_error: Option<String>,
     /// The list of what was not taken over exactly is open.
@@ -78,7 +79,8 @@ pub struct Dialogs {
 impl Dialogs {
     /// Whether a dialog waits for an answer and takes the keys.
     pub fn wait(&self) -> bool {
-        let has_question = self.unsaved.is_some() || self.conflict.is_some() || self.recovery.is_some();
+        let has_question =
+            self.unsaved.is_some() || self.conflict.is_some() || self.recovery.is_some() || self.unfinished.is_some();
         let has_export = self.tev.is_some() || self.sequence.is_some() || self.existing_frames.is_some();
         let has_file = self.save.is_some() || self.open.is_some() || self.file.is_some();
         has_file || has_export || has_question || self.scene_error.is_some()

@@ -91,7 +91,7 @@ impl DropReader {
 fn purpose(path: PathBuf, resolution: [u32; 2]) -> Result<DroppedFile, String> {
     let extension = path.extension().map(|extension| extension.to_string_lossy().to_ascii_lowercase());
     match extension.as_deref() {
-        Some("toml" | "gltf" | "glb" | "xml" | "pbrt") => Ok(DroppedFile::Scene(path)),
+        Some("toml" | "nf" | "gltf" | "glb" | "xml" | "pbrt") => Ok(DroppedFile::Scene(path)),
         Some("obj" | "ply" | "stl") => {
             let model = read_model(&path).map_err(|error| error.to_string())?;
             Ok(DroppedFile::Mesh(path, bounds(&model)))

@@ -11,11 +11,15 @@ use noisefall::{
     edit::{Document, Recovery, Template},
     import::{self, ImportOptions, Opened, Remarks},
     progress::Progress,
-    render::truth::Reference,
+    render::{checkpoint::is_kept_file, truth::Reference},
     scene::{BUILT_IN, Camera, Scene, Truth, built_in, description::SceneDescription, parse},
 };
 
-use super::{background_task::BackgroundTask, catalogue};
+use super::{
+    background_task::BackgroundTask,
+    catalogue,
+    kept_render::{KeptScene, OpenedRender, open_kept},
+};
 
 /// The name of the built-in scene.
 pub const BUILT_IN_NAME: &str = "Five-sphere Cornell box (built-in)";
@@ -35,6 +39,8 @@ pub struct OpenedScene {
     pub warnings: Vec<String>,
     /// What was not taken over exactly from the file of another program.
     pub remarks: Arc<Remarks>,
+    /// The render that continues, if the scene was opened from its file. It is taken once.
+    pub kept: Option<Box<OpenedRender>>,
 }
 
 /// A scene of the command line.
@@ -138,6 +144,11 @@ impl Loader {
         self.pending.is_some().then_some(&self.progress)
     }
 
+    /// The options with which a scene was opened.
+    pub fn options_of(&self, path: Option<&Path>) -> ImportOptions {
+        if self.is_given(path) { self.given.options.clone() } else { ImportOptions::default() }
+    }
+
     /// Whether a file is that of the command line, whose options it takes.
     fn is_given(&self, path: Option<&Path>) -> bool {
         let paths = self.given.path.as_deref().zip(path);
@@ -228,9 +239,12 @@ fn file_name(path: &Path) -> String {
 }
 
 fn open(scene: GivenScene) -> OpenResult {
+    if let Some(path) = scene.path.as_deref().filter(|path| is_kept_file(path)) {
+        return open_render(path, &scene.options);
+    }
     let GivenScene { path: Some(path), options, strict } = scene else {
         let document = Document::untitled(BUILT_IN).map_err(|error| error.report())?;
-        return Ok(opened(built_in(), BUILT_IN_NAME.to_owned(), document, None));
+        return Ok(opened(Arc::new(built_in()), BUILT_IN_NAME.to_owned(), document, None));
     };
     let Opened { scene, remarks, description } = import::open(&path, &options).map_err(|error| error.report())?;
     if strict && !remarks.is_empty() {
@@ -245,14 +259,27 @@ fn open(scene: GivenScene) -> OpenResult {
         None => Document::open(&path, &scene.source),
     };
     let name = catalogue::name(&scene.title, &path);
-    let (opened, document) = opened(scene, name, document.map_err(|error| error.report())?, Some(path));
+    let (opened, document) = opened(Arc::new(scene), name, document.map_err(|error| error.report())?, Some(path));
     Ok((OpenedScene { remarks: Arc::new(remarks), ..opened }, document))
+}
+
+/// Opens the scene of a render that continues.
+fn open_render(path: &Path, options: &ImportOptions) -> OpenResult {
+    let KeptScene { scene, remarks, description, kept } = open_kept(path, options)?;
+    let scene_path = Path::new(&kept.header.scene.folder).join(&kept.header.scene.name);
+    let document = match description {
+        Some(description) => Document::imported(&scene_path, &scene.source, (*description).clone()),
+        None => Document::untitled(&scene.source).map_err(|error| error.report())?,
+    };
+    let name = catalogue::name(&scene.title, &scene_path);
+    let (opened, document) = opened(scene, name, document, Some(scene_path));
+    Ok((OpenedScene { remarks: Arc::new(remarks), kept: Some(Box::new(kept)), ..opened }, document))
 }
 
 fn begin(template: Template) -> OpenResult {
     let scene = parse(template.title, template.text.to_owned()).map_err(|error| error.report())?;
     let document = Document::untitled(template.text).map_err(|error| error.report())?;
-    Ok(opened(scene, template.title.to_owned(), document, None))
+    Ok(opened(Arc::new(scene), template.title.to_owned(), document, None))
 }
 
 fn restore(recovery: &Recovery, options: &ImportOptions) -> OpenResult {
@@ -268,15 +295,12 @@ fn restore(recovery: &Recovery, options: &ImportOptions) -> OpenResult {
     };
     let scene = scene.map_err(|error| error.report())?;
     let name = catalogue::name(&scene.title, Path::new(&source));
-    Ok(opened(scene, name, document, recovery.file().map(Path::to_owned)))
+    Ok(opened(Arc::new(scene), name, document, recovery.file().map(Path::to_owned)))
 }
 
-fn opened(scene: Scene, name: String, document: Document, path: Option<PathBuf>) -> (OpenedScene, Document) {
+fn opened(scene: Arc<Scene>, name: String, document: Document, path: Option<PathBuf>) -> (OpenedScene, Document) {
     let truth = Reference::of(&scene).map(Arc::new);
     let (materials, warnings) = (scene.legend().names.into(), scene.warnings().to_vec());
     let description = Arc::new(document.description().clone());
-    (
-        OpenedScene { scene: Arc::new(scene), name, path, truth, description, materials, warnings, remarks: Arc::default() },
-        document,
-    )
+    (OpenedScene { scene, name, path, truth, description, materials, warnings, remarks: Arc::default(), kept: None }, document)
 }

@@ -11,6 +11,9 @@ use tempfile::NamedTempFile;
 
 use super::catalogue::in_full;
 
+/// Extension of recovery files.
+const EXTENSION: &str = "toml";
+
 /// Unsaved changes that a window has left behind.
 #[derive(Clone, Debug)]
 pub struct FoundRecovery {
@@ -34,17 +37,18 @@ pub struct OwnFile {
 /// Writes the changes. Returns whether they are in the file.
 pub fn keep(folder: &Path, own: &mut Option<OwnFile>, document: &Document) -> bool {
     if own.is_none() {
-        *own = begin(folder).ok();
+        *own = begin(folder, "unsaved-", EXTENSION).ok();
     }
     own.as_ref().is_some_and(|own| Recovery::of(document).write(&own.path).is_ok())
 }
 
-fn begin(folder: &Path) -> std::io::Result<OwnFile> {
+/// Begins a file of this window, with a lock beside it.
+pub fn begin(folder: &Path, prefix: &str, extension: &str) -> std::io::Result<OwnFile> {
     fs::create_dir_all(folder)?;
-    let lock = tempfile::Builder::new().prefix("unsaved-").suffix(".lock").tempfile_in(folder)?;
+    let lock = tempfile::Builder::new().prefix(prefix).suffix(".lock").tempfile_in(folder)?;
     // Not every file system has locks.
     let _ = lock.as_file().lock();
-    Ok(OwnFile { path: lock.path().with_extension("toml"), _lock: lock })
+    Ok(OwnFile { path: lock.path().with_extension(extension), _lock: lock })
 }
 
 /// Removes a recovery file, and the lock that it may have.
@@ -79,8 +83,13 @@ fn is_any_in_use(folder: &Path, scene: Option<&Path>) -> bool {
 
 /// The recovery files of a folder.
 fn files(folder: &Path) -> impl Iterator<Item = PathBuf> {
+    left_files(folder, EXTENSION)
+}
+
+/// The files of a folder with an extension.
+pub fn left_files(folder: &Path, extension: &'static str) -> impl Iterator<Item = PathBuf> {
     let files = fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
-    files.filter(|file| file.extension().is_some_and(|extension| extension == "toml"))
+    files.filter(move |file| file.extension().is_some_and(|of_file| of_file == extension))
 }
 
 /// Reads a recovery file. Removes it if the scene file has the same content.
@@ -105,7 +114,8 @@ fn is_of(recovery: &Recovery, scene: Option<&Path>) -> bool {
     scene.is_none_or(|scene| recovery.file().is_some_and(|path| in_full(path) == in_full(scene)))
 }
 
-fn is_in_use(file: &Path) -> bool {
+/// Whether a window that runs has the lock of a file.
+pub fn is_in_use(file: &Path) -> bool {
     File::open(file.with_extension("lock")).is_ok_and(|lock| matches!(lock.try_lock(), Err(TryLockError::WouldBlock)))
 }
 

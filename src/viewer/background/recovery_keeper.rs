@@ -56,6 +56,11 @@ impl RecoveryKeeper {
         RecoveryKeeper { folder: Some(folder.to_owned()), ..RecoveryKeeper::default() }
     }
 
+    /// The folder of all recovery files.
+    pub fn folder(&self) -> Option<&Path> {
+        self.folder.as_deref()
+    }
+
     /// Keeps the changes of a document, or forgets them if there are none.
     pub fn keep(&mut self, changed: Option<&Document>) {
         let version = changed.map(Document::version);

@@ -3,7 +3,9 @@ mod edits;
 
 use noisefall::{
     math::SimdLevel,
-    render::{Budget, Publish, Published, RenderRequest, RenderTask, Renderer, threads::Threads},
+    render::{
+        Budget, KeepHandle, Publish, Published, RenderRequest, RenderTask, Renderer, checkpoint::KeptRender, threads::Threads,
+    },
 };
 
 pub use self::edits::EditedDescription;
@@ -18,6 +20,8 @@ pub struct RenderWorkerHandle {
     generation: u64,
     second_generation: u64,
     request: Option<RenderRequest>,
+    /// A render of this request that continues when it is requested.
+    kept: Option<(RenderRequest, KeptRender)>,
     second: Option<RenderTask>,
     /// The edit that has no result yet.
     edit: Option<PendingEdit>,
@@ -49,6 +53,7 @@ impl RenderWorkerHandle {
             generation: 0,
             second_generation: 0,
             request: None,
+            kept: None,
             second: None,
             edit: None,
             budget: Budget::default(),
@@ -74,7 +79,10 @@ impl RenderWorkerHandle {
         let is_new = std::mem::take(&mut self.restarts) || self.request.as_ref() != Some(&request);
         if is_new {
             self.generation = self.next(now);
-            self.renderer.submit(self.generation, request.clone());
+            match self.kept.take() {
+                Some((of, kept)) if of == request => self.renderer.submit_kept(self.generation, request.clone(), kept),
+                _ => self.renderer.submit(self.generation, request.clone()),
+            }
         }
         if self.second != second || (is_new && second.is_some()) {
             self.second_generation = self.next(now);
@@ -85,6 +93,16 @@ impl RenderWorkerHandle {
             self.second = second;
         }
         self.request = Some(request);
+    }
+
+    /// Continues a render with the next request, if that is its own.
+    pub fn continue_from(&mut self, request: RenderRequest, kept: KeptRender) {
+        self.kept = Some((request, kept));
+    }
+
+    /// What asks for checkpoints from other threads.
+    pub fn keep_handle(&self) -> KeepHandle {
+        self.renderer.keep_handle()
     }
 
     fn next(&mut self, now: f64) -> u64 {

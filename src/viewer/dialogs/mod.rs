@@ -17,4 +17,5 @@ pub mod save_target;
 pub mod scene_error;
 pub mod sequence;
 pub mod tour;
+pub mod unfinished;
 pub mod unsaved;

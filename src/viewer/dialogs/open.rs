@@ -10,7 +10,7 @@ use crate::viewer::{
 };
 
 /// Extensions of the files that can be opened.
-const EXTENSIONS: [&str; 10] = ["toml", "gltf", "glb", "xml", "pbrt", "obj", "ply", "stl", "png", "exr"];
+const EXTENSIONS: [&str; 11] = ["toml", "nf", "gltf", "glb", "xml", "pbrt", "obj", "ply", "stl", "png", "exr"];
 
 /// Height of the list of the folder, points.
 const LIST: f32 = 130.0;

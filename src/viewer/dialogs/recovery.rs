@@ -46,7 +46,7 @@ fn name(found: &FoundRecovery) -> String {
 }
 
 /// A time in its largest unit.
-fn in_words(time: Duration) -> String {
+pub fn in_words(time: Duration) -> String {
     let minutes = time.as_secs() / 60;
     let (number, unit) = match minutes {
         0 => return "less than a minute".to_owned(),

@@ -11,6 +11,8 @@ pub enum SaveTarget {
     Picture,
     /// The picture as an EXR with layers.
     Layers,
+    /// The render, to be continued.
+    Progress,
     CurvesCsv,
     CurvesSvg,
     /// What the path inspector shows.
@@ -23,6 +25,7 @@ impl SaveTarget {
             SaveTarget::Scene => "Save scene",
             SaveTarget::Picture => "Save image",
             SaveTarget::Layers => "Save image with layers",
+            SaveTarget::Progress => "Save progress",
             SaveTarget::CurvesCsv => "Save figures",
             SaveTarget::CurvesSvg => "Save plot",
             SaveTarget::Path => "Save path",
@@ -40,6 +43,7 @@ impl SaveTarget {
             SaveTarget::Scene => {
                 "TOML. Comments and formatting of the file are kept; paths in the scene are relative to its folder."
             }
+            SaveTarget::Progress => "NF keeps scene and samples. Opened again, the render continues as if it had never stopped.",
             SaveTarget::CurvesCsv => "CSV with a row for each figure: settings, samples, seconds, errors and bias.",
             SaveTarget::CurvesSvg => "SVG with the curves of all settings.",
             SaveTarget::Path => "TXT lists all terms of the path, TEX its nested sum, CSV the samples of the pixel.",
@@ -52,6 +56,7 @@ impl SaveTarget {
             SaveTarget::Scene => &["toml"],
             SaveTarget::Picture => &["png", "exr"],
             SaveTarget::Layers => &["exr"],
+            SaveTarget::Progress => &["nf"],
             SaveTarget::CurvesCsv => &["csv"],
             SaveTarget::CurvesSvg => &["svg"],
             SaveTarget::Path => &["txt", "tex", "csv"],
@@ -64,6 +69,9 @@ impl SaveTarget {
         }
         if self == SaveTarget::Layers && !self.takes(path) {
             return Err("The name must end in .exr.".to_owned());
+        }
+        if self == SaveTarget::Progress && !self.takes(path) {
+            return Err("The name must end in .nf.".to_owned());
         }
         if self == SaveTarget::Scene && !self.takes(path) {
             return Err("The name must end in .toml.".to_owned());

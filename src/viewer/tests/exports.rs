@@ -9,7 +9,7 @@ use super::*;
 use crate::viewer::background::tev_link::TevState;
 
 /// Opens the dialog of an export.
-fn open_export(window: &mut Window, button: &str) {
+pub fn open_export(window: &mut Window, button: &str) {
     window.key_press_modifiers(Modifiers::COMMAND, Key::E);
     window.run_steps(4);
     click(window, button);

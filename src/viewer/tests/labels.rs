@@ -31,6 +31,7 @@ pub(super) fn app() -> App {
         description,
         materials,
         warnings: Vec::new(),
+        kept: None,
         remarks: Arc::default(),
     });
     app

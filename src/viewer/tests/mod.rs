@@ -28,6 +28,7 @@ mod parts;
 mod path;
 mod popups;
 mod presets;
+mod progress;
 mod random_edits;
 mod rasteriser;
 mod ratios;

@@ -1,0 +1,96 @@
+//! Opens the files of renders, and writes them.
+use std::{
+    path::{Path, PathBuf},
+    sync::Arc,
+};
+
+use crossbeam_channel::unbounded;
+use noisefall::{
+    import::{ImportOptions, Opened, Remarks},
+    math::SimdLevel,
+    render::{
+        KeepHandle, RenderRequest,
+        checkpoint::{
+            KeepEvent, KeepPlan, KeptFile, KeptRender, file_differences, keep_scene, kept_header, probe_difference, reopen,
+        },
+        threads::Threads,
+    },
+    render_file::{Header, Target},
+    scene::{Scene, description::SceneDescription},
+};
+
+/// A render that continues.
+pub struct OpenedRender {
+    pub file: PathBuf,
+    pub header: Header,
+    pub render: KeptRender,
+}
+
+/// The scene of a render that continues.
+pub struct KeptScene {
+    pub scene: Arc<Scene>,
+    pub remarks: Remarks,
+    /// That of a scene of another program.
+    pub description: Option<Arc<SceneDescription>>,
+    pub kept: OpenedRender,
+}
+
+/// Opens the scene of a file, and what is rendered of it.
+pub fn open_kept(path: &Path, options: &ImportOptions) -> Result<KeptScene, String> {
+    let file = KeptFile::open(path).map_err(|error| error.to_string())?;
+    let header = file.header().clone();
+    let refused = |differences: &[String]| {
+        let lines: String = differences.iter().map(|line| format!("\n  {line}")).collect();
+        let advice = "Restore it, or continue with `noisefall render --resume FILE --anyway`.";
+        format!("{}: continued, this would be no single image:{lines}\n{advice}", path.display())
+    };
+    let differences = file_differences(&header, path);
+    if !differences.is_empty() {
+        return Err(refused(&differences));
+    }
+    let mut opened = reopen(&header.scene, path, &options.progress).map_err(|error| error.report())?;
+    (opened.scene.camera, opened.scene.settings) = (header.camera, header.settings);
+    let Opened { scene, remarks, description } = opened;
+    let request = RenderRequest { scene: Arc::new(scene), camera: header.camera, settings: header.settings };
+    let threads = Threads::new(0, SimdLevel::best()).map_err(|error| error.to_string())?;
+    if let Some(difference) = probe_difference(&header, &request, &threads) {
+        return Err(refused(&[difference]));
+    }
+    let render = file.read().map_err(|error| error.to_string())?;
+    let kept = OpenedRender { file: path.to_owned(), header, render };
+    Ok(KeptScene { scene: request.scene, remarks, description, kept })
+}
+
+/// What is needed to write the file of a render.
+pub struct RenderToKeep {
+    pub request: RenderRequest,
+    pub generation: u64,
+    pub description: Arc<SceneDescription>,
+    pub target: Target,
+    /// The file of the scene, and the options with which it was opened.
+    pub scene: (PathBuf, ImportOptions),
+    /// How the image differs from one that was rendered in one go.
+    pub remarks: Vec<String>,
+}
+
+impl RenderToKeep {
+    /// What the file says about the image. Reads the files that the scene names.
+    pub fn header(&self) -> Result<Header, String> {
+        let (path, options) = &self.scene;
+        let kept = keep_scene(&self.request.scene, path, options);
+        let threads = Threads::new(1, SimdLevel::best()).map_err(|error| error.to_string())?;
+        let header = kept_header(&self.request, kept, Some(&self.description), self.target, &threads);
+        Ok(Header { remarks: self.remarks.clone(), ..header.map_err(|error| error.report())? })
+    }
+
+    /// Writes the file, and waits until it is on the disk.
+    pub fn save(&self, worker: &KeepHandle, path: &Path) -> Result<(), String> {
+        let (events, received) = unbounded();
+        worker.keep_once(self.generation, KeepPlan { path: path.to_owned(), header: self.header()?, every: None, events });
+        match received.recv() {
+            Ok(KeepEvent::Failed(error)) => Err(error),
+            Ok(_) => Ok(()),
+            Err(_) => Err("the render has ended".to_owned()),
+        }
+    }
+}
