@@ -78,7 +78,7 @@ impl SplitImage<'_> {
         }
         let status = Status { cut_paths, ..Status::default() };
         let bias = status.bias(&self.header.settings);
-        let text = if self.json { self.figures(frame, bias).to_string() } else { self.line(frame, bias) };
+        let text = if self.json { self.figures(frame, bias.as_deref()).to_string() } else { self.line(frame, bias) };
         self.output.report(&text)
     }
 
@@ -94,7 +94,7 @@ impl SplitImage<'_> {
         format!("{output}: samples {}{counts}{noise}, {bias}; {rendered}", self.samples)
     }
 
-    fn figures(&self, frame: Option<&Frame>, bias: Option<String>) -> Value {
+    fn figures(&self, frame: Option<&Frame>, bias: Option<&str>) -> Value {
         let Header { scene, camera, settings, counters, .. } = self.header;
         let [width, height] = camera.resolution;
         let mut figures = figures::settings(settings);

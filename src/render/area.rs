@@ -71,7 +71,7 @@ impl Area {
     }
 
     /// The next samples of blocks, up to the capacity of a batch. `left` are the ranges of samples that each block lacks.
-    pub fn batch(&self, left: impl Iterator<Item = Range<u32>> + Clone) -> Blocks {
+    pub fn batch(&self, left: &(impl Iterator<Item = Range<u32>> + Clone)) -> Blocks {
         let mut batch = Blocks::default();
         for ahead in 0.. {
             let before = batch.iter().count();

@@ -96,7 +96,9 @@ impl SampledTile for Towards<'_> {
 
     fn next(&self) -> Option<NextSamples> {
         let Towards { tile, spp } = self;
-        let next = || if tile.is_adaptive() { NextSamples::OfBlocks(tile.missing(*spp)) } else { NextSamples::OfTile(tile.spp) };
+        let next = || {
+            if tile.is_adaptive() { NextSamples::OfBlocks(Box::new(tile.missing(*spp))) } else { NextSamples::OfTile(tile.spp) }
+        };
         (!tile.has_reached(*spp)).then(next)
     }
 

@@ -20,7 +20,7 @@ pub enum NextSamples {
     /// The sample with this index of all its pixels.
     OfTile(u32),
     /// Samples of some of its blocks.
-    OfBlocks(Blocks),
+    OfBlocks(Box<Blocks>),
 }
 
 /// A tile that takes samples.

@@ -111,7 +111,7 @@ impl Tile {
     /// Blocks with missing samples for the average `spp`, up to the capacity of a batch. None gets samples beyond the next power
     /// of two.
     pub(super) fn missing(&self, spp: u32) -> Blocks {
-        self.area().batch(self.blocks.iter().map(|block| block.spp..block.next_goal(spp)))
+        self.area().batch(&self.blocks.iter().map(|block| block.spp..block.next_goal(spp)))
     }
 
     /// Adds one sample to every pixel; slot = row · [`TILE`] + column. Returns the first pixel whose sample is invalid.

@@ -162,7 +162,7 @@ impl SampledTile for Towards<'_> {
             return (next < self.end).then_some(NextSamples::OfTile(next));
         }
         let left = self.tile.left(self.end);
-        left.clone().any(|left| !left.is_empty()).then(|| NextSamples::OfBlocks(self.tile.sums.area.batch(left)))
+        left.clone().any(|left| !left.is_empty()).then(|| NextSamples::OfBlocks(Box::new(self.tile.sums.area.batch(&left))))
     }
 
     fn add(&mut self, level: SimdLevel, samples: &NextSamples, radiance: &[[f32; 4]]) -> Option<SampleId> {

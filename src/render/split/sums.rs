@@ -117,9 +117,9 @@ impl TileSums {
         let width = samples.len().min(TILE as usize);
         let mut are_valid = true;
         for (x, sample) in samples[..width].iter().enumerate() {
-            for channel in 0..3 {
-                are_valid &= (0.0..=f32::MAX).contains(&sample[channel]);
-                row.planes[channel][x] = f64::from(sample[channel]);
+            for (plane, value) in row.planes.iter_mut().zip(&sample[..3]) {
+                are_valid &= (0.0..=f32::MAX).contains(value);
+                plane[x] = f64::from(*value);
             }
         }
         let invalid = if are_valid { None } else { self.blacken(row, samples) };
