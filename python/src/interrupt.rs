@@ -25,7 +25,7 @@ pub fn interruptible<T: Send>(py: Python, task: impl FnOnce() -> T + Send, stop:
                     Ok(result) => return signal.map(|()| result),
                     Err(RecvTimeoutError::Disconnected) => return Err(RenderError::new_err("the renderer ended unexpectedly")),
                     Err(RecvTimeoutError::Timeout) if signal.is_ok() => {
-                        signal = Python::attach(|py| py.check_signals());
+                        signal = Python::attach(Python::check_signals);
                         if signal.is_err() {
                             stop();
                         }

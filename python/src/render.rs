@@ -157,7 +157,7 @@ impl Worker {
             if woken == Err(RecvTimeoutError::Disconnected) {
                 return Err(RenderError::new_err("the render thread ended unexpectedly"));
             }
-            Python::attach(|py| py.check_signals())?;
+            Python::attach(Python::check_signals)?;
             let published = latest(&self.renderer);
             if published.status.generation != IMAGE {
                 continue;
