@@ -12,6 +12,11 @@ use crate::errors::RenderError;
 /// Time between two looks for signals.
 pub const INTERVAL: Duration = Duration::from_millis(50);
 
+/// Raises the exception of a signal that has arrived, such as `KeyboardInterrupt`.
+pub fn raise_signal(py: Python) -> PyResult<()> {
+    py.check_signals()
+}
+
 /// Runs a task on another thread, without the GIL. When a signal arrives, such as Ctrl+C, `stop` asks the task to end, and the
 /// exception of the signal is the result.
 pub fn interruptible<T: Send>(py: Python, task: impl FnOnce() -> T + Send, stop: &(dyn Fn() + Sync)) -> PyResult<T> {
@@ -25,7 +30,7 @@ pub fn interruptible<T: Send>(py: Python, task: impl FnOnce() -> T + Send, stop:
                     Ok(result) => return signal.map(|()| result),
                     Err(RecvTimeoutError::Disconnected) => return Err(RenderError::new_err("the renderer ended unexpectedly")),
                     Err(RecvTimeoutError::Timeout) if signal.is_ok() => {
-                        signal = Python::attach(|py| py.check_signals());
+                        signal = Python::attach(raise_signal);
                         if signal.is_err() {
                             stop();
                         }

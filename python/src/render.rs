@@ -13,7 +13,7 @@ use pyo3::{prelude::*, types::PyBool};
 use crate::{
     errors::RenderError,
     image::{Image, Picture},
-    interrupt::INTERVAL,
+    interrupt::{INTERVAL, raise_signal},
     settings::Settings,
 };
 
@@ -157,7 +157,7 @@ impl Worker {
             if woken == Err(RecvTimeoutError::Disconnected) {
                 return Err(RenderError::new_err("the render thread ended unexpectedly"));
             }
-            Python::attach(|py| py.check_signals())?;
+            Python::attach(raise_signal)?;
             let published = latest(&self.renderer);
             if published.status.generation != IMAGE {
                 continue;
