@@ -218,6 +218,7 @@ mod tests {
                 material: Some("lambertian"),
                 front: true,
                 wo: grey(0.0),
+                geometric_normal: [0.0, 0.0, 1.0],
                 shading_normal: None,
             }),
             emission: Some(EmitterHit { radiance: grey(0.103), weight: 0.104, contribution: grey(0.105), shared: false }),
