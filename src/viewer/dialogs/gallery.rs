@@ -12,10 +12,7 @@ use noisefall::{
     scene::ShippedScene,
 };
 
-use crate::viewer::background::{
-    catalogue::{CatalogueEntry, SceneRequest},
-    loader::BUILT_IN_NAME,
-};
+use crate::viewer::background::catalogue::{BUILT_IN_NAME, CatalogueEntry, SceneRequest};
 
 /// Of a card: its picture, and below it two lines of text.
 const PICTURE: Vec2 = Vec2 { x: 164.0, y: 112.0 };
