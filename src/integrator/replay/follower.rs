@@ -5,7 +5,7 @@ use super::{
     throughput::{BLACK, WHITE, carried},
 };
 use crate::{
-    geometry::{MISS, Nearest, PrimitiveRef},
+    geometry::{MISS, Nearest, PrimitiveRef, SurfacePoint},
     integrator::{
         batch::Batch,
         coordinates::ReflectionCoordinates,
@@ -209,11 +209,13 @@ fn surface(
     shading_normal: Option<[f32; 3]>,
 ) -> Surface {
     let object = &work.scene.objects[object as usize];
+    let SurfacePoint { p, n_geometric, .. } = interaction.point;
     Surface {
-        position: interaction.point.p.lane(0),
+        position: p.lane(0),
         material: work.scene.material(object).map(|material| material.material.name()),
         front: (interaction.cos.0 > 0.0) != object.flip,
         wo: (-path.d).lane(0),
+        geometric_normal: if interaction.cos.0 < 0.0 { -n_geometric } else { n_geometric }.lane(0),
         shading_normal,
     }
 }

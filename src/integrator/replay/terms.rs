@@ -94,6 +94,8 @@ pub struct Surface {
     pub front: bool,
     /// Towards the viewer.
     pub wo: [f32; 3],
+    /// Geometric normal on the path's side, whether or not the surface reflects.
+    pub geometric_normal: [f32; 3],
     /// Normal with smooth normals, bump and normal maps, on the path's side; `None` if the surface does not reflect.
     pub shading_normal: Option<[f32; 3]>,
 }

@@ -131,17 +131,20 @@ impl App {
                 self.toggle_tab(tab);
             }
         }
-        let pressed = |key| ctx.input(|input| input.key_pressed(key) && !input.modifiers.any());
+        // The modifiers of the press itself: a quick hand has left them when the frame ends.
+        let pressed = |key| ctx.input(|input| is_pressed(input, key, Modifiers::NONE));
         // Whatever has the keyboard: only in text this key is the cursor's.
         if pressed(Key::Home) && !ctx.text_edit_focused() {
             self.perform(Command::ResetCamera);
         }
         let has_dialog = self.dialogs.wait() || self.dialogs.help || self.dialogs.gallery.open;
-        if ctx.egui_wants_keyboard_input() || self.dialogs.wait() || self.session.opened.is_none() {
+        if ctx.text_edit_focused() || self.dialogs.wait() || self.session.opened.is_none() {
             return;
         }
+        // Space presses the button that Tab has reached.
+        let has_focus = ctx.egui_wants_keyboard_input();
         for (code, command) in COMMAND_KEYS {
-            if pressed(code) {
+            if pressed(code) && !(code == Key::Space && has_focus) {
                 self.perform(command);
             }
         }
@@ -157,7 +160,7 @@ impl App {
         }
         let look = &mut self.session.look;
         for (is_pressed, back) in
-            [(pressed(Key::V), false), (ctx.input(|input| input.key_pressed(Key::V) && input.modifiers.shift_only()), true)]
+            [(pressed(Key::V), false), (ctx.input(|input| is_pressed(input, Key::V, Modifiers::SHIFT)), true)]
         {
             if is_pressed {
                 look.view = views::next(look.view, back);
@@ -192,6 +195,10 @@ impl App {
         {
             return;
         }
+        // It lies over the tour, and its cards have the keyboard.
+        if std::mem::take(&mut dialogs.gallery.open) {
+            return;
+        }
         // Escape gives the edit of a field up, and nothing else.
         if self.window.had_focus || self.cancel_loading() {
             return;
@@ -200,8 +207,8 @@ impl App {
             return;
         }
         let dialogs = &mut self.dialogs;
-        if dialogs.help || dialogs.gallery.open || dialogs.remarks || dialogs.wait() {
-            (dialogs.help, dialogs.gallery.open, dialogs.remarks, dialogs.scene_error) = (false, false, false, None);
+        if dialogs.help || dialogs.remarks || dialogs.wait() {
+            (dialogs.help, dialogs.remarks, dialogs.scene_error) = (false, false, None);
         } else if dialogs.file_error.is_some() || !dialogs.notices.0.is_empty() {
             dialogs.file_error = None;
             dialogs.notices.0.clear();
@@ -211,6 +218,12 @@ impl App {
             self.session.budget.region = None;
         }
     }
+}
+
+/// Whether a key was pressed with exactly these modifiers.
+fn is_pressed(input: &InputState, key: Key, with: Modifiers) -> bool {
+    let is_press = |event: &Event| matches!(event, Event::Key { key: of, pressed: true, modifiers, .. } if *of == key && modifiers.matches_exact(with));
+    input.events.iter().any(is_press)
 }
 
 /// Whether Shift+D was pressed. A key that is held, such as that of a flight to the right, is not pressed again.

@@ -43,7 +43,7 @@ impl App {
         if scene_error::show(ctx, &mut self.dialogs.scene_error, self.session.opened.is_some()) {
             self.ask_to_leave(Leaving::Open(None));
         }
-        let request = self.dialogs.gallery.show(ctx, &self.catalogue);
+        let request = self.dialogs.gallery.show(ctx, &self.catalogue, self.session.path());
         request.into_iter().for_each(|request| self.open_scene(request));
         self.show_advice(ctx);
         if let Some(page) = self.dialogs.tour.filter(|_| self.results.shown.is_some()) {

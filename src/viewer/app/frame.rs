@@ -3,7 +3,7 @@ use std::time::{Duration, Instant};
 
 use egui::{CentralPanel, Panel};
 
-use super::state::App;
+use super::{input_order::split_frame, state::App};
 use crate::viewer::widgets::style::PANEL_WIDTH;
 
 impl App {
@@ -41,6 +41,14 @@ impl App {
 }
 
 impl eframe::App for App {
+    fn raw_input_hook(&mut self, ctx: &egui::Context, input: &mut egui::RawInput) {
+        input.events.splice(0..0, self.window.later_events.drain(..));
+        self.window.later_events = split_frame(&mut input.events);
+        if !self.window.later_events.is_empty() {
+            ctx.request_repaint();
+        }
+    }
+
     fn logic(&mut self, ctx: &egui::Context, _frame: &mut eframe::Frame) {
         self.guard_changes();
         self.hide(ctx.input(|input| input.viewport().visible() == Some(false)));

@@ -13,6 +13,7 @@ mod file_tasks;
 mod frame;
 mod gizmo;
 mod history;
+mod input_order;
 mod keeping;
 mod loading;
 mod outliner_actions;

@@ -28,7 +28,8 @@ impl App {
     pub fn open_save_dialog(&mut self, target: SaveTarget) {
         if self.dialogs.save.is_none() {
             let last = self.window.last_saved.as_deref().filter(|_| target != SaveTarget::Scene);
-            self.dialogs.save = Some(SaveDialog::new(target, self.session.path(), last));
+            let title = self.session.opened.as_ref().map_or("", |opened| opened.name.as_str());
+            self.dialogs.save = Some(SaveDialog::new(target, self.session.path(), title, last));
         }
     }
 

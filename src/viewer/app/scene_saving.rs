@@ -19,10 +19,13 @@ use crate::viewer::dialogs::{
 };
 
 impl App {
-    /// Saves the scene to its file. A scene without a file asks for one.
+    /// Saves the scene to its file. A scene without a file asks for one, and so does one that comes with the program: it stays as it
+    /// came.
     pub fn save_scene(&mut self) {
         let Some(editor) = &self.editor else { return };
-        if editor.document.path().is_none() {
+        let document = &editor.document;
+        let is_own = document.path().is_some_and(|path| !catalogue::is_shipped(&self.catalogue, path, document.on_disk()));
+        if !is_own {
             return self.ask_where_to_save();
         }
         let leaving = self.window.leaving.take();

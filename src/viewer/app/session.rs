@@ -74,9 +74,10 @@ impl Session {
         }
     }
 
+    /// Takes the scene's camera again. The resolution stays: it is no part of the view.
     pub fn reset_camera(&mut self) {
         if let Some(opened) = &self.opened {
-            self.camera = opened.scene.camera;
+            self.camera = Camera { resolution: self.camera.resolution, ..opened.scene.camera };
         }
     }
 

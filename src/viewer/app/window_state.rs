@@ -33,6 +33,8 @@ pub struct WindowState {
     pub hidden: bool,
     /// The key is still down after Ctrl+S or Shift+D: it does not move the camera.
     pub holds_chord: bool,
+    /// Input of the next frames: what came in one frame is in order only in several.
+    pub later_events: Vec<egui::Event>,
     /// How often a button of the mouse was pressed.
     pub presses: u64,
     pub last_saved: Option<PathBuf>,

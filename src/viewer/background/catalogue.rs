@@ -11,6 +11,11 @@ use noisefall::scene::ShippedScene;
 /// Number of bytes that are read to find a title, which is at the beginning of a file.
 const LONGEST_HEAD: u64 = 16 << 10;
 
+/// The name of the built-in scene.
+pub const BUILT_IN_NAME: &str = "Five-sphere Cornell box (built-in)";
+/// The name of the file with the same scene, without extension.
+pub const BUILT_IN_STEM: &str = "cornell_spheres";
+
 /// A scene file and its title.
 pub struct CatalogueEntry {
     pub name: String,
@@ -83,6 +88,13 @@ pub fn remember(scenes: &mut Vec<CatalogueEntry>, name: &str, path: &Path) {
     }
 }
 
+/// Whether a file with this text is a scene that comes with the program, as it came.
+pub fn is_shipped(scenes: &[CatalogueEntry], path: &Path, text: &str) -> bool {
+    let path = in_full(path);
+    let is_listed = || scenes.iter().any(|entry| entry.chapter != OTHERS && entry.path == path);
+    ShippedScene::of_text(text).is_some() && is_listed()
+}
+
 pub fn in_full(path: &Path) -> PathBuf {
     path.canonicalize().unwrap_or_else(|_| path.to_owned())
 }
@@ -123,6 +135,17 @@ pub fn name(title: &str, path: &Path) -> String {
     if title.is_empty() { path.file_stem().unwrap_or_default().to_string_lossy().replace('_', " ") } else { title.to_owned() }
 }
 
+/// The name of a file for a scene of this name, without extension.
+pub fn file_stem(name: &str) -> String {
+    if name == BUILT_IN_NAME {
+        return BUILT_IN_STEM.to_owned();
+    }
+    let name = name.to_lowercase();
+    let words = name.split(|letter: char| !letter.is_alphanumeric()).filter(|word| !word.is_empty());
+    let stem = words.collect::<Vec<_>>().join("_");
+    if stem.is_empty() { "scene".to_owned() } else { stem }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -131,6 +154,21 @@ mod tests {
     fn a_scene_is_called_by_its_title_or_else_by_its_file() {
         assert_eq!(name("A title", Path::new("some/tiny_lamp.toml")), "A title");
         assert_eq!(name("", Path::new("some/tiny_lamp.toml")), "tiny lamp");
+    }
+
+    #[test]
+    fn a_file_is_named_after_its_scene() {
+        let stems = ["Studio", "Veach's plates: MIS", BUILT_IN_NAME, "…"].map(file_stem);
+        assert_eq!(stems, ["studio", "veach_s_plates_mis", "cornell_spheres", "scene"]);
+    }
+
+    #[test]
+    fn a_scene_is_a_shipped_one_while_nobody_has_changed_it() {
+        let (scenes, path) = (find(), Path::new("scenes/furnace.toml"));
+        let text = ShippedScene::all().into_iter().find(|scene| scene.name == "furnace").expect("it is shipped").text;
+        assert!(is_shipped(&scenes, path, text));
+        assert!(!is_shipped(&scenes, path, &format!("{text}\n")), "someone's own");
+        assert!(!is_shipped(&scenes, Path::new("elsewhere/furnace.toml"), text), "a copy");
     }
 
     #[test]

@@ -17,12 +17,9 @@ use noisefall::{
 
 use super::{
     background_task::BackgroundTask,
-    catalogue,
+    catalogue::{self, BUILT_IN_NAME},
     kept_render::{KeptScene, OpenedRender, open_kept},
 };
-
-/// The name of the built-in scene.
-pub const BUILT_IN_NAME: &str = "Five-sphere Cornell box (built-in)";
 
 /// A scene ready to be shown.
 pub struct OpenedScene {

@@ -92,14 +92,17 @@ pub fn wheel_factor(ui: &egui::Ui) -> f32 {
 
 /// W A S D fly forwards, left, back and right, Q and E down and up; arrows turn. Shift is four times as fast.
 fn flight(ui: &egui::Ui, camera: &Camera, scene: &Scene) -> Camera {
-    if ui.ctx().egui_wants_keyboard_input() {
+    if ui.ctx().text_edit_focused() {
         return *camera;
     }
+    // Arrows belong to what Tab has reached.
+    let has_focus = ui.ctx().egui_wants_keyboard_input();
     let (along, turn, dt, fast) = ui.input(|input| {
         let free = input.modifiers.matches_logically(Modifiers::NONE) || input.modifiers == Modifiers::SHIFT;
         let held = |key| f64::from(u8::from(free && input.key_down(key)));
         let along = DVec3::new(held(Key::D) - held(Key::A), held(Key::E) - held(Key::Q), held(Key::W) - held(Key::S));
         let turn = [held(Key::ArrowRight) - held(Key::ArrowLeft), held(Key::ArrowUp) - held(Key::ArrowDown)];
+        let turn = if has_focus { [0.0; 2] } else { turn };
         (along, turn, f64::from(input.stable_dt.min(0.1)), input.modifiers.shift)
     });
     if along == DVec3::ZERO && turn == [0.0; 2] {

@@ -73,17 +73,24 @@ pub fn show(
     let pointer = response.interact_pointer_pos().or(over);
     let under = pointer.and_then(|at| areas.iter().min_by(|a, b| distance(a, at).total_cmp(&distance(b, at))));
     let under = *under.unwrap_or(&areas[0]);
-    if !wiped {
+    // A quick drag reaches the image in the frame in which it begins elsewhere.
+    let pressed = ui.input(|input| input.pointer.press_origin());
+    let is_foreign = pressed.is_some_and(|at| {
+        let layer = ui.ctx().layer_id_at(at);
+        !room.contains(at) || layer.is_some_and(|layer| layer != ui.layer_id())
+    });
+    let is_free = !wiped && !is_foreign;
+    if is_free {
         move_picture(ui, &response, over, tool, view, under.clip);
     }
     let hovered = over.and_then(|at| under.pixel(at));
     let over_second = over.is_some_and(|at| is_second(at, &pictures, &areas, view));
-    let moves = [tool == Tool::Camera && !wiped, keys];
+    let moves = [tool == Tool::Camera && is_free, keys];
     CanvasOutput {
         hovered,
         over_second,
         clicked: hovered.filter(|_| response.clicked()),
-        marked: if tool == Tool::Region && !wiped { marked(ui, &response, &under, view) } else { None },
+        marked: if tool == Tool::Region && is_free { marked(ui, &response, &under, view) } else { None },
         camera: scene.and_then(|scene| flight::moved(ui, &response, moves, camera, under.rect, scene)),
         area: Some(areas[0]),
         second_area: areas.get(1).copied(),

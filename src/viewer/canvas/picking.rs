@@ -13,12 +13,12 @@ pub fn object_at(scene: &Scene, camera: &Camera, pixel: [u32; 2]) -> Option<usiz
     Some(scene.objects[object as usize].described as usize)
 }
 
-/// The point on the surface at the centre of a pixel, and the normal there: the direction towards the camera where the surface reflects
-/// nothing. `None` if there is no surface.
+/// The point on the surface at the centre of a pixel, and the geometric normal there, on the camera's side. `None` if there is no
+/// surface.
 pub fn surface_at(scene: &Scene, camera: &Camera, pixel: [u32; 2]) -> Option<[DVec3; 2]> {
     let vertex = first_vertex(scene, camera, pixel)?;
     let [origin, direction] = [vertex.origin, vertex.direction].map(|v| DVec3::from_array(v.map(f64::from)));
-    let normal = vertex.normal.map_or(-direction, |normal| DVec3::from_array(normal.map(f64::from)));
+    let normal = DVec3::from_array(vertex.surface?.geometric_normal.map(f64::from));
     Some([origin + direction * f64::from(vertex.distance?), normal])
 }
 
@@ -65,6 +65,17 @@ mod tests {
         let [at, normal] = surface_at(&scene, &scene.camera, [30, 10]).expect("the rectangle is there");
         assert!(at.distance(DVec3::new(1.05, 0.95, 0.0)) < 1e-4 && normal.distance(DVec3::Z) < 1e-4, "{at} {normal}");
         assert_eq!(surface_at(&scene, &scene.camera, [20, 20]), None);
+    }
+
+    /// The normal does not depend on where the camera is, but on which side of the surface.
+    #[test]
+    fn the_normal_of_a_surface_seen_from_the_side_is_not_the_direction_to_the_camera() {
+        let scene = scene();
+        for (eye, expected) in [(DVec3::new(8.0, 1.0, 6.0), DVec3::Z), (DVec3::new(-5.0, 4.0, -6.0), DVec3::NEG_Z)] {
+            let camera = Camera { eye, look_at: DVec3::new(1.0, 1.0, 0.0), ..scene.camera };
+            let [_, normal] = surface_at(&scene, &camera, [20, 20]).expect("the rectangle is there");
+            assert!(normal.distance(expected) < 1e-6, "{eye}: {normal}");
+        }
     }
 
     #[test]

@@ -12,10 +12,8 @@ use noisefall::{
     scene::ShippedScene,
 };
 
-use crate::viewer::background::{
-    catalogue::{CatalogueEntry, SceneRequest},
-    loader::BUILT_IN_NAME,
-};
+use super::question::hold_keyboard;
+use crate::viewer::background::catalogue::{BUILT_IN_NAME, CatalogueEntry, SceneRequest, in_full};
 
 /// Of a card: its picture, and below it two lines of text.
 const PICTURE: Vec2 = Vec2 { x: 164.0, y: 112.0 };
@@ -29,6 +27,8 @@ const NO_PICTURE: &str = "no picture";
 #[derive(Default)]
 pub struct Gallery {
     pub open: bool,
+    /// The card of the open scene is still to be given the keyboard.
+    takes_keyboard: bool,
     pictures: HashMap<PathBuf, TextureHandle>,
     arriving: Option<Receiver<(PathBuf, ColorImage)>>,
     /// All pictures that exist have arrived.
@@ -77,11 +77,14 @@ impl Gallery {
         }
     }
 
-    /// Shows the gallery while it is open.
-    pub fn show(&mut self, ctx: &egui::Context, catalogue: &[CatalogueEntry]) -> Option<SceneRequest> {
+    /// Shows the gallery while it is open. The card of the open scene has the keyboard at first: that of the built-in one if there is no
+    /// file.
+    pub fn show(&mut self, ctx: &egui::Context, catalogue: &[CatalogueEntry], current: Option<&Path>) -> Option<SceneRequest> {
         if !self.open {
+            self.takes_keyboard = true;
             return None;
         }
+        let current = current.map(in_full);
         self.receive(ctx, catalogue.iter().map(|entry| entry.path.clone()));
         let (mut open, mut request) = (true, None);
         let room = ctx.content_rect().size() - vec2(80.0, 120.0);
@@ -92,8 +95,13 @@ impl Gallery {
             .resizable(false)
             .anchor(Align2::CENTER_CENTER, [0.0, 0.0])
             .show(ctx, |ui| {
-                ScrollArea::vertical().max_height(room.y).show(ui, |ui| {
-                    request = self.cards(ui, catalogue, columns).map(SceneRequest::Open);
+                hold_keyboard(ui);
+                // Nothing takes the keyboard while egui measures the window.
+                let focused = (self.takes_keyboard && ui.is_enabled()).then_some(current.as_deref());
+                self.takes_keyboard &= !ui.is_enabled();
+                // As tall at once as it will be: the window is centred by its last size.
+                ScrollArea::vertical().max_height(room.y).min_scrolled_height(room.y).show(ui, |ui| {
+                    request = self.cards(ui, catalogue, columns, focused).map(SceneRequest::Open);
                 });
                 ui.add_space(4.0);
                 if ui.button("Open a file…").on_hover_text("Opens another scene file.").clicked() {
@@ -104,10 +112,16 @@ impl Gallery {
         request
     }
 
-    /// Returns the scene that was chosen; `Some(None)` is the built-in one.
-    fn cards(&self, ui: &mut Ui, catalogue: &[CatalogueEntry], columns: usize) -> Option<Option<PathBuf>> {
+    /// Returns the scene that was chosen; `Some(None)` is the built-in one. The card of `focused` is given the keyboard.
+    fn cards(
+        &self,
+        ui: &mut Ui,
+        catalogue: &[CatalogueEntry],
+        columns: usize,
+        focused: Option<Option<&Path>>,
+    ) -> Option<Option<PathBuf>> {
         let mut chosen = None;
-        if !catalogue.iter().any(is_built_in) && self.card(ui, BUILT_IN_NAME, None) {
+        if !catalogue.iter().any(is_built_in) && self.card(ui, BUILT_IN_NAME, None, focused == Some(None)) {
             chosen = Some(None);
         }
         for chapter in catalogue.chunk_by(|a, b| a.chapter == b.chapter) {
@@ -116,7 +130,7 @@ impl Gallery {
             egui::Grid::new(title).spacing([GAP, 8.0]).show(ui, |ui| {
                 let cards = chapter.iter().map(|entry| (entry.name.as_str(), Some(entry.path.clone()), &entry.path));
                 for (number, (name, path, picture)) in built_in(chapter).into_iter().chain(cards).enumerate() {
-                    if self.card(ui, name, self.pictures.get(picture)) {
+                    if self.card(ui, name, self.pictures.get(picture), focused == Some(path.as_deref())) {
                         chosen = Some(path);
                     }
                     if (number + 1) % columns == 0 {
@@ -130,8 +144,15 @@ impl Gallery {
     }
 
     /// A picture with a name. Returns whether it was clicked.
-    fn card(&self, ui: &mut Ui, name: &str, picture: Option<&TextureHandle>) -> bool {
+    fn card(&self, ui: &mut Ui, name: &str, picture: Option<&TextureHandle>, takes_keyboard: bool) -> bool {
         let (rect, response) = ui.allocate_exact_size(PICTURE + vec2(0.0, TEXT), Sense::click());
+        if takes_keyboard {
+            response.request_focus();
+        }
+        // The arrows go on in the same way.
+        if takes_keyboard || response.gained_focus() {
+            response.scroll_to_me(None);
+        }
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, name));
         let frame = egui::Rect::from_min_size(rect.min, PICTURE);
         match picture {

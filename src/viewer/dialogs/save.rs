@@ -13,9 +13,9 @@ pub struct SaveDialog {
 }
 
 impl SaveDialog {
-    /// A dialog that suggests a path after the last file or after the scene.
-    pub fn new(target: SaveTarget, scene: Option<&Path>, last_saved: Option<&Path>) -> SaveDialog {
-        let path = suggested_path(target, scene, last_saved).display().to_string();
+    /// A dialog that suggests a path after the last file or after the scene, which has this name.
+    pub fn new(target: SaveTarget, scene: Option<&Path>, title: &str, last_saved: Option<&Path>) -> SaveDialog {
+        let path = suggested_path(target, scene, title, last_saved).display().to_string();
         SaveDialog { target, field: PathField::of_new_file(path, "path/to/file") }
     }
 

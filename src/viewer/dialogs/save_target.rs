@@ -3,6 +3,8 @@ use std::path::{Path, PathBuf, is_separator};
 
 use noisefall::{file, render::image_file::check_target};
 
+use crate::viewer::background::catalogue::file_stem;
+
 /// The content of a file to save.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SaveTarget {
@@ -95,11 +97,11 @@ impl SaveTarget {
     }
 }
 
-/// A path that is not taken, named after the last file of this scene or after the scene.
-pub fn suggested_path(target: SaveTarget, scene: Option<&Path>, last_saved: Option<&Path>) -> PathBuf {
+/// A path that is not taken, named after the last file of this scene, or after the file of the scene, or else after its name.
+pub fn suggested_path(target: SaveTarget, scene: Option<&Path>, title: &str, last_saved: Option<&Path>) -> PathBuf {
     let extension = target.extensions()[0];
     let of_file = scene.and_then(|path| path.file_stem()?.to_str().map(str::to_owned));
-    let name = of_file.unwrap_or_else(|| "cornell_spheres".to_owned());
+    let name = of_file.unwrap_or_else(|| file_stem(title));
     let path = last_saved.filter(|path| extension != "png" || SaveTarget::Picture.takes(path));
     let here = || std::env::current_dir().map_or_else(|_| PathBuf::from(&name), |folder| folder.join(&name));
     // Paths in a scene are relative to its folder.
@@ -136,6 +138,13 @@ mod tests {
         assert_eq!(free(&path("shot-2.png")), path("shot-3.png"), "a number is counted on, and not added to");
         write("two-balls.exr");
         assert_eq!(free(&path("two-balls.exr")), path("two-balls-2.exr"));
+    }
+
+    #[test]
+    fn a_scene_without_a_file_is_named_after_its_title() {
+        let suggested = |target: SaveTarget| suggested_path(target, None, "A studio of mine", None);
+        assert!(suggested(SaveTarget::Scene).ends_with("a_studio_of_mine.toml"));
+        assert!(suggested(SaveTarget::Picture).ends_with("a_studio_of_mine.png"));
     }
 
     #[test]

@@ -7,6 +7,7 @@ use crate::viewer::widgets::{
     kinds::{kinds, number_rows},
     number,
     quotation::with_quotation_marks,
+    refusal,
     style::{controls, elided, row},
 };
 
@@ -15,13 +16,19 @@ pub fn show(ui: &mut egui::Ui, camera: &mut Camera, scene: Option<&Scene>) -> bo
     let speed = scene.map_or(0.01, |scene| scene.size * 0.002);
     controls(ui, "camera", |ui| {
         row(ui, &CameraDescription::EYE.label(), "Position of the camera: x, y (up), z, in metres.", |ui, label| {
-            point(ui, label, &mut camera.eye, speed);
+            _ = point(ui, label, &mut camera.eye, speed);
         });
         row(ui, &CameraDescription::LOOK_AT.label(), "Point in the middle of the image, in metres.", |ui, label| {
-            point(ui, label, &mut camera.look_at, speed);
+            _ = point(ui, label, &mut camera.look_at, speed);
         });
         row(ui, &CameraDescription::UP.label(), "Direction that is up in the image.", |ui, label| {
-            point(ui, label, &mut camera.up, 0.01);
+            let before = camera.up;
+            let field = point(ui, label, &mut camera.up, 0.01);
+            if let Some(field) = field.filter(|_| camera.up == DVec3::ZERO) {
+                camera.up = before;
+                // Its two other numbers are zero.
+                refusal::remember(ui, field, before.element_sum(), "A direction needs a number that is not 0.".to_owned());
+            }
         });
         projection(ui, camera);
         lens(ui, camera, speed);
@@ -45,9 +52,9 @@ pub fn show(ui: &mut egui::Ui, camera: &mut Camera, scene: Option<&Scene>) -> bo
     let error = camera.check().err().map_or_else(|| " ".to_owned(), |error| with_quotation_marks(&error.to_string()));
     let width = ui.available_width();
     elided(ui, width, RichText::new(&error).color(ui.visuals().error_fg_color)).on_hover_text(&error);
-    let moved = scene.is_some_and(|scene| scene.camera != *camera);
+    let moved = scene.is_some_and(|scene| Camera { resolution: camera.resolution, ..scene.camera } != *camera);
     let reset = ui.add_enabled(moved, Button::new("Back to the scene's camera"));
-    reset.on_hover_text("Resets the camera to that of the scene. (Home)").clicked()
+    reset.on_hover_text("Resets the camera to that of the scene, except for the resolution. (Home)").clicked()
 }
 
 fn projection(ui: &mut egui::Ui, camera: &mut Camera) {
@@ -93,12 +100,16 @@ fn lens(ui: &mut egui::Ui, camera: &mut Camera, speed: f64) {
     camera.lens = (lens.radius > 0.0).then_some(lens);
 }
 
-fn point(ui: &mut egui::Ui, label: egui::Id, p: &mut DVec3, speed: f64) {
+/// Returns the field whose number was changed.
+fn point(ui: &mut egui::Ui, label: egui::Id, p: &mut DVec3, speed: f64) -> Option<egui::Id> {
+    let mut changed = None;
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
         for coordinate in [&mut p.x, &mut p.y, &mut p.z] {
             let value = number::field(ui, coordinate, 3, -1e12..=1e12).speed(speed);
-            ui.add_sized([62.0, 20.0], value).labelled_by(label);
+            let field = ui.add_sized([62.0, 20.0], value).labelled_by(label);
+            changed = changed.or(field.changed().then_some(field.id));
         }
     });
+    changed
 }

@@ -4,8 +4,8 @@ use std::path::PathBuf;
 use egui::{Align, Button, ComboBox, Layout, RichText, vec2};
 
 use crate::viewer::background::{
-    catalogue::{CatalogueEntry, SceneRequest, in_full},
-    loader::{BUILT_IN_NAME, OpenedScene},
+    catalogue::{BUILT_IN_NAME, CatalogueEntry, SceneRequest, in_full},
+    loader::OpenedScene,
 };
 use crate::viewer::widgets::quotation::with_quotation_marks;
 

@@ -1,5 +1,5 @@
 //! The line below the picture: progress, noise, bias, and the pixel under the pointer.
-use std::{path::Path, time::Duration};
+use std::{path::PathBuf, time::Duration};
 
 use egui::{Color32, Label, RichText};
 use noisefall::{
@@ -8,7 +8,11 @@ use noisefall::{
 };
 
 use super::pixel_readout::Pixel;
-use crate::viewer::background::{display_image::ReferenceComparison, loader::OpenedScene};
+use crate::viewer::background::{
+    catalogue::{BUILT_IN_STEM, file_stem},
+    display_image::ReferenceComparison,
+    loader::OpenedScene,
+};
 use crate::viewer::widgets::{counted::counted, palette::Palette, quotation::with_quotation_marks, wording::capitalised};
 
 /// Width of a window that has room for all figures, points.
@@ -183,9 +187,13 @@ impl StatusBar<'_> {
 
     fn replay_command(&self, at: SampleId, size: [u32; 2]) -> String {
         let Some(request) = self.request else { return String::new() };
-        let file = self.opened.and_then(|opened| opened.path.as_deref());
-        let file = file.unwrap_or(Path::new("scenes/cornell_spheres.toml"));
-        replay_command(file, &request.scene, size, &request.settings, at)
+        // A scene that is not saved is called as it will be; the built-in one is found by its name.
+        let named = |opened: &OpenedScene| match file_stem(&opened.name) {
+            stem if stem == BUILT_IN_STEM => PathBuf::from(stem),
+            stem => PathBuf::from(stem).with_extension("toml"),
+        };
+        let file = self.opened.map(|opened| opened.path.clone().unwrap_or_else(|| named(opened))).unwrap_or_default();
+        replay_command(&file, &request.scene, size, &request.settings, at)
     }
 
     fn pixel_label(&self, ui: &mut egui::Ui) {

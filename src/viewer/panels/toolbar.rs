@@ -72,7 +72,7 @@ impl Toolbar<'_> {
             asks(self.tool_buttons(ui));
             ui.separator();
             let home = ui.add_enabled(self.is_open, Button::new("Home"));
-            let doc = "Resets the camera to that of the scene. (Home)";
+            let doc = "Resets the camera to that of the scene, except for the resolution. (Home)";
             asks(home.on_hover_text(doc).clicked().then_some(Command::ResetCamera));
             if let Some(zoom) = self.zoom {
                 asks(zoom_buttons(ui, zoom));

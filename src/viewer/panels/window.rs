@@ -6,6 +6,9 @@ use crate::viewer::widgets::style::{controls, row};
 const THEMES: [(ThemePreference, &str); 3] =
     [(ThemePreference::System, "As the system"), (ThemePreference::Dark, "Dark"), (ThemePreference::Light, "Light")];
 
+/// Sizes of the interface to choose from.
+const SCALES: [f32; 6] = [0.75, 1.0, 1.25, 1.5, 1.75, 2.0];
+
 /// The number of cores of this machine.
 pub fn cores() -> usize {
     std::thread::available_parallelism().map_or(1, usize::from)
@@ -26,6 +29,7 @@ pub fn show(ui: &mut Ui, threads: &mut usize, shows_frame_times: &mut bool) -> O
             ui.add(Slider::new(threads, 1..=most)).labelled_by(label);
         });
         row(ui, "Theme", "Light, dark, or the theme of the system.", |ui, label| chosen = theme(ui, label));
+        row(ui, "Scale", "Size of text and controls. (Ctrl and + or -; Ctrl+0 resets)", scale);
         row(ui, "Frame times", "Shows how long the window takes to draw. (F12)", |ui, label| {
             ui.checkbox(shows_frame_times, "").labelled_by(label);
         });
@@ -46,6 +50,18 @@ fn theme(ui: &mut Ui, label: egui::Id) -> Option<Option<String>> {
     });
     combo.response.labelled_by(label);
     chosen
+}
+
+fn scale(ui: &mut Ui, label: egui::Id) {
+    let (now, percent) = (ui.ctx().zoom_factor(), |scale: f32| format!("{:.0} %", 100.0 * scale));
+    let combo = ComboBox::from_id_salt("Scale").selected_text(percent(now)).show_ui(ui, |ui| {
+        for scale in SCALES {
+            if ui.selectable_label(scale == now, percent(scale)).clicked() {
+                ui.ctx().set_zoom_factor(scale);
+            }
+        }
+    });
+    combo.response.labelled_by(label);
 }
 
 #[cfg(test)]

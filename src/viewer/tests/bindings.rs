@@ -100,7 +100,7 @@ fn every_number_of_the_camera_is_its_own() {
     assert_eq!(window.state().session.camera, Camera { resolution: start.resolution, ..expected });
     click(&mut window, "Back to the scene's camera");
     let home = window.state().session.opened.as_ref().expect("it is open").scene.camera;
-    assert_eq!(window.state().session.camera, home);
+    assert_eq!(window.state().session.camera, Camera { resolution: start.resolution, ..home });
 }
 
 #[test]

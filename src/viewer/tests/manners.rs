@@ -180,3 +180,10 @@ fn both_themes_can_be_chosen_and_are_remembered() {
         wait(&mut window, "the note of it", |_| noted().as_deref() == remembered);
     }
 }
+
+#[test]
+fn the_interface_can_be_scaled() {
+    let mut window = window("furnace");
+    choose(&mut window, "Scale", "150 %");
+    assert_eq!(window.ctx.zoom_factor(), 1.5);
+}

@@ -15,6 +15,7 @@ mod fields;
 mod foreign_scenes;
 mod glyphs;
 mod instruments;
+mod keyboard;
 mod labels;
 mod layout;
 mod manners;

@@ -271,3 +271,23 @@ fn a_bar_of_the_bounces_is_clicked_and_says_its_share() {
     window.state_mut().session.camera.resolution = [2100, 2000];
     assert!(window.state().second_view().is_some());
 }
+
+#[test]
+fn a_quick_drag_that_begins_beside_the_image_does_not_pan_it() {
+    let mut window = window("furnace");
+    let before = window.state().window.view.offset;
+    let label = window.get_by_label("Seed").rect().center();
+    window.hover_at(label);
+    window.run_steps(2);
+    let button =
+        |pos, pressed| egui::Event::PointerButton { pos, button: PointerButton::Primary, pressed, modifiers: Modifiers::NONE };
+    window.input_mut().events = vec![button(label, true), egui::Event::PointerMoved(MIDDLE.into())];
+    window.step();
+    for step in 1..5 {
+        window.hover_at(beside(MIDDLE, 20.0 * step as f32, 0.0).into());
+        window.step();
+    }
+    window.event(button(beside(MIDDLE, 80.0, 0.0).into(), false));
+    window.run_steps(2);
+    assert_eq!(window.state().window.view.offset, before);
+}

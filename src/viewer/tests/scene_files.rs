@@ -180,3 +180,34 @@ fn a_new_scene_begins_from_a_template() {
     wait(&mut window, "the studio", |app| app.session.opened.as_ref().is_some_and(|opened| opened.name == "Studio"));
     assert!(window.state().session.path().is_none() && !window.state().has_unsaved_changes());
 }
+
+/// Without a word to the file, which this test must not change if it fails: the question is all that the key may do.
+#[test]
+fn a_scene_that_comes_with_the_program_asks_for_a_file_of_its_own() {
+    let before = std::fs::read_to_string(shipped("furnace")).expect("it is shipped");
+    let mut window = window("furnace");
+    let edit = Edit::set(Path::of("title"), OwnedValue::Text("Another".to_owned()));
+    assert!(window.state_mut().edit(&edit));
+    window.state_mut().save_scene();
+    assert!(window.state().saving.is_none(), "nothing is written");
+    let suggested = window.state().dialogs.save.as_ref().map(|dialog| dialog.path().to_owned());
+    assert_eq!(suggested, Some(shipped("furnace-2").display().to_string()));
+    window.state_mut().dialogs.save = None;
+    window.state_mut().ask_to_leave(Leaving::Open(None));
+    window.run_steps(3);
+    click(&mut window, "Save changes");
+    assert!(window.state().dialogs.save.is_some() && window.state().saving.is_none());
+    assert_eq!(std::fs::read_to_string(shipped("furnace")).expect("it is shipped"), before);
+}
+
+#[test]
+fn a_new_scene_is_saved_under_its_title() {
+    let mut window = window("cornell_spheres");
+    click(&mut window, "Edit");
+    click(&mut window, "New scene");
+    click(&mut window, "Studio");
+    wait(&mut window, "the studio", |app| app.session.opened.as_ref().is_some_and(|opened| opened.name == "Studio"));
+    window.key_press_modifiers(Modifiers::COMMAND, Key::S);
+    window.run_steps(3);
+    assert!(window.state().dialogs.save.as_ref().is_some_and(|dialog| dialog.path().ends_with("studio.toml")));
+}

@@ -86,3 +86,21 @@ fn escape_gives_the_selection_up_before_the_region_and_another_scene_has_none() 
     window.state_mut().background.loader.open(Some(shipped("furnace")));
     wait(&mut window, "the other scene", |app| app.selection.subject.is_none());
 }
+
+#[test]
+fn a_part_that_is_selected_in_the_image_is_scrolled_into_sight() {
+    let mut window = window("sphere_field");
+    click(&mut window, "Edit");
+    window.run_steps(3);
+    let count = window.state().editor.as_ref().expect("it is open").document.description().objects.len();
+    let rows = |window: &Window| {
+        window
+            .query_all_by_role(Role::Button)
+            .filter(|row| row.accesskit_node().toggled() == Some(egui::accesskit::Toggled::True))
+            .count()
+    };
+    let marked_tabs = rows(&window);
+    window.state_mut().selection.select(Some(Subject::Object(count - 1)));
+    window.run_steps(30);
+    assert_eq!(rows(&window), marked_tabs + 1, "its row is shown, and marked");
+}

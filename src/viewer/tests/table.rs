@@ -38,6 +38,9 @@ fn the_table_fits_a_window_of_1280_points() {
         let labels = labels(&window);
         let heading = labels.iter().find(|(text, _)| text == "term").expect("the last column").1;
         assert!(heading.right() < 1280.0 - 336.0, "{heading:?}");
+        // Beside the numbers lies the scroll bar.
+        let last = labels.iter().filter(|(_, rect)| (rect.left() - heading.left()).abs() < 0.5);
+        assert!(last.map(|(_, rect)| rect.right()).fold(0.0, f32::max) < 1280.0 - 336.0 - 10.0, "the last column is whole");
         let row = |name: &str| labels.iter().find(|(text, _)| text == name).map(|(_, rect)| rect.left());
         assert!(row("L_e").is_some_and(|left| left < heading.left()), "it has a column for the emitted radiance");
         assert!(row("Sample").is_some() && row("From neighbours").is_some());

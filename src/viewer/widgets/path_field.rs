@@ -36,6 +36,8 @@ pub struct PathField {
 enum Keyboard {
     /// At first, and after an error.
     Once,
+    /// The same. The whole path is still to be selected.
+    SelectsAll,
     /// Whenever nothing else has it. The name of the file is still to be selected.
     SelectsName,
     /// Whenever nothing else has it.
@@ -62,9 +64,10 @@ impl PathField {
         PathField { keyboard: Keyboard::SelectsName, ..PathField::new(path, hint) }
     }
 
-    /// A field whose text Tab completes.
+    /// A field whose text Tab completes. The text is selected: a path that is typed or pasted replaces it, and Tab or an arrow goes on
+    /// from it.
     pub fn with_completion(self) -> PathField {
-        PathField { takes_tab: true, ..self }
+        PathField { takes_tab: true, keyboard: Keyboard::SelectsAll, ..self }
     }
 
     /// Whether keys go to the field.
@@ -98,13 +101,22 @@ impl PathField {
         self.id = Some(field.id);
         // Before the field takes the keyboard back.
         let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
-        let is_idle = self.keyboard != Keyboard::Once && ui.memory(|memory| memory.focused().is_none());
+        let is_idle =
+            matches!(self.keyboard, Keyboard::SelectsName | Keyboard::Always) && ui.memory(|memory| memory.focused().is_none());
         if std::mem::take(&mut self.focus) || is_idle {
             field.request_focus();
         }
-        if self.keyboard == Keyboard::SelectsName {
-            self.keyboard = Keyboard::Always;
-            self.select_name(ui, field.id);
+        match self.keyboard {
+            Keyboard::SelectsAll => {
+                self.keyboard = Keyboard::Once;
+                let end = CCursor::new(self.path.chars().count());
+                select(ui, field.id, CCursorRange::two(CCursor::new(0), end));
+            }
+            Keyboard::SelectsName => {
+                self.keyboard = Keyboard::Always;
+                self.select_name(ui, field.id);
+            }
+            Keyboard::Once | Keyboard::Always => {}
         }
         if field.changed() {
             self.refusal = None;

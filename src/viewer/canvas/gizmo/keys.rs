@@ -17,7 +17,7 @@ pub enum Press {
 
 /// Takes the keys that start an operation or, during one, all keys of operations. The window does not see these keys.
 pub fn take(ctx: &Context, is_under_way: bool) -> Vec<Press> {
-    if !is_under_way && ctx.egui_wants_keyboard_input() {
+    if !is_under_way && ctx.text_edit_focused() {
         return Vec::new();
     }
     let mut presses = Vec::new();

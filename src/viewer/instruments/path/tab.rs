@@ -57,6 +57,9 @@ pub fn show(ui: &mut Ui, inspector: &mut PathInspector, subject: &Subject) -> bo
     let saves = left.show(ui, column).inner;
     egui::Frame::new().inner_margin(egui::Margin { left: 8, ..egui::Margin::ZERO }).show(ui, |ui| {
         path(ui, inspector, request, |ui, replay, objects, channel| {
+            // The bar has room of its own: it would lie over the last column.
+            let style = &mut ui.spacing_mut().scroll;
+            style.floating_allocated_width = style.bar_width;
             let scroll = ScrollArea::both().auto_shrink(false).scroll_bar_visibility(ScrollBarVisibility::AlwaysVisible);
             _ = scroll.show(ui, |ui| table::show(ui, replay, objects, channel));
         });

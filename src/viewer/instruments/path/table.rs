@@ -14,8 +14,8 @@ use crate::viewer::widgets::{
 
 const TEXT: f32 = 12.0;
 /// Widths of names, so that the table fits beside the samples in a window of 1280 points.
-const VERTEX_WIDTH: f32 = 104.0;
-const TERM_WIDTH: f32 = 112.0;
+const VERTEX_WIDTH: f32 = 96.0;
+const TERM_WIDTH: f32 = 100.0;
 /// More of a path than this nobody reads.
 pub const MOST_VERTICES: usize = 64;
 
@@ -218,6 +218,7 @@ mod tests {
                 material: Some("lambertian"),
                 front: true,
                 wo: grey(0.0),
+                geometric_normal: [0.0, 0.0, 1.0],
                 shading_normal: None,
             }),
             emission: Some(EmitterHit { radiance: grey(0.103), weight: 0.104, contribution: grey(0.105), shared: false }),

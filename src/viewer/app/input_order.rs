@@ -1,0 +1,76 @@
+//! Keeps the order of what is typed and where it is typed.
+//!
+//! egui moves the keyboard before widgets read the text of a frame, so letters would be lost if Tab or a click elsewhere came in the
+//! same frame: such a frame is divided.
+use egui::{Event, Key};
+
+/// Leaves the events of one frame, and returns those of later frames.
+pub fn split_frame(events: &mut Vec<Event>) -> Vec<Event> {
+    let is_typed = |event: &Event| {
+        matches!(event, Event::Text(_) | Event::Paste(_) | Event::Cut | Event::Ime(_))
+            || matches!(event, Event::Key { pressed: true, .. })
+    };
+    let first = events.iter().position(is_typed).unwrap_or(events.len());
+    let from = first + 1;
+    let end =
+        events.iter().enumerate().skip(from).find(|(place, event)| {
+            moves_keyboard(event) || (is_typed(event) && events[first..*place].iter().any(moves_keyboard))
+        });
+    let end = end.map_or(events.len(), |(place, _)| place);
+    events.split_off(end)
+}
+
+/// Whether an event moves the keyboard to another widget, or lets a field complete its text.
+fn moves_keyboard(event: &Event) -> bool {
+    matches!(event, Event::Key { key: Key::Tab, pressed: true, .. } | Event::PointerButton { pressed: true, .. })
+}
+
+#[cfg(test)]
+mod tests {
+    use egui::{Modifiers, PointerButton, Pos2};
+
+    use super::*;
+
+    fn key(key: Key) -> Event {
+        Event::Key { key, physical_key: None, pressed: true, repeat: false, modifiers: Modifiers::NONE }
+    }
+
+    fn text(text: &str) -> Event {
+        Event::Text(text.to_owned())
+    }
+
+    /// The frames of these events.
+    fn frames(mut events: Vec<Event>) -> Vec<Vec<Event>> {
+        let mut frames = Vec::new();
+        while !events.is_empty() {
+            let later = split_frame(&mut events);
+            frames.push(std::mem::replace(&mut events, later));
+        }
+        frames
+    }
+
+    #[test]
+    fn what_is_typed_reaches_its_field_before_tab_or_a_press_leaves_it() {
+        let press =
+            Event::PointerButton { pos: Pos2::ZERO, button: PointerButton::Primary, pressed: true, modifiers: Modifiers::NONE };
+        for leaves in [key(Key::Tab), press] {
+            let events = vec![key(Key::Num4), text("4"), key(Key::Num0), text("0"), leaves.clone(), text("7")];
+            let [before, after, later] = &frames(events.clone())[..] else { panic!("{:?}", frames(events)) };
+            assert_eq!((&before[..], &after[..], &later[..]), (&events[..4], &events[4..5], &events[5..]));
+        }
+    }
+
+    #[test]
+    fn two_tabs_are_two_steps() {
+        assert_eq!(frames(vec![key(Key::Tab), key(Key::Tab)]).len(), 2);
+    }
+
+    #[test]
+    fn other_frames_stay_whole() {
+        let moved = Event::PointerMoved(Pos2::ZERO);
+        for events in [vec![moved.clone(), text("a"), key(Key::Enter)], vec![key(Key::Tab), moved], Vec::new()] {
+            let mut whole = events.clone();
+            assert!(split_frame(&mut whole).is_empty() && whole == events);
+        }
+    }
+}
