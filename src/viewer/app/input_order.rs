@@ -10,12 +10,12 @@ pub fn split_frame(events: &mut Vec<Event>) -> Vec<Event> {
         matches!(event, Event::Text(_) | Event::Paste(_) | Event::Cut | Event::Ime(_))
             || matches!(event, Event::Key { pressed: true, .. })
     };
-    let first = events.iter().position(is_typed).unwrap_or(events.len());
-    let from = first + 1;
-    let end =
-        events.iter().enumerate().skip(from).find(|(place, event)| {
-            moves_keyboard(event) || (is_typed(event) && events[first..*place].iter().any(moves_keyboard))
-        });
+    let is_later = |(place, event): &(usize, &Event)| {
+        let before = &events[..*place];
+        let leaves = moves_keyboard(event);
+        (leaves && before.iter().any(is_typed)) || (is_typed(event) && before.iter().any(moves_keyboard))
+    };
+    let end = events.iter().enumerate().find(is_later);
     let end = end.map_or(events.len(), |(place, _)| place);
     events.split_off(end)
 }

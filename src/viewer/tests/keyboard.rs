@@ -37,18 +37,16 @@ fn focus(window: &Window) -> Option<egui::Id> {
 fn a_number_keeps_its_last_digits_when_tab_or_a_press_comes_in_the_same_frame() {
     let mut window = window("furnace");
     window.state_mut().session.budget.paused = true;
-    for (number, leaves) in [(240.0, Key::Tab), (360.0, Key::Escape)] {
+    let pos = Pos2::new(300.0, 300.0);
+    let button = |pressed| Event::PointerButton { pos, button: PointerButton::Primary, pressed, modifiers: Modifiers::NONE };
+    let tab = vec![pressed(Key::Tab, Modifiers::NONE)];
+    for (number, leaves) in [(240.0, tab), (360.0, vec![button(true), button(false)])] {
         window.get_all_by_role_and_label(Role::SpinButton, "Resolution").next().expect("there is such a field").click();
         window.run_steps(4);
         window.key_press_modifiers(Modifiers::COMMAND, Key::A);
         window.run_steps(2);
-        let mut events = typed(&number.to_string());
-        events.push(if leaves == Key::Tab {
-            pressed(Key::Tab, Modifiers::NONE)
-        } else {
-            let pos = Pos2::new(300.0, 300.0);
-            Event::PointerButton { pos, button: PointerButton::Primary, pressed: true, modifiers: Modifiers::NONE }
-        });
+        let mut events = typed(&f64::to_string(&number));
+        events.extend(leaves);
         at_once(&mut window, events);
         assert_eq!(f64::from(window.state().session.camera.resolution[0]), number);
     }
@@ -169,6 +167,8 @@ fn up_is_never_zero_and_home_keeps_the_resolution() {
     let start = window.state().session.camera;
     set(&mut window, "Up", 1, 0.0);
     assert_eq!(window.state().session.camera.up, start.up);
+    // The message is measured before it is shown.
+    window.run_steps(2);
     assert!(window.query_by_label_contains("A direction needs a number").is_some());
     window.state_mut().session.camera.eye.x = 0.5;
     window.run_steps(3);
@@ -181,5 +181,5 @@ fn a_part_that_is_added_has_the_normal_of_the_surface_that_was_clicked() {
     let mut window = window("cornell_spheres");
     window.state_mut().selection.clicked = Some([48, 62]);
     let [at, normal] = window.state().surface_at(None).expect("the floor is there");
-    assert!(normal.distance(DVec3::Y) < 1e-4 && at.y.abs() < 1e-3, "{at} {normal}");
+    assert!(normal.distance(DVec3::Y) < 0.01 && at.y.abs() < 0.01, "{at} {normal}");
 }
