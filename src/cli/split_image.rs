@@ -84,14 +84,21 @@ impl SplitImage<'_> {
 
     fn line(&self, frame: Option<&Frame>, bias: Option<String>) -> String {
         let output = self.output.file().map_or_else(|| self.output.to_string(), quote::path);
-        let noise = frame.and_then(|frame| frame.rel_mse_estimate).map_or_else(String::new, |rel_mse| {
-            let bound = if self.is_exact() { "" } else { "at most " };
-            format!(", noise {bound}{:.2} %", 100.0 * rel_mse.sqrt())
-        });
+        let noise = frame.map_or_else(String::new, |frame| self.noise(frame));
         let counts = frame.map_or_else(String::new, |frame| format!(" ({})", frame.sample_counts()));
         let bias = bias.map_or_else(|| "unbiased".to_owned(), |why| format!("biased: {why}"));
         let rendered = format!("rendered in {:.2} s", self.header.counters.seconds);
         format!("{output}: samples {}{counts}{noise}, {bias}; {rendered}", self.samples)
+    }
+
+    /// The noise as in ", noise at most 2.50 %"; empty if it is unknown.
+    fn noise(&self, frame: &Frame) -> String {
+        if frame.is_black() {
+            return ", no light found".to_owned();
+        }
+        // Variances of samples are exact for independent ones only.
+        let bound = if Sampler::is_independent(self.header.settings.sampler) { "" } else { "at most " };
+        frame.rel_mse_estimate.map_or_else(String::new, |rel_mse| format!(", noise {bound}{:.2} %", 100.0 * rel_mse.sqrt()))
     }
 
     fn figures(&self, frame: Option<&Frame>, bias: Option<&str>) -> Value {
@@ -113,11 +120,6 @@ impl SplitImage<'_> {
             ("program", json!(self.header.program)),
         ]));
         figures.into()
-    }
-
-    /// Whether variances of samples are exact, and not only upper bounds.
-    fn is_exact(&self) -> bool {
-        Sampler::is_independent(self.header.settings.sampler)
     }
 }
 
