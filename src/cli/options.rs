@@ -123,7 +123,10 @@ pub fn samples(text: &str) -> Result<u32, String> {
 
 /// Parses a range of sample indices `A..B`, without B.
 pub fn sample_range(text: &str) -> Result<Range<u32>, String> {
-    range(text).ok_or_else(|| "expected A..B with A below B, such as 0..64: the samples from A to B - 1".to_owned())
+    range(text).ok_or_else(|| {
+        "expected A..B with A below B, such as 0..64: the samples from A to B - 1. '--spp' is the number of samples per pixel"
+            .to_owned()
+    })
 }
 
 /// Parses a range of frames `A..B`, without B; the first frame is 1.

@@ -21,6 +21,8 @@ fn check_files(shell: &Shell, stdout: &str) -> BTreeSet<String> {
     let names: BTreeSet<String> = fs::read_dir(shell.path("out"))
         .expect("a folder")
         .map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned())
+        // The lock of the study.
+        .filter(|name| !name.starts_with('.'))
         .collect();
     let with = |extension: &str| -> BTreeSet<&str> { names.iter().filter_map(|name| name.strip_suffix(extension)).collect() };
     let tables: BTreeSet<&str> = with(".csv").into_iter().filter(|name| *name != "study").collect();

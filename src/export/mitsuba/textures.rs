@@ -30,7 +30,8 @@ impl Export<'_> {
                     // Mitsuba exchanges the two squares where it looks up a number.
                     let (even, odd) =
                         (self.number("color1", &number_of(&checker.even)), self.number("color0", &number_of(&checker.odd)));
-                    self.checkerboard(checker.scale, even, odd).attribute("name", name)
+                    let id = self.id(texture, "texture");
+                    self.checkerboard(checker.scale, even, odd).attribute("name", name).attribute("id", id)
                 }
                 _ => self.textured(name, texture),
             },

@@ -29,10 +29,10 @@ pub fn show(ui: &mut Ui, threads: &mut usize, shows_frame_times: &mut bool) -> O
             ui.add(Slider::new(threads, 1..=most)).labelled_by(label);
         });
         row(ui, "Theme", "Light, dark, or the theme of the system.", |ui, label| chosen = theme(ui, label));
-        row(ui, "Scale", "Size of text and controls. (Ctrl and + or -; Ctrl+0 resets)", scale);
         row(ui, "Frame times", "Shows how long the window takes to draw. (F12)", |ui, label| {
             ui.checkbox(shows_frame_times, "").labelled_by(label);
         });
+        row(ui, "Scale", "Size of text and controls. (Ctrl and + or -; Ctrl+0 resets)", scale);
     });
     chosen
 }

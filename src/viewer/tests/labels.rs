@@ -245,7 +245,7 @@ fn a_name_is_suggested_after_the_last_file_of_its_kind() {
         ("shots/shot.exr", File::Picture, "shots/shot.exr"),
         ("shots/shot.exr", File::CurvesCsv, "shots/shot.csv"),
         ("shots/shot.png", File::CurvesSvg, "shots/shot.svg"),
-        ("shots/curves.csv", File::Picture, "cornell_spheres.png"),
+        ("shots/curves.csv", File::Picture, "scene.png"),
     ] {
         (app.window.last_saved, app.dialogs.save) = (Some(PathBuf::from(last)), None);
         app.open_save_dialog(target);

@@ -16,9 +16,12 @@ fn stop_at(window: &mut Window, spp: u32) {
     app.history.adopt(controls);
 }
 
-/// Waits until every pixel has so many samples, and stops there.
+/// Waits until every pixel has so many samples, and stops there. A quick machine has more by now, so the image begins anew.
 fn rendered(window: &mut Window, spp: u32) {
     stop_at(window, spp);
+    if window.state().results.status.spp > 0 {
+        window.state_mut().background.worker.restart();
+    }
     wait(window, "the samples", |app| {
         app.results.shown.as_ref().is_some_and(|frame| frame.spp == spp && frame.generation == app.background.worker.generation())
     });

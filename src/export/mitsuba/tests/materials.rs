@@ -15,7 +15,7 @@ use crate::{
         Conductor, Dielectric, Disney, Distribution, Lambertian, Material, Plastic, Reflectance, RoughPlastic, Roughness,
         blend::Blend, null::Null, thin_dielectric::ThinDielectric,
     },
-    scene::description::{Bump, LampDescription, MaterialDescription, SceneDescription},
+    scene::description::{Bump, LampDescription, MaterialDescription, SceneDescription, TextureKind},
     shape::Sphere,
     texture::{
         checker::Checker,
@@ -32,6 +32,13 @@ fn of(material: MaterialDescription) -> (MaterialDescription, Vec<String>) {
     scene.materials.insert("paint".to_owned(), material);
     scene.add_object("ball", Sphere::default()).material = Some("paint".to_owned());
     let RoundTrip { imported, remarks, .. } = round_trip(&scene, &scenes());
+    if let Some(TextureKind::Checker(squares)) = imported.description.textures.get("squares") {
+        let [even, odd] = [&squares.even, &squares.odd].map(|part| match part {
+            Textured::Constant([r, ..]) => *r,
+            Textured::Texture(name) => panic!("{name}"),
+        });
+        assert!((even - 0.8).abs() < 1e-9 && (odd - 0.2).abs() < 1e-9, "{even} {odd}");
+    }
     let name = imported.description.objects[0].material.clone().expect("it has one");
     (imported.description.materials[&name].clone(), remarks)
 }
@@ -97,7 +104,7 @@ fn disney_comes_back() {
     let squares = || Textured::Texture("squares".to_owned());
     let cases = [
         Disney::default(),
-        Disney { base_color: Textured::Texture("squares".to_owned()), metallic: squares(), ior: 1.75, ..Disney::default() },
+        Disney { base_color: Textured::Texture("squares".to_owned()), metallic: half(), ior: 1.75, ..Disney::default() },
         Disney { anisotropic: half(), sheen: half(), sheen_tint: half(), flatness: half(), ..Disney::default() },
         Disney { spec_trans: half(), spec_tint: half(), clearcoat: squares(), clearcoat_gloss: half(), ..Disney::default() },
     ];

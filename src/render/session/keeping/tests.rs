@@ -78,7 +78,7 @@ fn result(session: &Session) -> (String, Vec<u8>) {
 /// Advances to the budget by passes of random sizes, until interrupted at random.
 fn advance_at_random(session: &mut Session, random: &mut SmallRng) {
     session.rate = Some(random.random_range(1e3..2e5));
-    let (asked, patience) = (AtomicU32::new(0), random.random_range(0..2000));
+    let (asked, patience) = (AtomicU32::new(0), random.random_range(0..150));
     let interrupted = || asked.fetch_add(1, Ordering::Relaxed) >= patience;
     session.advance(&threads(), &to(SPP), Publish::Sparse, &interrupted);
 }
@@ -103,7 +103,7 @@ fn stopped_at_random_and_continued_from_a_file_a_render_has_the_same_bits() {
                 let mut parts = fresh(request);
                 while parts.state(&to(SPP)) == State::Running {
                     advance_at_random(&mut parts, &mut random);
-                    if random.random_bool(0.3) {
+                    if random.random_bool(0.5) {
                         parts = through_a_file(&parts, &header, &path);
                         checkpoints += 1;
                     }

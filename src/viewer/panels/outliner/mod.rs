@@ -41,8 +41,8 @@ pub struct Outliner {
     renamed: Option<Subject>,
     /// The parts that are listed.
     listed: Option<Listed>,
-    /// The part that was selected in the last frame: another one is scrolled into sight.
-    selected: Option<Subject>,
+    /// What was selected in the last frame, unless this is the first one: another part is scrolled into sight.
+    selected: Option<Option<Subject>>,
 }
 
 /// The parts of a revision of the scene that a search finds.
@@ -82,7 +82,7 @@ impl Outliner {
             }
         });
         self.listed = Some(listed);
-        self.selected = selected.cloned();
+        self.selected = Some(selected.cloned());
         asked
     }
 
@@ -93,7 +93,9 @@ impl Outliner {
             // Only the rows in sight are laid out: a scene can have a hundred thousand objects.
             let size = vec2(ui.available_width(), ROW * group.entries.len() as f32 - GAP);
             let (all, _) = ui.allocate_exact_size(size, Sense::hover());
-            let is_newly = |entry: &Entry| selected == Some(&entry.subject) && self.selected.as_ref() != selected;
+            let is_newly = |entry: &Entry| {
+                selected == Some(&entry.subject) && self.selected.as_ref().is_some_and(|last| last.as_ref() != selected)
+            };
             if let Some(place) = group.entries.iter().position(is_newly) {
                 let top = all.top() + ROW * place as f32;
                 ui.scroll_to_rect(Rect::from_x_y_ranges(all.x_range(), top..=top + ROW), None);
