@@ -18,6 +18,9 @@ const PAUSE: Duration = Duration::from_secs(60);
 const SHARE: u32 = 100;
 /// Larger images are not kept without being asked: one file of this size is enough for 4096 × 3072 pixels.
 const MOST_PIXELS: u64 = 4096 * 3072;
+/// Time between two looks at the lock of another window, and the number of looks.
+const LOOK: Duration = Duration::from_millis(100);
+const MOST_LOOKS: usize = 100;
 const PREFIX: &str = "progress-";
 const EXTENSION: &str = "nf";
 
@@ -51,7 +54,7 @@ impl ProgressKeeper {
     /// Keeps renders in this folder, and looks for one that was left there.
     pub fn in_folder(ctx: &egui::Context, folder: &Path) -> ProgressKeeper {
         let of_search = folder.to_owned();
-        let search = BackgroundTask::start(ctx, move |_| find(&of_search));
+        let search = BackgroundTask::start(ctx, move |cancelled| find_patiently(&of_search, cancelled));
         ProgressKeeper { folder: Some(folder.to_owned()), search: Some(search), ..ProgressKeeper::default() }
     }
 
@@ -106,6 +109,18 @@ impl ProgressKeeper {
     pub fn take(&mut self) -> Option<FoundRender> {
         BackgroundTask::take(&mut self.search)?.ok()?
     }
+}
+
+/// The latest render of a window that has ended, or that ends soon: a program that was killed holds its lock until its memory is freed.
+fn find_patiently(folder: &Path, cancelled: &dyn Fn() -> bool) -> Option<FoundRender> {
+    for _ in 0..MOST_LOOKS {
+        let found = find(folder);
+        if found.is_some() || cancelled() || !left_files(folder, EXTENSION).any(|file| is_in_use(&file)) {
+            return found;
+        }
+        std::thread::sleep(LOOK);
+    }
+    None
 }
 
 /// The latest render that no window has open.
