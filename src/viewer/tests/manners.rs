@@ -184,6 +184,8 @@ fn both_themes_can_be_chosen_and_are_remembered() {
 #[test]
 fn the_interface_can_be_scaled() {
     let mut window = window("furnace");
+    window.get_by_role_and_label(Role::ComboBox, "Scale").scroll_to_me();
+    window.run_steps(3);
     choose(&mut window, "Scale", "150 %");
     assert_eq!(window.ctx.zoom_factor(), 1.5);
 }
