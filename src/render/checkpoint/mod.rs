@@ -1,6 +1,6 @@
 //! Checkpoints: the state of a render in a file, from which it continues to the same bits.
 //!
-//! The worker encodes the film between two passes, and another thread writes it ([`keeper`]). A file is opened in two steps: its
+//! The worker encodes the film between two passes, and another thread writes it (`keeper.rs`). A file is opened in two steps: its
 //! header says which scene it needs ([`KeptFile`]), and the film follows once that scene is there and still gives the same samples.
 mod film_sections;
 mod keeper;
