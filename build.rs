@@ -1,9 +1,14 @@
 //! Tells the program which commit it was built from, or "unknown" where that cannot be known.
 use std::{path::Path, process::Command};
 
+/// What the library is compiled from. A commit alone does not compile it again.
+const SOURCES: [&str; 5] = ["build.rs", "Cargo.lock", "Cargo.toml", "scenes", "src"];
+
 #[allow(clippy::print_stdout, reason = "this is how a build script speaks to cargo")]
 fn main() {
-    println!("cargo:rerun-if-changed=build.rs");
+    for path in SOURCES.into_iter().filter(|path| Path::new(path).exists()) {
+        println!("cargo:rerun-if-changed={path}");
+    }
     println!("cargo:rustc-env=NOISEFALL_COMMIT={}", commit().or_else(packaged).unwrap_or_else(|| "unknown".to_owned()));
 }
 
@@ -18,6 +23,7 @@ fn packaged() -> Option<String> {
     commit.chars().all(|c| c.is_ascii_hexdigit()).then(|| commit.to_owned())
 }
 
+/// The commit of the source, with a mark if the source differs from it.
 fn commit() -> Option<String> {
     // A copy of the source may lie in somebody else's repository, whose commit says nothing.
     let top = Path::new(&git(&["rev-parse", "--show-toplevel"])?).canonicalize().ok()?;
@@ -25,20 +31,11 @@ fn commit() -> Option<String> {
     if top != source {
         return None;
     }
-    watch("HEAD");
-    // HEAD names a branch, whose file changes with every commit, but is not there while it is packed with others.
-    if let Some(branch) = git(&["symbolic-ref", "-q", "HEAD"]) {
-        watch(&branch);
+    let mut commit = git(&["rev-parse", "--short=12", "HEAD"])?;
+    if !git(&[&["status", "--porcelain", "--"], &SOURCES[..]].concat())?.is_empty() {
+        commit.push_str("+changes");
     }
-    watch("logs/HEAD");
-    git(&["rev-parse", "--short=12", "HEAD"])
-}
-
-/// Runs this again when a file of the repository changes. One that does not exist would make it run every time.
-fn watch(name: &str) {
-    if let Some(file) = git(&["rev-parse", "--git-path", name]).filter(|file| Path::new(file).exists()) {
-        println!("cargo:rerun-if-changed={file}");
-    }
+    Some(commit)
 }
 
 fn git(arguments: &[&str]) -> Option<String> {
