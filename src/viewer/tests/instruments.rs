@@ -105,6 +105,7 @@ fn a_comparison_starts_with_one_click_and_both_sides_converge() {
         app.results.legend.as_ref().is_some_and(|legend| legend.title == "Difference" && legend.scale.is_some())
     });
     click(&mut window, "Wipe");
+    wait(&mut window, "both pictures", |app| app.results.textures.iter().all(Option::is_some));
     let line = window.state().window.view.wipe;
     let [middle, height] = [(1280.0 - 336.0) / 2.0, 500.0];
     never_restarts(&mut window, |w| drag(w, PointerButton::Primary, [middle, height], [middle - 100.0, height]));
