@@ -33,7 +33,7 @@ fn curves_of_other_settings_stay_and_those_of_other_cameras_go() {
     restarts(&mut window, "independent samples", |w| choose(w, "Sampler", "Independent"));
     grown(&mut window, 2);
     window.run_steps(2);
-    assert!(window.query_all_by_label_contains("sampler independent, ").count() > 0, "curves are named by what differs");
+    assert!(window.query_all_by_label_contains("Independent, ").count() > 0, "curves are named by what differs");
     window.state_mut().session.camera.fov = 50.0;
     grown(&mut window, 1);
 }
