@@ -7,6 +7,7 @@ mod accessor;
 mod animation;
 mod attributes;
 mod buffers;
+mod bytes;
 mod cameras;
 mod container;
 mod document;
