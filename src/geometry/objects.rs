@@ -9,7 +9,7 @@ use glam::DVec3;
 use super::{
     Nearest,
     bounds::Bounds,
-    bvh::{Bvh, Leaves, Slabs, Stack, traverse},
+    bvh::{Bvh, Leaves, Search, Slabs, Stack, traverse},
     instance::Instance,
     lists::{Listed, Lists},
     object::{Kind, Object},
@@ -112,20 +112,20 @@ impl Objects {
         self.bvh.bounds()
     }
 
-    /// Updates `nearest` with nearer hits along o + td, d of unit length, in the lanes of `live`.
+    /// Updates `nearest` with nearer hits along o + td, d of unit length, in the lanes of `live`. A hit before `enough` ends the search.
     #[simd]
     pub fn closest<L: Lanes>(
         &self,
         l: L,
         instances: &[Instance],
-        live: M<L>,
+        (live, enough): (M<L>, F<L>),
         (o, d): (V<L>, V<L>),
         time: F<L>,
         nearest: &mut Nearest<L>,
     ) {
         let slabs = Slabs::new(l, o, d, &self.bvh.bounds());
         let (origins, directions) = (arrays(o), arrays(d));
-        let times = time.to_array();
+        let (times, enough) = (time.to_array(), enough.to_array());
         let mut distances = nearest.t.to_array();
         let mut primitives = nearest.primitive.as_real_bits().to_array();
         let mut elements = nearest.element.as_real_bits().to_array();
@@ -141,10 +141,12 @@ impl Objects {
                 o: vector(&origins, lane),
                 d: vector(&directions, lane),
                 time: F(times[lane]),
+                enough: F(enough[lane]),
                 primitive: primitives[lane].to_bits(),
                 element: elements[lane].to_bits(),
             };
-            distances[lane] = traverse(l.token(), &self.bvh, &mut stack, (&slabs, lane), distances[lane], &mut found);
+            let search = (distances[lane], enough[lane]);
+            distances[lane] = traverse(l.token(), &self.bvh, &mut stack, (&slabs, lane), search, &mut found);
             (primitives[lane], elements[lane]) = (f32::from_bits(found.primitive), f32::from_bits(found.element));
         }
         *nearest = Nearest { t: l.load(&distances), primitive: l.load(&primitives).bits(), element: l.load(&elements).bits() };
@@ -159,6 +161,7 @@ struct Found<'a> {
     o: V<One>,
     d: V<One>,
     time: F<One>,
+    enough: F<One>,
     primitive: u32,
     element: u32,
 }
@@ -173,7 +176,8 @@ impl<S: Simd> Leaves<S> for Found<'_> {
             }
             Item::Instance(index) => {
                 let instance = &self.instances[index as usize];
-                let found = instance.meet(One, s, self.below, (self.o, self.d), self.time, F(t_max));
+                let search = Search { limit: F(t_max), enough: self.enough };
+                let found = instance.meet(One, s, self.below, (self.o, self.d), self.time, search);
                 (found.t, found.piece + instance.first, found.element)
             }
         };

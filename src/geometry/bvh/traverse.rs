@@ -2,6 +2,24 @@
 use fearless_simd::Simd;
 
 use super::{Bvh, LEAF, Node, Slabs, WIDTH, build::MAX_DEPTH};
+use crate::math::{F, Lanes};
+
+/// Which hits are looked for.
+#[derive(Clone, Copy)]
+pub struct Search<L: Lanes> {
+    /// Hits before this distance.
+    pub limit: F<L>,
+    /// A hit before this distance ends the search, for rays that only ask whether something is in their way; 0 to find the nearest.
+    pub enough: F<L>,
+}
+
+impl<L: Lanes> Search<L> {
+    /// The nearest hit before a distance.
+    #[inline(always)]
+    pub fn nearest(l: L, limit: F<L>) -> Self {
+        Search { limit, enough: l.f(0.0) }
+    }
+}
 
 /// The contents of leaves. This is a trait because a closure would be compiled without the instructions of `S`.
 pub trait Leaves<S: Simd> {
@@ -72,14 +90,14 @@ fn entry(near: &[f32; WIDTH], node: &Node, met: u32) -> u64 {
 }
 
 /// Passes to `leaves` every leaf whose box the ray of lane `lane` hits before the distance that `leaves` returned last, initially
-/// `t_max` > 0. Returns that distance.
+/// `t_max` > 0. Returns that distance. A hit before `enough` ends the search.
 #[inline(always)]
 pub fn traverse<S: Simd>(
     s: S,
     bvh: &Bvh,
     stack: &mut Stack,
     (slabs, lane): (&Slabs, usize),
-    mut t_max: f32,
+    (mut t_max, enough): (f32, f32),
     leaves: &mut impl Leaves<S>,
 ) -> f32 {
     stack.len = 0;
@@ -91,7 +109,11 @@ pub fn traverse<S: Simd>(
     let mut touched = 0u32;
     loop {
         if current & LEAF != 0 {
-            t_max = leaves.meet(s, current & !LEAF, t_max);
+            let t = leaves.meet(s, current & !LEAF, t_max);
+            if t < t_max && t < enough {
+                return t;
+            }
+            t_max = t;
         } else {
             let node = &bvh.nodes[current as usize];
             let (near, mut met) = slabs.meet(s, node, t_max);

@@ -22,10 +22,12 @@ use std::{borrow::Cow, sync::Arc};
 
 use fearless_simd::Simd;
 use fearless_simd_macros::simd;
+use glam::DAffine3;
 use rayon::prelude::*;
 
 use self::{
     block::{Block, Shear, Shears},
+    data::Posed,
     edges::scaled_area_squared,
 };
 pub use self::{
@@ -34,7 +36,7 @@ pub use self::{
 };
 use super::{
     bounds::Bounds,
-    bvh::{Bvh, Leaves, NONE, Slabs, Stack, traverse},
+    bvh::{Bvh, Leaves, NONE, Search, Slabs, Stack, traverse},
 };
 use crate::{
     math::{F, Lanes, MAX_LANES, One, U, V},
@@ -106,36 +108,46 @@ impl Rays {
 }
 
 impl Mesh {
-    /// [`Mesh::build`] without progress.
+    /// [`Mesh::build`] where it stands, without progress.
     #[cfg(test)]
     pub fn new(data: &MeshData) -> Mesh {
-        Mesh::build(data, &Progress::default()).expect("nobody cancels")
+        Mesh::build(data, &DAffine3::IDENTITY, &Progress::default()).expect("nobody cancels")
     }
 
-    /// Builds a mesh. Drops degenerate triangles, and those with coordinates that are not finite or beyond 10¹¹. Progress counts
-    /// triangles.
-    pub fn build(data: &MeshData, progress: &Progress) -> Result<Mesh, Cancelled> {
-        let corners = |triangle: [u32; 3]| triangle.map(|vertex| data.vertices[vertex as usize]);
+    /// Builds the image of a mesh under a map. Drops degenerate triangles, and those with coordinates that are not finite or beyond
+    /// 10¹¹. Of triangles in one place with the same vertices, it has the first. Progress counts triangles.
+    pub fn build(data: &MeshData, map: &DAffine3, progress: &Progress) -> Result<Mesh, Cancelled> {
+        let (vertices, normals) = rows(data, &data.posed(map));
+        let all = data.posed(map).triangles();
+        let corners = |triangle: [u32; 3]| triangle.map(|vertex| position(&vertices, vertex));
         let is_kept = |triangle: &[u32; 3]| has_area(corners(*triangle));
         // Almost all meshes keep all triangles.
-        let kept: Cow<[[u32; 3]]> = match data.triangles.par_iter().all(is_kept) {
-            true => Cow::Borrowed(&data.triangles),
-            false => data.triangles.iter().copied().filter(is_kept).collect(),
+        let kept: Cow<[[u32; 3]]> = match all.par_iter().all(is_kept) {
+            true => all,
+            false => all.iter().copied().filter(is_kept).collect(),
         };
-        let boxes = kept.iter().map(|&triangle| Bounds::of_points(corners(triangle)));
-        let (bvh, order) = Bvh::build_watched::<{ block::SIZE }>(boxes, progress)?;
+        let bounds = |number: usize| Bounds::of_points(corners(kept[number]));
+        let bits = |number: u32| corners(kept[number as usize]).map(|corner| corner.map(f32::to_bits));
+        let contents = |a: u32, b: u32| bits(a).cmp(&bits(b));
+        let (bvh, order) = Bvh::build_watched::<{ block::SIZE }>(kept.len(), bounds, Some(&contents), progress)?;
 
-        let mut blocks = Vec::with_capacity(order.len() / block::SIZE);
         let mut triangles = Vec::with_capacity(kept.len());
+        let mut first = Vec::with_capacity(order.len() / block::SIZE);
         for leaf in order.chunks_exact(block::SIZE) {
-            progress.check()?;
-            let first = triangles.len();
+            first.push(triangles.len() as u32);
             let members = leaf.iter().filter(|&&number| number != NONE).map(|&number| kept[number as usize]);
             triangles.extend(members.map(|[a, b, c]| [a, b, c, 0].map(f32::from_bits)));
-            let vertices: Vec<_> = triangles[first..].iter().map(|row| corners(ids(row))).collect();
-            blocks.push(Block::new(&vertices, first as u32));
         }
-        let (vertices, normals) = rows(data);
+        progress.check()?;
+        drop(order);
+        let block = |leaf: usize| {
+            let end = first.get(leaf + 1).map_or(triangles.len(), |next| *next as usize);
+            let mut members = [[[0.0; 3]; 3]; block::SIZE];
+            let rows = &triangles[first[leaf] as usize..end];
+            members.iter_mut().zip(rows).for_each(|(member, row)| *member = corners(ids(row)));
+            Block::new(&members[..rows.len()], first[leaf])
+        };
+        let blocks = (0..first.len()).into_par_iter().map(block).collect();
         let (is_smooth, has_uvs) = (!data.normals.is_empty(), !data.uvs.is_empty());
         let dropped = data.triangles.len() - kept.len();
         Ok(Mesh { bvh, blocks, triangles, vertices, normals, colours: data.colours.clone(), is_smooth, has_uvs, dropped })
@@ -145,10 +157,10 @@ impl Mesh {
     /// Both sides count. d need not be of unit length. Lanes with a `t_max` of 0 cost almost nothing.
     #[inline(always)]
     pub fn closest<L: Lanes>(&self, l: L, o: V<L>, d: V<L>, t_max: F<L>) -> (F<L>, U<L>) {
-        self.closest_by(l, l.token(), &mut Stack::default(), (o, d), t_max)
+        self.closest_by(l, l.token(), &mut Stack::default(), (o, d), Search::nearest(l, t_max))
     }
 
-    /// The same; boxes and triangles are tested with the instructions of `s`, for any lanes.
+    /// The same within the limit of a search; boxes and triangles are tested with the instructions of `s`, for any lanes.
     #[inline(always)]
     pub fn closest_by<L: Lanes, S: Simd>(
         &self,
@@ -156,13 +168,13 @@ impl Mesh {
         s: S,
         stack: &mut Stack,
         (o, d): (V<L>, V<L>),
-        t_max: F<L>,
+        search: Search<L>,
     ) -> (F<L>, U<L>) {
         let rays = Rays::new(l, o, d, &self.bounds());
-        let mut distances = t_max.to_array();
+        let (mut distances, enough) = (search.limit.to_array(), search.enough.to_array());
         let mut triangles = [0.0; MAX_LANES];
         for lane in 0..L::N {
-            let (t, triangle) = self.closest_of(s, stack, &rays, lane, distances[lane]);
+            let (t, triangle) = self.closest_of(s, stack, &rays, lane, (distances[lane], enough[lane]));
             distances[lane] = t;
             triangles[lane] = f32::from_bits(triangle);
         }
@@ -171,18 +183,15 @@ impl Mesh {
 
     /// The same for the ray in one lane.
     #[simd]
-    fn closest_of<S: Simd>(&self, s: S, stack: &mut Stack, rays: &Rays, lane: usize, t_max: f32) -> (f32, u32) {
+    fn closest_of<S: Simd>(&self, s: S, stack: &mut Stack, rays: &Rays, lane: usize, search: (f32, f32)) -> (f32, u32) {
         let mut nearest = Nearest { blocks: &self.blocks, ray: rays.shears.lane(lane), triangle: NONE };
-        let t = traverse(s, &self.bvh, stack, (&rays.slabs, lane), t_max, &mut nearest);
+        let t = traverse(s, &self.bvh, stack, (&rays.slabs, lane), search, &mut nearest);
         (t, nearest.triangle)
     }
 
     /// The vertices of a triangle.
     pub fn corners(&self, triangle: u32) -> [[f32; 3]; 3] {
-        ids(&self.triangles[triangle as usize]).map(|vertex| {
-            let [x, y, z, _] = self.vertices[vertex as usize];
-            [x, y, z]
-        })
+        ids(&self.triangles[triangle as usize]).map(|vertex| position(&self.vertices, vertex))
     }
 
     /// The box around all triangles.
@@ -226,17 +235,21 @@ fn ids(row: &[f32; 4]) -> [u32; 3] {
     [row[0].to_bits(), row[1].to_bits(), row[2].to_bits()]
 }
 
+/// The position of a vertex.
+fn position(vertices: &[[f32; 4]], vertex: u32) -> [f32; 3] {
+    let [x, y, z, _] = vertices[vertex as usize];
+    [x, y, z]
+}
+
 /// The tables of vertices and normals.
-fn rows(data: &MeshData) -> (Vec<[f32; 4]>, Vec<[f32; 4]>) {
+fn rows(data: &MeshData, posed: &Posed) -> (Vec<[f32; 4]>, Vec<[f32; 4]>) {
     let uv = |vertex: usize| data.uvs.get(vertex).copied().unwrap_or_default();
-    let vertices = data.vertices.iter().enumerate().map(|(vertex, [x, y, z])| [*x, *y, *z, uv(vertex)[0]]).collect();
+    let row = |[x, y, z]: [f32; 3], w: f32| [x, y, z, w];
+    let vertices = data.vertices.par_iter().enumerate().map(|(vertex, p)| row(posed.point(p), uv(vertex)[0])).collect();
     let count = data.normals.len().max(data.uvs.len());
-    let normal = |vertex: usize| data.normals.get(vertex).copied().unwrap_or_default();
-    let normals = (0..count).map(|vertex| {
-        let [x, y, z] = normal(vertex);
-        [x, y, z, uv(vertex)[1]]
-    });
-    (vertices, normals.collect())
+    let normal = |vertex: usize| data.normals.get(vertex).map_or([0.0; 3], |normal| posed.normal(normal));
+    let normals = (0..count).into_par_iter().map(|vertex| row(normal(vertex), uv(vertex)[1])).collect();
+    (vertices, normals)
 }
 
 /// Whether the triangle has a normal in f32, and coordinates within the limit.
