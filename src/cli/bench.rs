@@ -11,7 +11,7 @@ use noisefall::{
     file::{check, replace},
     math::SimdLevel,
     render::{
-        profile::{PathStage, Profile, StageCost, settings_of},
+        profile::{CountedRays, PathStage, Profile, StageCost, settings_of},
         sharing::sharing_name,
         threads::{PassJob, Threads},
     },
@@ -157,6 +157,12 @@ impl Measured {
         };
         self.stages().into_iter().for_each(|(name, cost)| row(name, cost));
         row("all", whole);
+        if let Some([nodes, leaves]) = self.visits() {
+            let _ = writeln!(
+                text,
+                "\na ray of a path visits {nodes:.2} nodes and {leaves:.2} leaves of trees, of eight boxes or triangles each"
+            );
+        }
         text += "\nbounce         rays   surfaces    shading  shadow rays   rays per sample\n";
         for (bounce, costs) in profile.bounces.iter().enumerate() {
             let [rays, surfaces, shading, shadows] = costs.map(|cost| 100.0 * self.share(cost));
@@ -165,6 +171,12 @@ impl Measured {
             let _ = writeln!(text, "{name:8} {rays:8.1} % {surfaces:8.1} % {shading:8.1} % {shadows:10.1} % {traced:17.3}");
         }
         text
+    }
+
+    /// Nodes and leaves of trees that a ray of a path visits; `None` without trees.
+    fn visits(&self) -> Option<[f64; 2]> {
+        let CountedRays { rays, visits } = self.profile.counted;
+        (visits.nodes > 0).then(|| [visits.nodes, visits.leaves].map(|visits| visits as f64 / rays as f64))
     }
 
     /// The figures of the JSON line.
@@ -185,6 +197,8 @@ impl Measured {
             ("samples", json!(self.profile.samples)),
             ("build_seconds", json!(self.build.as_secs_f64())),
             ("seconds", json!(self.elapsed.as_secs_f64())),
+            ("nodes_per_ray", json!(self.visits().map(|[nodes, _]| nodes))),
+            ("leaves_per_ray", json!(self.visits().map(|[_, leaves]| leaves))),
             ("stages", Value::Object(stages)),
             ("bounces", Value::Array(self.profile.bounces.iter().enumerate().map(bounce).collect())),
         ]));

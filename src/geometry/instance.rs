@@ -76,16 +76,16 @@ impl Instance {
     /// The first intersection with o + td, d of unit length, and t > 0. Lanes with a limit of 0 cost almost nothing.
     #[simd]
     pub fn closest<L: Lanes>(&self, l: L, ray: (V<L>, V<L>), time: F<L>, search: Search<L>) -> Intersection<L> {
-        self.meet(l, l.token(), &mut Stack::default(), ray, time, search)
+        self.meet(l, l.token(), &mut Stack::<false>::default(), ray, time, search)
     }
 
     /// The same; a mesh is tested with the instructions of `s`, for any lanes.
     #[inline(always)]
-    pub fn meet<L: Lanes, S: Simd>(
+    pub fn meet<L: Lanes, S: Simd, const COUNTS: bool>(
         &self,
         l: L,
         s: S,
-        stack: &mut Stack,
+        stack: &mut Stack<COUNTS>,
         (o, d): (V<L>, V<L>),
         time: F<L>,
         search: Search<L>,
@@ -103,11 +103,11 @@ impl Instance {
     }
 
     #[inline(always)]
-    fn meet_in_body<L: Lanes, S: Simd>(
+    fn meet_in_body<L: Lanes, S: Simd, const COUNTS: bool>(
         &self,
         l: L,
         s: S,
-        stack: &mut Stack,
+        stack: &mut Stack<COUNTS>,
         (o, d): (V<L>, V<L>),
         search: Search<L>,
     ) -> Intersection<L> {

@@ -2,7 +2,7 @@
 //!
 //! A list tests a shape against all lanes at once. For a few shapes this costs less than a step in a tree; among many, a tree
 //! finds the few near a ray. This module decides which shapes go where.
-use fearless_simd::Simd;
+use fearless_simd::{ExtractToken, Simd};
 use fearless_simd_macros::simd;
 use glam::DVec3;
 
@@ -129,7 +129,7 @@ impl Objects {
         let mut distances = nearest.t.to_array();
         let mut primitives = nearest.primitive.as_real_bits().to_array();
         let mut elements = nearest.element.as_real_bits().to_array();
-        let (mut stack, mut below) = (Stack::default(), Stack::default());
+        let (mut stack, mut below) = (Stack::<false>::default(), Stack::<false>::default());
         let mut rest = live.bits();
         while rest != 0 {
             let lane = rest.trailing_zeros() as usize % MAX_LANES;
@@ -153,11 +153,29 @@ impl Objects {
     }
 }
 
+impl Objects {
+    /// Finds the nearest hit of one ray that is nearer than `nearest`, and counts the visits of this tree and of those below.
+    pub fn count(
+        &self,
+        instances: &[Instance],
+        (o, d): (V<One>, V<One>),
+        time: F<One>,
+        nearest: &Nearest<One>,
+        stacks: &mut [Stack<true>; 2],
+    ) {
+        let slabs = Slabs::new(One, o, d, &self.bvh.bounds());
+        let [stack, below] = stacks;
+        let (primitive, element) = (nearest.primitive.0, nearest.element.0);
+        let mut found = Found { objects: self, instances, below, o, d, time, enough: F(0.0), primitive, element };
+        traverse(One.token(), &self.bvh, stack, (&slabs, 0), (nearest.t.0, 0.0), &mut found);
+    }
+}
+
 /// The nearest hit of one ray so far.
-struct Found<'a> {
+struct Found<'a, const COUNTS: bool> {
     objects: &'a Objects,
     instances: &'a [Instance],
-    below: &'a mut Stack,
+    below: &'a mut Stack<COUNTS>,
     o: V<One>,
     d: V<One>,
     time: F<One>,
@@ -166,7 +184,7 @@ struct Found<'a> {
     element: u32,
 }
 
-impl<S: Simd> Leaves<S> for Found<'_> {
+impl<S: Simd, const COUNTS: bool> Leaves<S> for Found<'_, COUNTS> {
     #[inline(always)]
     fn meet(&mut self, s: S, leaf: u32, t_max: f32) -> f32 {
         let (t, primitive, element) = match self.objects.items[leaf as usize] {

@@ -3,11 +3,12 @@ mod at_point;
 
 use std::{sync::Arc, time::Duration};
 
+use fearless_simd::ExtractToken;
 use glam::{DAffine3, DVec3};
 
 use super::{
     MISS, Motion, Nearest, SurfacePoint,
-    bvh::Search,
+    bvh::{Search, Stack, Visits},
     clusters::take_clusters,
     identity::same_map,
     instance::{Body, Instance},
@@ -21,7 +22,7 @@ use super::{
 };
 use crate::{
     declare::Precision,
-    math::{F, Lanes, M, Pick, U, V},
+    math::{F, Lanes, M, One, Pick, U, V},
     progress::{Cancelled, Progress},
 };
 
@@ -241,6 +242,25 @@ impl Shapes {
     pub fn closest_listed<L: Lanes>(&self, l: L, o: V<L>, d: V<L>) -> Nearest<L> {
         let (t, primitive) = self.lists.closest(l, o, d);
         Nearest { t, primitive, element: l.u(0) }
+    }
+
+    /// Work of one ray in trees, on its way to the first surface.
+    pub fn visits(&self, ray: (V<One>, V<One>), time: F<One>) -> Visits {
+        let (o, d) = ray;
+        let mut nearest = self.closest_listed(One, o, d);
+        let mut stacks = [Stack::<true>::default(), Stack::default()];
+        for instance in self.loops.iter().map(|index| &self.instances[*index as usize]) {
+            if instance.near(M(true), o, d).0 {
+                let search = Search::nearest(One, nearest.t);
+                let found = instance.meet(One, One.token(), &mut stacks[1], ray, time, search);
+                nearest.t = if found.t.0 < nearest.t.0 { found.t } else { nearest.t };
+            }
+        }
+        if let Some(objects) = &self.objects {
+            objects.count(&self.instances, ray, time, &nearest, &mut stacks);
+        }
+        let [a, b] = stacks.map(|stack| stack.visits);
+        Visits { nodes: a.nodes + b.nodes, leaves: a.leaves + b.leaves }
     }
 
     /// The first of the surfaces that are not in lists, in the lanes of `live`, or `listed` if that is nearer. Any before `enough` will

@@ -48,7 +48,7 @@ pub use self::{
     batch::Batch,
     collision::{clear_fraction, is_blind},
     features::{Features, features},
-    profile::{Profile, StageCost, trace_profiled},
+    profile::{CountedRays, Profile, StageCost, trace_profiled},
     replay::{
         EmitterHit, End, Outcome, Reflection, Replay, SampledLight, SharedLight, Surface, Vertex, pixel_samples, replay,
         seen_by_camera,

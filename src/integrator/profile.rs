@@ -3,10 +3,14 @@ use std::time::{Duration, Instant};
 
 use super::{
     batch::Batch,
+    records::Path,
     trace::{Interrupted, Observer, PathStage, trace_in},
     work::Work,
 };
-use crate::math::{SimdLevel, in_lanes};
+use crate::{
+    geometry::Visits,
+    math::{One, SimdLevel, in_lanes},
+};
 
 /// What a stage took.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -16,6 +20,18 @@ pub struct StageCost {
     /// Rays that the stage traced.
     pub rays: u64,
 }
+
+/// Rays that were traced once more to count their work.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct CountedRays {
+    /// Number of rays.
+    pub rays: u64,
+    /// Their visits to trees.
+    pub visits: Visits,
+}
+
+/// One path in so many is counted.
+const COUNTED: usize = 1024;
 
 /// Costs of the stages.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -28,6 +44,8 @@ pub struct Profile {
     pub reuse: StageCost,
     /// Adding samples to the film.
     pub film: StageCost,
+    /// Some of the rays of paths.
+    pub counted: CountedRays,
     /// Camera samples.
     pub samples: u64,
 }
@@ -61,7 +79,8 @@ impl Profile {
         bounces.for_each(|(sum, cost)| *sum = sum.plus(*cost));
         let [spawn, reuse, film] =
             [(self.spawn, other.spawn), (self.reuse, other.reuse), (self.film, other.film)].map(|(a, b)| a.plus(b));
-        Profile { spawn, reuse, film, samples: self.samples + other.samples, ..self }
+        let counted = self.counted.plus(other.counted);
+        Profile { spawn, reuse, film, counted, samples: self.samples + other.samples, ..self }
     }
 
     fn entry(&mut self, stage: PathStage, bounce: usize) -> &mut StageCost {
@@ -82,7 +101,14 @@ impl StageCost {
     }
 }
 
-/// Reads the clock after each stage of a batch.
+impl CountedRays {
+    fn plus(self, other: CountedRays) -> CountedRays {
+        let visits = Visits { nodes: self.visits.nodes + other.visits.nodes, leaves: self.visits.leaves + other.visits.leaves };
+        CountedRays { rays: self.rays + other.rays, visits }
+    }
+}
+
+/// Reads the clock after each stage of a batch, and counts some of its rays while the clock stands.
 struct Clock<'a> {
     profile: &'a mut Profile,
     last: Instant,
@@ -90,6 +116,16 @@ struct Clock<'a> {
 }
 
 impl Observer for Clock<'_> {
+    fn at_surfaces(&mut self, work: &Work, batch: &Batch) {
+        let paths = batch.current();
+        for at in (0..paths.len()).step_by(COUNTED) {
+            let path = Path::read(One, &paths.paths, at);
+            let visits = work.scene.shapes.visits((path.o, path.d), work.time(One, path.slot));
+            self.profile.counted = self.profile.counted.plus(CountedRays { rays: 1, visits });
+        }
+        self.last = Instant::now();
+    }
+
     fn after(&mut self, stage: PathStage, batch: &Batch) {
         let now = Instant::now();
         let cost = StageCost { time: now - self.last, rays: batch.rays - self.rays };

@@ -7,7 +7,7 @@ use super::{
     threads::{PassJob, Threads},
     tile::Tile,
 };
-pub use crate::integrator::{PathStage, Profile, StageCost};
+pub use crate::integrator::{CountedRays, PathStage, Profile, StageCost};
 use crate::{
     integrator::{Batch, Interrupted, Work, trace_profiled},
     scene::{Camera, RenderSettings, Scene},

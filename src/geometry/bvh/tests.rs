@@ -79,7 +79,7 @@ fn every_box_that_is_met_is_shown() {
         numbers.sort_unstable();
         assert!(numbers.iter().copied().eq(0..count as u32), "each in one leaf");
         assert!(boxes.iter().all(|bounds| bvh.bounds().contains(bounds)));
-        let mut stack = Stack::default();
+        let mut stack = Stack::<false>::default();
         for k in 0..2000 {
             let mut corner = || [0; 3].map(|_| rng.random_range(-1.5f32..1.5));
             let (o, mut d) = (corner(), corner());

@@ -157,16 +157,16 @@ impl Mesh {
     /// Both sides count. d need not be of unit length. Lanes with a `t_max` of 0 cost almost nothing.
     #[inline(always)]
     pub fn closest<L: Lanes>(&self, l: L, o: V<L>, d: V<L>, t_max: F<L>) -> (F<L>, U<L>) {
-        self.closest_by(l, l.token(), &mut Stack::default(), (o, d), Search::nearest(l, t_max))
+        self.closest_by(l, l.token(), &mut Stack::<false>::default(), (o, d), Search::nearest(l, t_max))
     }
 
     /// The same within the limit of a search; boxes and triangles are tested with the instructions of `s`, for any lanes.
     #[inline(always)]
-    pub fn closest_by<L: Lanes, S: Simd>(
+    pub fn closest_by<L: Lanes, S: Simd, const COUNTS: bool>(
         &self,
         l: L,
         s: S,
-        stack: &mut Stack,
+        stack: &mut Stack<COUNTS>,
         (o, d): (V<L>, V<L>),
         search: Search<L>,
     ) -> (F<L>, U<L>) {
@@ -183,7 +183,14 @@ impl Mesh {
 
     /// The same for the ray in one lane.
     #[simd]
-    fn closest_of<S: Simd>(&self, s: S, stack: &mut Stack, rays: &Rays, lane: usize, search: (f32, f32)) -> (f32, u32) {
+    fn closest_of<S: Simd, const COUNTS: bool>(
+        &self,
+        s: S,
+        stack: &mut Stack<COUNTS>,
+        rays: &Rays,
+        lane: usize,
+        search: (f32, f32),
+    ) -> (f32, u32) {
         let mut nearest = Nearest { blocks: &self.blocks, ray: rays.shears.lane(lane), triangle: NONE };
         let t = traverse(s, &self.bvh, stack, (&rays.slabs, lane), search, &mut nearest);
         (t, nearest.triangle)
