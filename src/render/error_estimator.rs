@@ -62,14 +62,14 @@ pub(super) fn rel_mse_estimate(film: &Film) -> Option<f64> {
 pub(super) fn rel_mse_estimate_in(film: &Film, region: &Region) -> Option<f64> {
     let tiles = || film.tiles.iter().filter(|tile| tile.lies_in(region));
     let doubled = tiles().flat_map(|tile| &tile.blocks).map(|block| block.doubled).min()?;
-    let is_known = doubled >= ENOUGH || doubled >= 2 && has_found_light(tiles());
+    let is_known = doubled >= ENOUGH || doubled >= 2 && has_found_light(&tiles);
     is_known.then(|| tiles().map(Sums::of).fold(Sums::default(), |a, b| a.plus(&b, 1.0)).estimate())
 }
 
 /// Whether the variance comes from enough samples that differ. Without any noise, one that is not black is enough.
-fn has_found_light<'a>(tiles: impl Iterator<Item = &'a Tile> + Clone) -> bool {
+fn has_found_light<'a, I: Iterator<Item = &'a Tile>>(tiles: &impl Fn() -> I) -> bool {
     let is_lit = |tile: &Tile| tile.sum.iter().any(|sum| *sum != [0.0; 3]);
-    Parts::effective_count(tiles.clone().flat_map(Tile::parts)) >= FEWEST && tiles.clone().any(is_lit)
+    Parts::effective_count(tiles().flat_map(Tile::parts)) >= FEWEST && tiles().any(is_lit)
 }
 
 /// The expected relMSE of a film, and the same without each of its tiles; `None` where that is.

@@ -110,9 +110,8 @@ impl Bins {
             return;
         }
         for item in items.iter().take(Bins::IN_A_ROW) {
-            let at = grid.bins_of(item.center());
-            for axis in 0..3 {
-                self.0[axis][at[axis]].add(&Bin { extent: Extent { min: item.min, max: item.max }, count: 1 });
+            for (bins, at) in self.0.iter_mut().zip(grid.bins_of(item.center())) {
+                bins[at].add(&Bin { extent: Extent { min: item.min, max: item.max }, count: 1 });
             }
         }
     }

@@ -90,7 +90,7 @@ impl Bvh {
         let mut items: Vec<Item> = (0..count).into_par_iter().map(|number| Item::new(number, &bounds(number))).collect();
         let all = Part::of(&items, 0);
         let builder = Builder::<LEAF_SIZE> { contents, large: LARGE.max(count / LARGE_SHARE), progress };
-        let mut branches = Vec::new();
+        let mut branches = Vec::with_capacity(most_branches::<LEAF_SIZE>(count));
         if count > 0 {
             builder.grow(&mut items, all, MAX_DEPTH, &mut branches)?;
         }
@@ -121,7 +121,7 @@ impl<const LEAF_SIZE: usize> Builder<'_, LEAF_SIZE> {
         let (left_items, right_items) = items.split_at_mut(left.len());
         let of_right;
         let costs = if part.len() > self.large {
-            let mut others = Vec::new();
+            let mut others = Vec::with_capacity(most_branches::<LEAF_SIZE>(right.len()));
             let sides = rayon::join(
                 || self.grow(left_items, left, levels - 1, branches),
                 || self.grow(right_items, right, levels - 1, &mut others),
@@ -170,6 +170,11 @@ impl<const LEAF_SIZE: usize> Builder<'_, LEAF_SIZE> {
         }
         halve(items, part)
     }
+}
+
+/// The most branches over so many items, if leaves are half full on average. What is not used takes no memory.
+fn most_branches<const LEAF_SIZE: usize>(count: usize) -> usize {
+    4 * count / LEAF_SIZE + 1
 }
 
 /// Moves the items left of the plane to the front.
