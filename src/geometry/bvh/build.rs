@@ -26,7 +26,7 @@ const REPORT: usize = 1 << 14;
 /// Items of a branch whose sides grow at the same time, at least.
 const LARGE: usize = 1 << 15;
 /// The same as a fraction of all items. Smaller sides would be copied more often.
-const LARGE_SHARE: usize = 32;
+const LARGE_SHARE: usize = 16;
 
 /// A range of items below one branch.
 #[derive(Clone, Copy)]
