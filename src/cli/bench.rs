@@ -118,6 +118,11 @@ fn name(stage: PathStage) -> &'static str {
     }
 }
 
+/// The name of a stage in JSON.
+fn key(name: &str) -> String {
+    name.replace(' ', "_")
+}
+
 /// The name of a bounce; the last row has all further ones.
 fn bounce_name(bounce: usize) -> String {
     if bounce + 1 == Profile::MOST { format!("{bounce} +") } else { bounce.to_string() }
@@ -184,9 +189,9 @@ impl Measured {
         let cost = |cost: StageCost| json!({ "seconds": cost.time.as_secs_f64(), "rays": cost.rays });
         let bounce = |(bounce, costs): (usize, &[StageCost; 4])| {
             let stages = Profile::STAGES.map(name).into_iter().zip(costs.map(cost));
-            json!({ "bounce": bounce, "stages": stages.map(|(name, cost)| (name.to_owned(), cost)).collect::<figures::Figures>() })
+            json!({ "bounce": bounce, "stages": stages.map(|(name, cost)| (key(name), cost)).collect::<figures::Figures>() })
         };
-        let stages: figures::Figures = self.stages().into_iter().map(|(name, of)| (name.to_owned(), cost(of))).collect();
+        let stages: figures::Figures = self.stages().into_iter().map(|(name, of)| (key(name), cost(of))).collect();
         let mut all = named(others);
         all.extend(named([
             ("version", json!(env!("CARGO_PKG_VERSION"))),

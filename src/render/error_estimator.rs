@@ -66,10 +66,11 @@ pub(super) fn rel_mse_estimate_in(film: &Film, region: &Region) -> Option<f64> {
     is_known.then(|| tiles().map(Sums::of).fold(Sums::default(), |a, b| a.plus(&b, 1.0)).estimate())
 }
 
-/// Whether the variance comes from enough samples that differ. Without any noise, one that is not black is enough.
+/// Whether the variance comes from enough samples that differ. Without any noise, all pixels must have found light.
 fn has_found_light<'a, I: Iterator<Item = &'a Tile>>(tiles: &impl Fn() -> I) -> bool {
-    let is_lit = |tile: &Tile| tile.sum.iter().any(|sum| *sum != [0.0; 3]);
-    Parts::effective_count(tiles().flat_map(Tile::parts)) >= FEWEST && tiles().any(is_lit)
+    let effective = Parts::effective_count(tiles().flat_map(Tile::parts));
+    let is_lit = |tile: &Tile| tile.sum.iter().all(|sum| *sum != [0.0; 3]);
+    if effective.is_finite() { effective >= FEWEST } else { tiles().all(is_lit) }
 }
 
 /// The expected relMSE of a film, and the same without each of its tiles; `None` where that is.
