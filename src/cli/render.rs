@@ -1,27 +1,30 @@
 //! `noisefall render`: renders an image without a window, with the worker that also serves the window.
+mod begin;
+#[cfg(test)]
+mod tests;
+
 use std::{
     ops::Range,
     path::{Path, PathBuf},
     process::ExitCode,
-    sync::Arc,
     time::{Duration, Instant},
 };
 
 use clap::ArgGroup;
 use noisefall::{
-    import::{Opened, Remarks},
     math::SimdLevel,
     render::{
-        Budget, Display, RenderRequest, checkpoint::is_kept_file, image_file::Format, layers::Layer, settings_text::options,
-        tev::DEFAULT_ADDRESS, threads::Threads, truth::Reference,
+        Budget, Display, RenderRequest, image_file::Format, layers::Layer, tev::DEFAULT_ADDRESS, threads::Threads,
+        truth::Reference,
     },
-    render_file::{Header, Target},
+    render_file::Target,
     sampling::{Directions, Sampler},
-    scene::{Camera, Estimator, RenderSettings, Reuse, Roulette, Scene, description::SceneDescription},
+    scene::{Estimator, Reuse, Roulette, Scene},
 };
 
+use self::begin::Begun;
 use super::{
-    keeping::{KeepOptions, Resumed},
+    keeping::KeepOptions,
     layers::{Layers, parse as layers_of},
     live::{self, LiveView},
     messages::{Failure, tell, wrong_usage},
@@ -212,17 +215,6 @@ fn name(scene: &Scene, path: &Path) -> String {
     if scene.title.is_empty() { of_file() } else { scene.title.clone() }
 }
 
-/// A scene with the camera and settings of its image, and the render of it that is continued.
-struct Begun {
-    scene: Arc<Scene>,
-    path: PathBuf,
-    description: Option<Arc<SceneDescription>>,
-    remarks: Remarks,
-    camera: Camera,
-    settings: RenderSettings,
-    resumed: Option<Resumed>,
-}
-
 impl Arguments {
     /// The mistake in options that clap does not find, if there is one.
     fn mistake(&self, output: Option<&Output>) -> Option<String> {
@@ -236,65 +228,6 @@ impl Arguments {
         let of_sequence = self.sequence.mistake(output);
         let of_samples = || samples::mistake(output, self.samples.is_some(), &self.excluded_by_samples());
         of_sequence.or_else(|| count.map(str::to_owned)).or_else(|| self.keep.mistake(resumed)).or_else(of_samples)
-    }
-
-    /// Opens the scene, or the file of a render that is continued.
-    fn begin(&self) -> Result<Begun, Failure> {
-        match self.sequence.resumed() {
-            Some(file) => self.resume(file),
-            None => self.open(),
-        }
-    }
-
-    fn open(&self) -> Result<Begun, Failure> {
-        let path = self.scene.as_deref().or(self.sequence.scene()).unwrap_or(Path::new("")).to_owned();
-        if is_kept_file(&path) {
-            return Err(format!("{0}: this is a kept render; `render --resume {0}` continues it", path.display()));
-        }
-        let Opened { scene, remarks, description } = self.options.open(&path)?;
-        let camera = Camera { resolution: self.size.unwrap_or(scene.camera.resolution), ..scene.camera };
-        let settings = self.settings(scene.settings);
-        Ok(Begun { scene: Arc::new(scene), path, description, remarks, camera, settings, resumed: None })
-    }
-
-    fn resume(&self, file: &Path) -> Result<Begun, Failure> {
-        let resumed = self.keep.resume(file)?;
-        let Header { camera, settings, scene, .. } = resumed.header().clone();
-        self.check_same_image(&resumed)?;
-        let Opened { scene: opened, remarks, description } = resumed.open()?;
-        let path = Path::new(&scene.folder).join(&scene.name);
-        Ok(Begun { scene: Arc::new(opened), path, description, remarks, camera, settings, resumed: Some(resumed) })
-    }
-
-    /// Refuses options that would change the image of a render that is continued.
-    fn check_same_image(&self, resumed: &Resumed) -> Result<(), Failure> {
-        let Header { camera, settings, .. } = resumed.header();
-        let of_scene = self.options.words();
-        if !of_scene.is_empty() {
-            return Err(resumed.has_scene(&of_scene));
-        }
-        let given = self.settings(*settings);
-        if given != *settings {
-            return Err(resumed.changes_image(&options(&given, settings), &options(settings, &given)));
-        }
-        let size = |[width, height]: [u32; 2]| format!("--size {width}x{height}");
-        match self.size.filter(|given| *given != camera.resolution) {
-            Some(given) => Err(resumed.changes_image(&size(given), &size(camera.resolution))),
-            None => Ok(()),
-        }
-    }
-
-    fn settings(&self, of_scene: RenderSettings) -> RenderSettings {
-        RenderSettings {
-            sampler: self.sampler.unwrap_or(of_scene.sampler),
-            estimator: self.estimator.unwrap_or(of_scene.estimator),
-            directions: self.directions.unwrap_or(of_scene.directions),
-            roulette: self.roulette.unwrap_or(of_scene.roulette),
-            max_bounces: self.max_bounces.map_or(of_scene.max_bounces, |cap| cap.0),
-            reuse: self.reuse.unwrap_or(of_scene.reuse),
-            adaptive: self.adaptive.unwrap_or(of_scene.adaptive),
-            seed: self.seed.unwrap_or(of_scene.seed),
-        }
     }
 
     /// The layers of the image, which only an EXR can have. Tells which options have no effect.
@@ -371,6 +304,3 @@ impl Arguments {
         Ok(Budget { halves: self.denoise, ..budget })
     }
 }
-
-#[cfg(test)]
-mod tests;

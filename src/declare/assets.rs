@@ -1,7 +1,7 @@
 //! Files that exist in memory only.
 use std::{
     any::Any,
-    collections::BTreeMap,
+    collections::{BTreeMap, BTreeSet},
     fmt,
     sync::{
         Arc, Mutex, MutexGuard, PoisonError,
@@ -16,6 +16,8 @@ use crate::memory::Reservation;
 pub struct Assets {
     files: Arc<BTreeMap<String, Asset>>,
     loaded: Loaded,
+    /// The files on disk that the scene was read from, beside the scene file.
+    sources: Arc<BTreeSet<String>>,
     /// Given back with the last clone.
     memory: Option<Arc<Reservation>>,
 }
@@ -88,6 +90,16 @@ impl Assets {
     /// Keeps the memory of the contents reserved while they exist, in place of an earlier reservation.
     pub fn keep_reserved(&mut self, memory: Reservation) {
         self.memory = Some(Arc::new(memory));
+    }
+
+    /// Notes the files on disk that the scene was read from, beside the scene file: by paths relative to its folder, or absolute.
+    pub fn set_sources(&mut self, sources: BTreeSet<String>) {
+        self.sources = Arc::new(sources);
+    }
+
+    /// The files on disk that the scene was read from, beside the scene file.
+    pub fn sources(&self) -> impl Iterator<Item = &str> {
+        self.sources.iter().map(String::as_str)
     }
 
     /// The paths of all files.

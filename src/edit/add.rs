@@ -1,17 +1,23 @@
 //! Adds shapes and lamps where the pointer is.
-use super::{Document, Edit, tree::Tree};
+use super::{Document, Edit, put, references::references, tree::Tree};
 use crate::{
-    declare::{OneOf, Path},
+    declare::{Family, OneOf, OwnedValue, Path},
     light::lamp::LampKind,
     material::{Lambertian, Material},
     scene::description::{EmissionDescription, LampDescription, MaterialDescription, ObjectDescription},
     shape::{Placement, ShapeKind},
+    texture::{TextureKind, noise::Noise},
 };
 
-/// The radiance of new lamps, W/(m² sr): about that of white paper on an overcast day.
-const RADIANCE: f64 = 20.0;
-/// The irradiance of new lamps without surface where they are added, W/m²: a surface there is about as bright.
-const IRRADIANCE: f64 = 20.0;
+/// The radiance of new lamps, W/(m² sr), and the irradiance of those without surface where they are added, W/m², for an image of
+/// exposure 0.
+const BRIGHTNESS: f64 = 20.0;
+
+/// The brightness of new lamps that lights an image of this exposure as well as one of exposure 0. It has few digits.
+fn brightness(exposure: f64) -> f64 {
+    let wanted = BRIGHTNESS * (-exposure).exp2();
+    format!("{wanted:.1e}").parse().unwrap_or(wanted)
+}
 
 impl Document {
     /// The edit that adds a shape of a kind, and the path of the new object. It rests on the surface, has the material `material`, or
@@ -41,22 +47,46 @@ impl Document {
         )
     }
 
-    /// The edit that adds a lamp with the shape of a kind, and the path of the new object. Flat ones emit away from the surface.
-    pub fn add_lamp(&self, kind: &str, placement: &Placement) -> Option<(Edit, Path)> {
-        let emission = EmissionDescription::radiance([RADIANCE; 3]);
+    /// The edit that adds a lamp with the shape of a kind, and the path of the new object. Flat ones emit away from the surface. It is
+    /// as bright as an image of this exposure, in stops, needs.
+    pub fn add_lamp(&self, kind: &str, placement: &Placement, exposure: f64) -> Option<(Edit, Path)> {
+        let emission = EmissionDescription::radiance([brightness(exposure); 3]);
         let object = ObjectDescription { name: "lamp".to_owned(), emission: Some(emission), ..ObjectDescription::default() };
         self.add(kind, placement, object)
     }
 
-    /// The edit that adds a lamp without surface of a kind above the surface, and the path of the new lamp.
-    pub fn add_lamp_without_surface(&self, kind: &str, placement: &Placement) -> Option<(Edit, Path)> {
+    /// The edit that adds a lamp without surface of a kind above the surface, and the path of the new lamp. It is as bright as an image
+    /// of this exposure, in stops, needs.
+    pub fn add_lamp_without_surface(&self, kind: &str, placement: &Placement, exposure: f64) -> Option<(Edit, Path)> {
         let kind = LampKind::alternatives().into_iter().find(|lamp| lamp.name() == kind)?;
         let (position, target) = (placement.reached(2.0 * placement.size()), placement.rounded(placement.at));
         let name = self.free_name("lamps", &kind.name().replace('_', " "));
-        let kind = kind.kind().placed(position, target, IRRADIANCE);
+        let kind = kind.kind().placed(position, target, brightness(exposure));
         let mut lamp = LampDescription { name, kind, ..LampDescription::default() };
         let path = Path::of("lamps").item(self.description().lamps.len());
         Some((Edit::insert_tree(path.clone(), Tree::of(&mut lamp)), path))
+    }
+
+    /// The edit that adds an absent part with its defaults. A texture that it needs is the first of the scene, or else a new one.
+    pub fn insert(&self, path: &Path) -> Edit {
+        let mut scene = self.description().clone();
+        if !put::insert(&mut scene, path, None) {
+            return Edit::insert(path.clone());
+        }
+        let mut needed = Vec::new();
+        references(&mut scene, path, |at, family, name| {
+            needed.extend((family == Family::Texture && name.is_empty()).then(|| at.clone()));
+        });
+        let first = self.description().textures.keys().next().cloned();
+        let name = first.clone().unwrap_or_else(|| self.free_name("textures", "noise"));
+        let new_texture = (first.is_none() && !needed.is_empty()).then(|| {
+            let mut noise = TextureKind::from(Noise::default());
+            Edit::insert_tree(Path::of("textures").key(&name), Tree::of(&mut noise))
+        });
+        let set = |at: Path| Edit::set(at, OwnedValue::Text(name.clone()));
+        let mut edits: Vec<Edit> = new_texture.into_iter().chain([Edit::insert(path.clone())]).collect();
+        edits.extend(needed.into_iter().map(set));
+        if edits.len() == 1 { edits.swap_remove(0) } else { Edit::All(edits) }
     }
 
     fn add(&self, kind: &str, placement: &Placement, object: ObjectDescription) -> Option<(Edit, Path)> {

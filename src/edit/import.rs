@@ -1,9 +1,9 @@
-//! Meshes and skies from files, and the colours that textures can replace.
+//! Meshes and skies from files.
 use glam::DVec3;
 
 use super::{Document, Edit, Placement, add::with_material, tree::Tree};
 use crate::{
-    declare::{Declare, Form, Parameter, Parameters, Path, Value},
+    declare::Path,
     light::background::{BackgroundDescription, image::Image},
     scene::{Scene, description::ObjectDescription},
     shape::{
@@ -50,13 +50,6 @@ impl Document {
             Some(_) => Edit::Replace { path, tree },
         }
     }
-
-    /// The path of the first colour of a material that can be a texture, such as its albedo. `None` if it has none.
-    pub fn colour_of_material(&self, name: &str) -> Option<Path> {
-        let mut finder = ColourFinder { path: vec![Path::of("materials").key(name)], found: None };
-        self.description().materials.get(name)?.clone().parameters(&mut finder);
-        finder.found
-    }
 }
 
 /// The power of ten that gives a mesh a size that fits the scene; both in metres.
@@ -73,29 +66,6 @@ fn factor(size: f64, scene_size: f64) -> f64 {
     }
     // Read as it is written, so that it is as short as it can be.
     format!("1e{exponent}").parse().unwrap_or(1.0)
-}
-
-struct ColourFinder {
-    /// The paths of the tables around the current value.
-    path: Vec<Path>,
-    found: Option<Path>,
-}
-
-impl Parameters for ColourFinder {
-    fn value(&mut self, parameter: &Parameter, value: Value<'_>) {
-        if let (Value::Textured(..), Some(table)) = (value, self.path.last()) {
-            self.found.get_or_insert_with(|| table.key(parameter.key));
-        }
-    }
-
-    fn enter(&mut self, parameter: &Parameter, _: Form) {
-        let inner = self.path.last().map(|table| table.key(parameter.key));
-        self.path.extend(inner);
-    }
-
-    fn leave(&mut self) {
-        self.path.pop();
-    }
 }
 
 #[cfg(test)]

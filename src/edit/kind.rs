@@ -1,5 +1,5 @@
 //! Changes of kind that change other parameters too.
-use super::{change::Edit, document::Document};
+use super::{change::Edit, colour::colour_of_kind, document::Document};
 use crate::{
     declare::{OneOf, OwnedValue, Path, Step},
     material::Material,
@@ -11,8 +11,8 @@ use crate::{
 
 impl Document {
     /// The edit that chooses another alternative and changes the parameters that depend on it: parallel rays have neither an angle nor
-    /// a lens, a textured emission needs the name of a texture, and a blend those of two materials. `path` and `choice` are those of
-    /// [`Edit::Choose`].
+    /// a lens, a textured emission needs the name of a texture, a blend those of two materials, and a material keeps its colour under
+    /// the key of its new kind. `path` and `choice` are those of [`Edit::Choose`].
     pub fn change_kind(&self, path: &Path, choice: &str, name: &str) -> Edit {
         let scene = self.description();
         let mut edits = vec![Edit::choose(path.clone(), choice, name)];
@@ -26,10 +26,18 @@ impl Document {
                 edits.extend(first.map(|texture| Edit::set(path.key("texture"), OwnedValue::Text(texture.clone()))));
             }
             ("material", "blend") => edits.extend(of_blend(path, scene)),
+            ("material", _) => edits.extend(of_material(path, name, scene)),
             _ => {}
         }
         if edits.len() == 1 { edits.swap_remove(0) } else { Edit::All(edits) }
     }
+}
+
+/// The edit that gives a material of another kind the colour that it had.
+fn of_material(path: &Path, kind: &str, scene: &SceneDescription) -> Option<Edit> {
+    let [Step::Key(_), Step::Key(name)] = &path.0[..] else { return None };
+    let (colour, value) = colour_of_kind(scene.materials.get(name)?, kind)?;
+    Some(Edit::set(Path(path.0.iter().cloned().chain(colour.0).collect()), value))
 }
 
 /// The edits that give a blend two other materials. Neither is a blend, so none leads back to it.

@@ -41,7 +41,7 @@
 //! | to | apply |
 //! |---|---|
 //! | set a value; adds absent tables on its path | [`Edit::Set`] |
-//! | give an optional value or table its default (`objects.3.emission`) | [`Edit::Insert`] without content |
+//! | give an optional value or table its default (`objects.3.emission`) | [`Edit::Insert`] without content; [`Document::insert`] with the texture that it needs |
 //! | remove an optional value, an object, a material, an item of a list | [`Edit::Remove`] |
 //! | add an object, a lamp, a material, a texture, a transform | [`Edit::Insert`]; [`Document::add_shape`] and [`Document::add_lamp_without_surface`] place one |
 //! | add a mesh file; make an image the background | [`Document::add_mesh`]; [`Document::set_sky`] |
@@ -76,6 +76,7 @@ mod apply;
 mod change;
 mod check;
 mod choose;
+mod colour;
 mod content;
 mod document;
 mod history;

@@ -68,7 +68,9 @@ pub fn is_foreign(path: &Path) -> bool {
 pub fn read(path: &Path, options: &ImportOptions) -> Result<Imported, SceneError> {
     match reader(path) {
         Some(read) => {
-            let mut imported = read(path, options)?;
+            let folder = Folder::new(path, options);
+            let mut imported = read(path, options, &folder)?;
+            imported.assets.set_sources(folder.found());
             memory::reserve_assets(&mut imported.assets)
                 .map_err(|error| SceneError::of_file(path, error.to_string(), "raise the memory limit"))?;
             Ok(imported)
@@ -81,7 +83,8 @@ pub fn read(path: &Path, options: &ImportOptions) -> Result<Imported, SceneError
     }
 }
 
-type Reader = fn(&Path, &ImportOptions) -> Result<Imported, SceneError>;
+/// Reads a file, and those of its folder that it names.
+type Reader = fn(&Path, &ImportOptions, &Folder) -> Result<Imported, SceneError>;
 
 fn reader(path: &Path) -> Option<Reader> {
     let extension = path.extension()?.to_str()?.to_ascii_lowercase();

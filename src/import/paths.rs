@@ -1,7 +1,9 @@
 //! Paths of files that a scene refers to.
 use std::{
+    collections::BTreeSet,
     io::ErrorKind,
     path::{Component, Path, PathBuf},
+    sync::{Arc, Mutex, PoisonError},
 };
 
 use super::ImportOptions;
@@ -16,6 +18,8 @@ pub struct Folder {
     /// The same without links.
     root: PathBuf,
     allow_outside: bool,
+    /// The files that were found, as [`Folder::described`]. Clones share it.
+    found: Arc<Mutex<BTreeSet<String>>>,
     /// The progress of the reader.
     pub progress: Progress,
 }
@@ -26,7 +30,8 @@ impl Folder {
         let parent = scene.parent().filter(|folder| !folder.as_os_str().is_empty());
         let typed = parent.unwrap_or(Path::new(".")).to_owned();
         let root = typed.canonicalize().unwrap_or_else(|_| typed.clone());
-        Folder { typed, root, allow_outside: options.allow_outside, progress: options.progress.clone() }
+        let (allow_outside, progress) = (options.allow_outside, options.progress.clone());
+        Folder { typed, root, allow_outside, found: Arc::default(), progress }
     }
 
     /// The file at a path that the scene names. It exists, and lies within the folder, links followed. The message of an error does
@@ -51,9 +56,20 @@ impl Folder {
             _ => format!("`{shown}` cannot be found: {error}"),
         })?;
         if full.starts_with(&self.root) || self.allow_outside {
+            self.note(&full);
             return Ok(full);
         }
         Err(format!("`{shown}` lies outside the folder of the scene; {ADVICE}"))
+    }
+
+    /// Notes a file that was found elsewhere.
+    pub fn note(&self, file: &Path) {
+        self.found.lock().unwrap_or_else(PoisonError::into_inner).insert(self.described(file));
+    }
+
+    /// The files that were found so far, by the paths that a description gives them.
+    pub fn found(&self) -> BTreeSet<String> {
+        self.found.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
     /// The path that a description gives to a resolved file: relative to the folder of the scene, or else absolute.
@@ -101,6 +117,7 @@ mod tests {
         );
         assert_eq!(folder.resolve("textures/../textures/wood.png"), Ok(wood.clone()));
         assert_eq!(folder.resolve_beside(wood.parent().expect("a folder"), "wood.png"), Ok(wood));
+        assert_eq!(folder.clone().found(), BTreeSet::from(["textures/wood.png".to_owned()]));
     }
 
     #[test]

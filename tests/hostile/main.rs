@@ -107,8 +107,10 @@ impl World {
         World(root)
     }
 
-    /// A text without the place of this world, and without white space, because long lines are broken.
+    /// A text without the place of this world, and without white space, because long lines are broken, also within a path. `text` is
+    /// that of a value for debugging.
     fn plain(&self, text: &str) -> String {
+        let text = text.replace("\\n", "");
         let words: String = text.chars().filter(|c| !c.is_whitespace() && *c != '│').collect();
         words.replace(&self.0.display().to_string(), mutation::ROOT)
     }

@@ -133,6 +133,25 @@ fn a_scene_of_another_program_with_its_meshes_is_read_again() {
 }
 
 #[test]
+fn a_file_that_a_scene_of_another_program_includes_counts_too() {
+    let shell = Shell::new();
+    let lamp = |radiance: &str| {
+        let lamp = format!(
+            "<scene version=\"3.0.0\"><emitter type=\"constant\"><rgb name=\"radiance\" value=\"{radiance}\"/></emitter></scene>"
+        );
+        fs::write(shell.path("lamp.xml"), lamp).expect("it is written");
+    };
+    lamp("1");
+    let room = "<scene version=\"3.0.0\"><shape type=\"sphere\"/><include filename=\"lamp.xml\"/></scene>";
+    fs::write(shell.path("room.xml"), room).expect("it is written");
+    begin(&shell, &shell.path("room.xml").display().to_string(), &[]);
+    done(&shell, &["render", "--resume", "a.nf", "-o", "b.exr"]);
+    lamp("2");
+    let message = refused(&shell, &["render", "--resume", "a.nf", "-o", "b.exr"]);
+    assert!(message.contains("lamp.xml has other contents"), "{message}");
+}
+
+#[test]
 #[cfg(unix)]
 fn a_disk_without_room_fails_the_checkpoint_and_neither_the_render_nor_the_checkpoint_before() {
     let shell = Shell::new();

@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 
 use super::{
     command_line::{Shell, json as last_line, scene, text},
-    json_schema::fits_part,
+    json_schema::{fits, fits_part},
 };
 
 const SCHEMA: &str = include_str!("../../docs/figures.schema.json");
@@ -26,9 +26,7 @@ fn check(schema: &Value, name: &str, value: &Value) {
         "integer" => value.is_u64() || value.is_i64(),
         "number" => value.is_number(),
         "boolean" => value.is_boolean(),
-        "array" => value.as_array().is_some_and(|items| {
-            items.iter().all(|item| if figure["items"]["type"] == "number" { item.is_number() } else { item.is_string() })
-        }),
+        "array" => fits(value, figure),
         _ => value.is_null(),
     };
     let kinds = figure["type"].as_array().cloned().unwrap_or_else(|| vec![figure["type"].clone()]);
@@ -45,7 +43,15 @@ fn every_figure_is_described_and_every_described_figure_is_there() {
     let render = |arguments: &[&str]| {
         last_line(&shell.run(&[&["render", &furnace, "-o", "a.exr", "--size", "8x8", "--json"], arguments].concat()))
     };
+    let samples = |range: &str, output: &str| {
+        let options = ["--samples", range, "--size", "8x8", "--json"];
+        last_line(&shell.run(&[&["render", &furnace, "-o", output], &options[..]].concat()))
+    };
     let lines = [
+        ("samples", samples("0..2", "first.nf")),
+        ("samples", samples("4..6", "last.nf")),
+        ("samples", samples("0..4", "c.exr")),
+        ("samples", last_line(&shell.run(&["merge", "first.nf", "last.nf", "-o", "d.exr", "--allow-gaps", "--json"]))),
         ("render", render(&["--spp", "2", "--max-bounces", "3", "--roulette", "0.5"])),
         ("render", render(&["--time", "0.05"])),
         (

@@ -1,6 +1,6 @@
 //! Options of `noisefall render` in place of those of the scene.
 use clap::Parser;
-use noisefall::scene::built_in;
+use noisefall::scene::{RenderSettings, built_in};
 
 use super::*;
 

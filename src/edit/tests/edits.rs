@@ -170,6 +170,36 @@ fn a_change_of_kind_takes_along_what_depends_on_it() {
 }
 
 #[test]
+fn a_material_keeps_its_colour_under_the_key_of_its_new_kind() {
+    let mut document = room();
+    let constant = |rgb| Some(OwnedValue::Textured(Textured::Constant(rgb)));
+    for (kind, key) in [("mirror", "reflectance"), ("principled", "base_color"), ("lambertian", "albedo")] {
+        let change = document.change_kind(&path("materials.white"), "material", kind);
+        does(&mut document, &change);
+        assert_eq!(document.value(&path("materials.white").key(kind).key(key)), constant([0.73; 3]), "{kind}");
+    }
+    let change = document.change_kind(&path("materials.floor"), "material", "mirror");
+    does(&mut document, &change);
+    let tiles = Some(OwnedValue::Textured(Textured::Texture("tiles".to_owned())));
+    assert_eq!(document.value(&path("materials.floor.mirror.reflectance")), tiles);
+}
+
+#[test]
+fn what_is_inserted_has_the_texture_that_it_needs() {
+    let insert = room().insert(&path("materials.white.bump"));
+    there_and_back(&insert, |scene| {
+        assert_eq!(scene.materials["white"].bump.as_ref().map(|bump| bump.texture.as_str()), Some("tiles"));
+    });
+    let mut document = room();
+    does(&mut document, &Edit::set(path("materials.floor.lambertian.albedo"), OwnedValue::Textured(Textured::grey(0.5))));
+    does(&mut document, &Edit::remove(path("textures.tiles")));
+    let insert = document.insert(&path("materials.white.bump"));
+    does(&mut document, &insert);
+    assert_eq!(document.description().materials["white"].bump.as_ref().map(|bump| bump.texture.as_str()), Some("noise"));
+    assert_eq!(room().insert(&path("objects.1.emission")), Edit::insert(path("objects.1.emission")));
+}
+
+#[test]
 fn several_edits_are_all_done_or_none_is() {
     let made = [Edit::insert(path("materials.clay")), text("objects.0.material", "clay"), number("camera.fov", 50.0)];
     there_and_back(&Edit::All(made.to_vec()), |scene| assert_eq!(scene.objects[0].material.as_deref(), Some("clay")));

@@ -60,13 +60,24 @@ fn every_shape_is_added_to_every_side_of_a_surface() {
 fn lamps_emit_away_from_what_they_hang_on() {
     let placement = Placement { at: DVec3::new(0.0, 2.5, 0.0), normal: DVec3::NEG_Y, scene_size: 5.0 };
     let mut document = room();
-    let (edit, _) = document.add_lamp("rectangle", &placement).expect("there is such a kind");
+    let (edit, _) = document.add_lamp("rectangle", &placement, 0.0).expect("there is such a kind");
     does(&mut document, &edit);
     assert_eq!(name_of(&document), "lamp 2");
     let ShapeKind::Rectangle(lamp) = &document.description().objects[3].shape else { panic!("it is a rectangle") };
     assert!(lamp.edge_u.cross(lamp.edge_v).normalize().distance(DVec3::NEG_Y) < 1e-9);
     let [_, max] = extent(&document, "lamp 2");
     assert!(max.y < 2.5 && max.y > 2.49);
+}
+
+#[test]
+fn new_lamps_are_as_bright_as_the_exposure_needs() {
+    let placement = Placement { at: DVec3::new(0.0, 2.5, 0.0), normal: DVec3::NEG_Y, scene_size: 5.0 };
+    for (exposure, brightness) in [(0.0, 20.0), (3.0, 2.5), (-10.0, 2e4)] {
+        let mut document = room();
+        let (edit, path) = document.add_lamp("sphere", &placement, exposure).expect("there is such a kind");
+        does(&mut document, &edit);
+        assert_eq!(document.value(&path.key("emission").key("radiance")), Some(OwnedValue::Colour([brightness; 3])));
+    }
 }
 
 fn lamp(document: &Document, place: usize) -> LampDescription {
@@ -79,7 +90,7 @@ fn lamps_without_surface_are_added_duplicated_renamed_and_deleted() {
     for kind in LampKind::alternatives() {
         let mut document = room();
         let before = document.text();
-        let (edit, added) = document.add_lamp_without_surface(kind.name(), &placement).expect("there is such a kind");
+        let (edit, added) = document.add_lamp_without_surface(kind.name(), &placement, 0.0).expect("there is such a kind");
         let inverse = does(&mut document, &edit);
         assert_eq!(added, path("lamps.0"));
         assert!(document.text().contains("[[lamps]]"), "{}", document.text());
@@ -97,14 +108,14 @@ fn lamps_without_surface_are_added_duplicated_renamed_and_deleted() {
         does(&mut document, &inverse);
         assert_eq!(document.text(), before);
     }
-    assert!(room().add_lamp_without_surface("candle", &placement).is_none());
+    assert!(room().add_lamp_without_surface("candle", &placement, 0.0).is_none());
 }
 
 #[test]
 fn the_kind_and_the_parameters_of_a_lamp_change_by_their_paths() {
     let placement = Placement { at: DVec3::ZERO, normal: DVec3::Y, scene_size: 5.0 };
     let mut document = room();
-    let (edit, added) = document.add_lamp_without_surface("point", &placement).expect("there is such a kind");
+    let (edit, added) = document.add_lamp_without_surface("point", &placement, 0.0).expect("there is such a kind");
     does(&mut document, &edit);
     does(&mut document, &Edit::set(path("lamps.0.point.intensity"), OwnedValue::Colour([3.0, 2.0, 1.0])));
     let spot = document.change_kind(&added, LampKind::WHAT, "spot");
@@ -127,7 +138,7 @@ fn lamps_are_transformed_as_their_points_are() {
     let pivot = DVec3::new(0.2, 0.3, -0.1);
     for kind in LampKind::alternatives() {
         let mut document = room();
-        let (edit, _) = document.add_lamp_without_surface(kind.name(), &placement).expect("there is such a kind");
+        let (edit, _) = document.add_lamp_without_surface(kind.name(), &placement, 0.0).expect("there is such a kind");
         does(&mut document, &edit);
         let mut position = lamp(&document, 0).position();
         for change in &changes {

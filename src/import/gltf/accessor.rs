@@ -1,16 +1,17 @@
 //! Accessors: columns of numbers in the buffers.
-use std::borrow::Cow;
-
 use rayon::prelude::*;
 
 use super::{
     buffers::Buffers,
+    bytes::Slice,
     document::{Accessor, Document, Index, Sparse, element},
     refusal::Found,
 };
 
 /// Elements that a thread decodes at a time, at least.
 const AT_ONCE: usize = 1 << 12;
+/// Elements whose bytes are read from disk at a time.
+const BLOCK: usize = 1 << 22;
 
 /// The type of a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,7 +48,7 @@ impl Component {
 
 /// A checked accessor: every element lies within its buffer. Numbers are decoded when they are asked for.
 pub struct Column<'a> {
-    bytes: Cow<'a, [u8]>,
+    bytes: Slice<'a>,
     /// Bytes from one element to the next.
     stride: usize,
     /// Number of elements.
@@ -81,7 +82,7 @@ impl<'a> Column<'a> {
 
     /// The same column without a copy of its bytes.
     pub fn borrowed(&self) -> Column<'_> {
-        Column { bytes: Cow::Borrowed(&self.bytes), ..*self }
+        Column { bytes: self.bytes.borrowed(), ..*self }
     }
 
     /// The elements at these places, as real numbers. Elements of another width are refused.
@@ -89,17 +90,18 @@ impl<'a> Column<'a> {
         if self.width != N {
             return Err(format!("an accessor has elements of {} numbers where {N} are expected", self.width).into());
         }
-        let one = |most: f32| if self.normalized { most } else { 1.0 };
+        let normalized = self.normalized;
+        let one = |most: f32| if normalized { most } else { 1.0 };
         // The least code of signed numbers is below −1.
-        let signed = |x: f32| if self.normalized { x.max(-1.0) } else { x };
-        Ok(match self.component {
+        let signed = |x: f32| if normalized { x.max(-1.0) } else { x };
+        match self.component {
             Component::F32 => self.decoded(picks, f32::from_le_bytes),
             Component::U8 => self.decoded(picks, |[x]| f32::from(x) / one(255.0)),
             Component::I8 => self.decoded(picks, |[x]| signed(f32::from(x as i8) / one(127.0))),
             Component::U16 => self.decoded(picks, |x| f32::from(u16::from_le_bytes(x)) / one(65535.0)),
             Component::I16 => self.decoded(picks, |x| signed(f32::from(i16::from_le_bytes(x)) / one(32767.0))),
             Component::U32 => self.decoded(picks, |x| u32::from_le_bytes(x) as f32 / one(u32::MAX as f32)),
-        })
+        }
     }
 
     /// The elements at these places, as whole numbers.
@@ -107,12 +109,12 @@ impl<'a> Column<'a> {
         if self.width != N {
             return Err(format!("an accessor has elements of {} numbers where {N} are expected", self.width).into());
         }
-        Ok(match self.component {
+        match self.component {
             Component::U8 => self.decoded(picks, |[x]| u32::from(x)),
             Component::U16 => self.decoded(picks, |x| u32::from(u16::from_le_bytes(x))),
             Component::U32 => self.decoded(picks, u32::from_le_bytes),
-            _ => return Err("an accessor of indices has a component type that is not an unsigned integer".into()),
-        })
+            _ => Err("an accessor of indices has a component type that is not an unsigned integer".into()),
+        }
     }
 
     /// The column of triples of numbers, one after the other, if it has a number to an element and no gaps. A rest is left out.
@@ -122,18 +124,28 @@ impl<'a> Column<'a> {
         is_packed.then(triples)
     }
 
-    fn decoded<T, const N: usize, const B: usize>(&self, picks: &Picks, number: impl Fn([u8; B]) -> T + Sync) -> Vec<[T; N]>
+    fn decoded<T, const N: usize, const B: usize>(
+        &self,
+        picks: &Picks,
+        number: impl Fn([u8; B]) -> T + Sync,
+    ) -> Found<Vec<[T; N]>>
     where
         T: Send,
     {
-        let element = |at: usize| -> [T; N] {
-            let codes = self.bytes[at * self.stride..][..N * B].as_chunks::<B>().0;
-            std::array::from_fn(|i| number(codes[i]))
-        };
-        match picks {
-            Picks::First(count) => (0..*count).into_par_iter().with_min_len(AT_ONCE).map(element).collect(),
-            Picks::These(list) => list.par_iter().with_min_len(AT_ONCE).map(|at| element(*at as usize)).collect(),
+        let (stride, count) = (self.stride, picks.len());
+        let mut all = Vec::with_capacity(count);
+        for start in (0..count).step_by(BLOCK) {
+            let block = start..count.min(start + BLOCK);
+            let [first, last] = [block.start, block.end - 1].map(|place| picks.at(place));
+            let length = ((last - first) * stride + N * B) as u64;
+            let bytes = self.bytes.borrowed().part((first * stride) as u64, length).ok_or("it ends too early")?.read()?;
+            let element = |place: usize| -> [T; N] {
+                let codes = bytes[(picks.at(place) - first) * stride..][..N * B].as_chunks::<B>().0;
+                std::array::from_fn(|i| number(codes[i]))
+            };
+            all.par_extend(block.into_par_iter().with_min_len(AT_ONCE).map(element));
         }
+        Ok(all)
     }
 }
 
@@ -152,6 +164,14 @@ impl Picks {
         match self {
             Picks::First(count) => *count,
             Picks::These(list) => list.len(),
+        }
+    }
+
+    /// The place of an element of the column.
+    fn at(&self, place: usize) -> usize {
+        match self {
+            Picks::First(_) => place,
+            Picks::These(list) => list[place] as usize,
         }
     }
 
@@ -174,12 +194,12 @@ fn checked<'a>(document: &Document, buffers: &'a Buffers, accessor: &Accessor) -
             let view = element(&document.buffer_views, index, "buffer view")?;
             let stride = view.byte_stride.unwrap_or(size as u64);
             let bytes = buffers.view(document, index)?;
-            (Cow::Borrowed(window(bytes, accessor.byte_offset, count, stride, size)?), stride as usize)
+            (window(bytes, accessor.byte_offset, count, stride, size)?, stride as usize)
         }
         None => {
             let length = count as u64 * size as u64;
             buffers.spend(length, "accessors of zeros")?;
-            (Cow::Owned(vec![0; length as usize]), size)
+            (vec![0; length as usize].into(), size)
         }
     };
     let column = Column { bytes, stride, count, component, width, normalized: accessor.normalized };
@@ -221,15 +241,14 @@ fn layout(shape: &str, component: Component) -> Found<(usize, usize)> {
 }
 
 /// The bytes from the first element to the last one.
-fn window(bytes: &[u8], offset: u64, count: usize, stride: u64, size: usize) -> Found<&[u8]> {
+fn window(bytes: Slice<'_>, offset: u64, count: usize, stride: u64, size: usize) -> Found<Slice<'_>> {
     if stride < size as u64 {
         return Err(format!("elements of {size} bytes follow each other every {stride} bytes").into());
     }
-    let Some(last) = (count as u64).checked_sub(1) else { return Ok(&[]) };
-    let end = last.checked_mul(stride).and_then(|start| start.checked_add(size as u64)?.checked_add(offset));
-    let end = end.filter(|end| *end <= bytes.len() as u64);
-    let end = end.ok_or_else(|| format!("{count} elements go beyond the end of a buffer view of {} bytes", bytes.len()))?;
-    Ok(&bytes[offset as usize..end as usize])
+    let Some(last) = (count as u64).checked_sub(1) else { return Ok(Vec::new().into()) };
+    let (length, whole) = (last.checked_mul(stride).and_then(|start| start.checked_add(size as u64)), bytes.len());
+    let part = length.and_then(|length| bytes.part(offset, length));
+    part.ok_or_else(|| format!("{count} elements go beyond the end of a buffer view of {whole} bytes").into())
 }
 
 /// The column with some elements replaced, packed.
@@ -248,13 +267,13 @@ fn replaced<'a>(
     let part = |view, offset, size: usize| window(buffers.view(document, view)?, offset, count, size as u64, size);
     let indices = part(sparse.indices.buffer_view, sparse.indices.byte_offset, component.bytes())?;
     let values = part(sparse.values.buffer_view, sparse.values.byte_offset, size)?;
-    let places = Column { bytes: indices.into(), stride: component.bytes(), count, component, width: 1, normalized: false };
+    let places = Column { bytes: indices, stride: component.bytes(), count, component, width: 1, normalized: false };
     buffers.spend((column.count * size + 4 * count) as u64, "sparse accessors")?;
-    let mut bytes = Vec::with_capacity(column.count * size);
+    let (mut bytes, base) = (Vec::with_capacity(column.count * size), column.bytes.borrowed().read()?);
     for element in 0..column.count {
-        bytes.extend_from_slice(&column.bytes[element * column.stride..][..size]);
+        bytes.extend_from_slice(&base[element * column.stride..][..size]);
     }
-    for ([place], value) in places.wholes::<1>(&Picks::First(count))?.iter().zip(values.chunks_exact(size)) {
+    for ([place], value) in places.wholes::<1>(&Picks::First(count))?.iter().zip(values.read()?.chunks_exact(size)) {
         let start = *place as usize * size;
         let target =
             bytes.get_mut(start..start + size).ok_or_else(|| format!("it replaces element {place}, which it does not have"))?;

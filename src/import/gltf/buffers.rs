@@ -4,16 +4,11 @@ use std::{cell::Cell, collections::HashMap, path::PathBuf, rc::Rc};
 use base64::{Engine, engine::general_purpose::STANDARD};
 
 use super::{
-    container::take,
+    bytes::{Bytes, Slice},
     document::{Buffer, BufferView, Document, Index, element},
     refusal::{Found, Refusal},
 };
-use crate::{
-    file::open_regular,
-    import::Folder,
-    memory::Reservation,
-    progress::{Progress, Stage},
-};
+use crate::{file::open_regular, import::Folder, memory::Reservation, progress::Progress};
 
 /// Bytes that decoded data may take beyond a factor of the files.
 const FACTOR: u64 = 3;
@@ -21,7 +16,7 @@ const BASE: u64 = 192 << 20;
 
 /// The bytes of all buffers. A buffer that cannot be read is an error only if something uses it.
 pub struct Buffers {
-    data: Vec<Found<Rc<Vec<u8>>>>,
+    data: Vec<Found<Rc<Bytes>>>,
     /// Bytes of memory that decoded data may still take.
     allowance: Cell<u64>,
     _room: Reservation,
@@ -29,7 +24,7 @@ pub struct Buffers {
 
 impl Buffers {
     /// Reads all buffers. `length` is that of the scene file, bytes.
-    pub fn read(document: &Document, blob: Option<Vec<u8>>, length: u64, folder: &Folder, progress: &Progress) -> Found<Buffers> {
+    pub fn read(document: &Document, blob: Option<Bytes>, length: u64, folder: &Folder, progress: &Progress) -> Found<Buffers> {
         let mut files = Files { folder, progress, known: HashMap::new(), room: Reservation::none(), length };
         let mut blob = blob.map(Rc::new);
         let mut data = Vec::new();
@@ -48,13 +43,12 @@ impl Buffers {
     }
 
     /// The bytes of a view.
-    pub fn view(&self, document: &Document, index: Index) -> Found<&[u8]> {
+    pub fn view(&self, document: &Document, index: Index) -> Found<Slice<'_>> {
         let view = element(&document.buffer_views, index, "buffer view")?;
         let data = element(&self.data, view.buffer, "buffer")?.as_ref().map_err(Clone::clone)?;
         let BufferView { byte_offset: start, byte_length: length, .. } = *view;
-        let end = start.checked_add(length).filter(|end| *end <= data.len() as u64);
-        let end = end.ok_or_else(|| format!("buffer view {index} goes beyond the end of buffer {}", view.buffer))?;
-        Ok(&data[start as usize..end as usize])
+        let part = data.all().part(start, length);
+        part.ok_or_else(|| format!("buffer view {index} goes beyond the end of buffer {}", view.buffer).into())
     }
 
     /// Bytes of memory that decoded data may still take.
@@ -82,8 +76,8 @@ fn missing(document: &Document) -> Refusal {
     }
 }
 
-fn long_enough(bytes: Rc<Vec<u8>>, buffer: &Buffer) -> Found<Rc<Vec<u8>>> {
-    if (bytes.len() as u64) < buffer.byte_length {
+fn long_enough(bytes: Rc<Bytes>, buffer: &Buffer) -> Found<Rc<Bytes>> {
+    if bytes.len() < buffer.byte_length {
         return Err(format!("it should have {} bytes, and has {}", buffer.byte_length, bytes.len()).into());
     }
     Ok(bytes)
@@ -93,16 +87,16 @@ fn long_enough(bytes: Rc<Vec<u8>>, buffer: &Buffer) -> Found<Rc<Vec<u8>>> {
 struct Files<'a> {
     folder: &'a Folder,
     progress: &'a Progress,
-    known: HashMap<PathBuf, Rc<Vec<u8>>>,
+    known: HashMap<PathBuf, Rc<Bytes>>,
     room: Reservation,
     /// Bytes of all files.
     length: u64,
 }
 
 impl Files<'_> {
-    fn bytes(&mut self, uri: &str) -> Found<Rc<Vec<u8>>> {
+    fn bytes(&mut self, uri: &str) -> Found<Rc<Bytes>> {
         if let Some(bytes) = data_uri(uri) {
-            return bytes.map(Rc::new);
+            return bytes.map(|bytes| Rc::new(Bytes::Memory(bytes)));
         }
         let help = "a glTF file needs the files that it names, in its own folder";
         let path = resolve(self.folder, uri).map_err(|message| Refusal::new(message, help))?;
@@ -110,11 +104,9 @@ impl Files<'_> {
             return Ok(known.clone());
         }
         let unreadable = |error: std::io::Error| Refusal::new(format!("`{uri}` cannot be read: {error}"), help);
-        let mut file = open_regular(&path).map_err(unreadable)?;
+        let file = open_regular(&path).map_err(unreadable)?;
         let length = file.metadata().map_err(unreadable)?.len();
-        self.room.grow("the bytes of a buffer", length)?;
-        self.progress.expect(Stage::Files, length);
-        let bytes = Rc::new(take(&mut file, length, self.progress)?);
+        let bytes = Rc::new(Bytes::of(file, length, &mut self.room, self.progress)?);
         self.length += length;
         self.known.insert(path, bytes.clone());
         Ok(bytes)

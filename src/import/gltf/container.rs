@@ -6,6 +6,7 @@ use std::{
 };
 
 use super::{
+    bytes::Bytes,
     document::Document,
     refusal::{Found, Refusal},
 };
@@ -29,10 +30,10 @@ const BASE: u64 = 200 << 20;
 pub struct Container {
     pub document: Document,
     /// The binary chunk.
-    pub blob: Option<Vec<u8>>,
+    pub blob: Option<Bytes>,
     /// Length of the file, bytes.
     pub length: u64,
-    /// Room for the chunks.
+    /// Room for the chunks that are in memory.
     pub room: Reservation,
 }
 
@@ -44,12 +45,13 @@ pub fn open(path: &Path, progress: &Progress) -> Found<Container> {
     };
     let mut file = open_regular(path).map_err(unreadable)?;
     let length = file.metadata().map_err(unreadable)?.len();
-    let room = reserve("the bytes of the file", length)?;
-    progress.expect(Stage::Files, length);
+    let mut room = Reservation::none();
     let mut head = [0; 12];
     let is_binary = length >= 12 && file.read_exact(&mut head).is_ok() && word(&head, 0) == MAGIC;
     if !is_binary {
         file.seek(SeekFrom::Start(0)).map_err(unreadable)?;
+        room.grow("the bytes of the file", length)?;
+        progress.expect(Stage::Files, length);
         let json = take(&mut file, length, progress)?;
         return Ok(Container { document: parse(&json)?, blob: None, length, room });
     }
@@ -57,27 +59,36 @@ pub fn open(path: &Path, progress: &Progress) -> Found<Container> {
         2 => {}
         version => return Err(refused_version(&version.to_string())),
     }
-    let (document, blob) = chunks(&mut file, length - 12, progress)?;
+    let (document, blob) = chunks(&mut file, length - 12, &mut room, progress)?;
     Ok(Container { document, blob, length, room })
 }
 
 /// The chunks of a binary file whose header has been read.
-fn chunks(file: &mut File, mut left: u64, progress: &Progress) -> Found<(Document, Option<Vec<u8>>)> {
+fn chunks(file: &mut File, mut left: u64, room: &mut Reservation, progress: &Progress) -> Found<(Document, Option<Bytes>)> {
+    let unreadable = |error: std::io::Error| format!("cannot be read: {error}");
     let (mut document, mut blob) = (None, None);
     while left >= 8 && (document.is_none() || blob.is_none()) {
         let mut head = [0; 8];
-        file.read_exact(&mut head).map_err(|error| format!("cannot be read: {error}"))?;
+        file.read_exact(&mut head).map_err(unreadable)?;
         let length = u64::from(word(&head, 0));
         left -= 8;
         if length > left {
             return Err(format!("a chunk of {length} bytes goes beyond the end of the file").into());
         }
         match word(&head, 1) {
-            JSON if document.is_none() => document = Some(parse(&take(file, length, progress)?)?),
-            BINARY if blob.is_none() => blob = Some(take(file, length, progress)?),
-            _ => {
-                file.seek_relative(length as i64).map_err(|error| format!("cannot be read: {error}"))?;
+            JSON if document.is_none() => {
+                room.grow("the bytes of the file", length)?;
+                progress.expect(Stage::Files, length);
+                document = Some(parse(&take(file, length, progress)?)?);
             }
+            BINARY if blob.is_none() => {
+                let other = file.try_clone().map_err(unreadable)?;
+                let end = file.stream_position().map_err(unreadable)? + length;
+                blob = Some(Bytes::of(other, length, room, progress)?);
+                // Both have the same position.
+                file.seek(SeekFrom::Start(end)).map_err(unreadable)?;
+            }
+            _ => file.seek_relative(length as i64).map_err(unreadable)?,
         }
         left -= length;
     }

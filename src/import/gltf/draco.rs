@@ -20,7 +20,7 @@ pub fn columns(document: &Document, buffers: &Buffers, primitive: &Primitive) ->
         return Ok(HashMap::new());
     };
     let Some(indices) = primitive.indices else { return Err("triangles compressed by Draco have no `indices`".into()) };
-    let mesh = decoded(buffers.view(document, described.buffer_view)?, buffers.left())?;
+    let mesh = decoded(&buffers.view(document, described.buffer_view)?.read()?, buffers.left())?;
     let faces = mesh.faces().iter().flatten().map(|point| point.0);
     buffers.spend(TRIANGLE * mesh.num_faces() as u64, "triangles")?;
     let mut columns = HashMap::from([(indices, Column::of_indices(faces))]);

@@ -5,6 +5,7 @@ use ::image::{ImageReader, Limits};
 
 use super::{
     buffers::{Buffers, data_uri, resolve},
+    bytes::Slice,
     document::{Document, Image, Index, element},
 };
 use crate::{
@@ -53,7 +54,10 @@ impl<'a> Images<'a> {
                     };
                 }
             },
-            (None, Some(view)) => self.buffers.view(self.document, view).map_err(|error| error.message)?.to_vec(),
+            (None, Some(view)) => {
+                let bytes = self.buffers.view(self.document, view).and_then(Slice::read);
+                bytes.map_err(|error| error.message)?.into_owned()
+            }
             (None, None) => return Err("it has no data".to_owned()),
         };
         let ending = ending(&bytes)?;

@@ -7,6 +7,7 @@ mod accessor;
 mod animation;
 mod attributes;
 mod buffers;
+mod bytes;
 mod cameras;
 mod container;
 mod document;
@@ -47,10 +48,10 @@ use crate::{quote, scene::SceneError};
 ///
 /// At time 0 the nodes stand as the file states them, and skins and morph targets are in that pose; at any other time animations move
 /// them.
-pub fn read(path: &Path, options: &ImportOptions) -> Result<Imported, SceneError> {
+pub fn read(path: &Path, options: &ImportOptions, folder: &Folder) -> Result<Imported, SceneError> {
     let file = path.file_name().map_or_else(|| "glTF".to_owned(), |name| quote::piece(&name.to_string_lossy()));
     container::open(path, &options.progress)
-        .and_then(|container| translated(container, &Folder::new(path, options), options, &file))
+        .and_then(|container| translated(container, folder, options, &file))
         .map_err(|refusal| refusal.of_file(path))
 }
 

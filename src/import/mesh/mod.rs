@@ -39,16 +39,15 @@ use crate::{
 };
 
 /// Reads the file.
-pub fn read(path: &Path, options: &ImportOptions) -> Result<Imported, SceneError> {
+pub fn read(path: &Path, options: &ImportOptions, folder: &Folder) -> Result<Imported, SceneError> {
     const HELP: &str = "a mesh is an OBJ, PLY or STL file";
     let key = key_of_file(&path.with_file_name(path.file_name().unwrap_or_default()));
     let parts =
         read_parts(path, &options.progress).map_err(|error| SceneError::of_file(path, error.problem.to_string(), HELP))?;
     let file = path.file_name().map_or_else(|| "mesh".to_owned(), |name| quote::piece(&name.to_string_lossy()));
-    let folder = Folder::new(path, options);
     let mut to = Imported::default();
     to.description.title = path.file_stem().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-    let library = Library::read(&parts.libraries, &folder, &file, &mut to.remarks);
+    let library = Library::read(&parts.libraries, folder, &file, &mut to.remarks);
     let bounds = parts.list.iter().map(|part| bounds(&part.model)).reduce(|[a, b], [c, d]| [a.min(c), b.max(d)]);
     let bounds = bounds.unwrap_or([DVec3::ZERO; 2]);
     let mut objects = Objects {
@@ -58,7 +57,7 @@ pub fn read(path: &Path, options: &ImportOptions) -> Result<Imported, SceneError
         size: bounds[0].distance(bounds[1]),
         is_alone: parts.list.len() == 1,
         library,
-        textures: Textures::new(folder),
+        textures: Textures::new(folder.clone()),
         names: Names::default(),
         meshes: Names::default(),
     };

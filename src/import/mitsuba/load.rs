@@ -47,6 +47,7 @@ impl Files {
             let inside = Path::new(named).is_relative().then(|| folder.join(named).canonicalize().ok())??;
             inside.starts_with(folder).then_some(inside)
         });
+        shared.iter().for_each(|file| self.folder.note(file));
         shared.map_or_else(|| self.folder.resolve(named), Ok)
     }
 }
@@ -71,10 +72,10 @@ struct Source {
 }
 
 /// Loads a scene file with all that it includes.
-pub fn load(path: &Path, options: &ImportOptions) -> Result<(Tree, Files), SceneError> {
+pub fn load(path: &Path, options: &ImportOptions, folder: &Folder) -> Result<(Tree, Files), SceneError> {
     let mut loader = Loader {
         tree: Tree::default(),
-        files: Files { folder: Folder::new(path, options), search: Vec::new() },
+        files: Files { folder: folder.clone(), search: Vec::new() },
         allow_outside: options.allow_outside,
         parameters: Substitutions::new(&options.defines),
         includes: 0,

@@ -33,12 +33,12 @@ use glam::DAffine3;
 
 pub use self::bsdfs::coat;
 use self::{context::Import, tree::Element};
-use super::{ImportOptions, Imported};
+use super::{Folder, ImportOptions, Imported};
 use crate::scene::SceneError;
 
 /// Reads the file.
-pub fn read(path: &Path, options: &ImportOptions) -> Result<Imported, SceneError> {
-    let (tree, files) = load::load(path, options)?;
+pub fn read(path: &Path, options: &ImportOptions, folder: &Folder) -> Result<Imported, SceneError> {
+    let (tree, files) = load::load(path, options, folder)?;
     let mut import = Import::new(files);
     let root = tree.root().see();
     let title = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());

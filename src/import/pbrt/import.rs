@@ -1,9 +1,5 @@
 //! What a translation has made so far.
-use std::{
-    collections::HashMap,
-    path::{Path, PathBuf},
-    rc::Rc,
-};
+use std::{collections::HashMap, path::PathBuf, rc::Rc};
 
 use glam::DAffine3;
 
@@ -14,7 +10,7 @@ use super::{
 };
 use crate::{
     declare::Textured,
-    import::{Folder, ImportOptions, Imported, Names, NewFiles, Remarks},
+    import::{Folder, Imported, Names, NewFiles, Remarks},
     scene::{SceneError, description::SceneDescription},
 };
 
@@ -63,9 +59,9 @@ pub struct Import {
 
 impl Import {
     /// A translation that has made nothing yet.
-    pub fn new(scene: &Path, options: &ImportOptions) -> Import {
+    pub fn new(folder: Folder) -> Import {
         Import {
-            files: Files::new(Folder::new(scene, options)),
+            files: Files::new(folder),
             description: SceneDescription::default(),
             new_files: NewFiles::default(),
             remarks: Remarks::default(),

@@ -34,12 +34,12 @@ mod transforms;
 use std::path::Path;
 
 use self::{directives::Interpreter, import::Import, tokens::Tokens};
-use super::{ImportOptions, Imported};
+use super::{Folder, ImportOptions, Imported};
 use crate::scene::SceneError;
 
 /// Reads the file and all that it includes.
-pub fn read(path: &Path, options: &ImportOptions) -> Result<Imported, SceneError> {
-    let mut import = Import::new(path, options);
+pub fn read(path: &Path, _: &ImportOptions, folder: &Folder) -> Result<Imported, SceneError> {
+    let mut import = Import::new(folder.clone());
     let help = "a scene of pbrt-v4 is a text file; packed ones end in .pbrt.gz";
     let source = import.files.text(path).map_err(|message| SceneError::of_file(path, message, help))?;
     let known = path.canonicalize().unwrap_or_else(|_| path.to_owned());

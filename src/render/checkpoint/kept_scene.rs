@@ -58,6 +58,7 @@ fn named_files(scene: &Scene, kept: &KeptScene, known: Option<&SceneDescription>
     let mut paths = BTreeSet::new();
     for_each_file(&mut description, &mut |path| _ = paths.insert(path.clone()));
     scene.assets.paths().for_each(|path| _ = paths.remove(path));
+    paths.extend(scene.assets.sources().map(str::to_owned));
     // The text of a scene of ours is inside.
     paths.extend(kept.choices.is_some().then(|| kept.name.clone()));
     let folder = Path::new(&kept.folder);

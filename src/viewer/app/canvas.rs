@@ -27,6 +27,9 @@ impl App {
         if let Some(pixel) = output.clicked {
             self.click(pixel);
         }
+        if let Some((material, pixel)) = output.dropped {
+            self.assign_at(pixel, material);
+        }
         if let Some(area) = &output.area {
             self.overlays(ui, area, output.second_area.as_ref());
         }

@@ -1,6 +1,8 @@
 //! Commands of the toolbar and of single keys.
 use egui::{Context, Event, InputState, Key, KeyboardShortcut, Modifiers, Popup, Ui, ViewportCommand};
 
+use noisefall::render::State;
+
 use super::state::App;
 use crate::viewer::background::catalogue::SceneRequest;
 use crate::viewer::canvas::interaction::Tool;
@@ -49,6 +51,7 @@ impl App {
         let bar = Toolbar {
             is_open: self.session.opened.is_some(),
             is_paused: self.session.budget.paused,
+            is_done: matches!(self.results.status.state, State::Done(_)),
             has_region: self.session.budget.region.is_some(),
             can_save: self.can_save(),
             is_comparing: self.session.comparison.is_some(),

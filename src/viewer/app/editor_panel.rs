@@ -1,7 +1,7 @@
 //! Joins the outliner and the inspector with the document.
 use egui::{RichText, ScrollArea, Ui};
 use noisefall::{
-    declare::{Declare, Path},
+    declare::{Declare, Family, Path},
     edit::Edit,
 };
 
@@ -15,6 +15,7 @@ use crate::viewer::panels::{
     inspector::{Asked, Drag, Request, Surroundings},
     objects, scene_commands,
     scene_commands::SceneCommand,
+    subject::Subject,
 };
 use crate::viewer::widgets::split;
 
@@ -79,7 +80,10 @@ impl App {
                     let Some(editor) = &self.editor else { return };
                     editor.document.change_kind(&path, choice, name)
                 }
-                Request::Insert { path } => Edit::insert(path),
+                Request::Insert { path } => {
+                    let Some(editor) = &self.editor else { return };
+                    editor.document.insert(&path)
+                }
                 Request::Remove { path } => Edit::remove(path),
                 Request::BrowseFile { path } => {
                     self.ask_for_file(FilePurpose::Value(path));
@@ -87,6 +91,14 @@ impl App {
                 }
                 Request::BrowseTexture { path } => {
                     self.ask_for_file(FilePurpose::Texture(path));
+                    continue;
+                }
+                Request::Show { family, name } => {
+                    let subject = match family {
+                        Family::Material => Subject::Material(name),
+                        Family::Texture => Subject::Texture(name),
+                    };
+                    self.selection.select(Some(subject));
                     continue;
                 }
             };
@@ -128,7 +140,8 @@ fn inspected(editor: &mut SceneEditor, ui: &mut Ui, part: &mut dyn Declare, path
     let description = editor.document.description();
     let [textures, materials]: [Vec<String>; 2] =
         [description.textures.keys().cloned().collect(), description.materials.keys().cloned().collect()];
-    let surroundings = Surroundings { textures: &textures, materials: &materials, size };
+    let count_objects = |name: &str| description.objects.iter().filter(|object| object.material.as_deref() == Some(name)).count();
+    let surroundings = Surroundings { textures: &textures, materials: &materials, count_objects: &count_objects, size };
     ui.label(RichText::new(path.to_string()).weak()).on_hover_text("The path of this part in the scene file.");
     editor.inspector.show(ui, part, path, &surroundings)
 }

@@ -31,12 +31,22 @@ impl App {
         self.keep_changes();
         self.keep_progress();
         self.record_step();
+        self.keep_scale();
         self.update_title();
         let compiled = self.session.opened.as_ref().map(|opened| &opened.scene.compiled);
         self.frame_times.show(&ctx, self.session.threads, self.background.worker.generation(), compiled);
         self.submit();
         self.window.had_focus = ctx.egui_wants_keyboard_input();
         self.frame_times.record(start.elapsed(), ctx.input(|input| input.time));
+    }
+
+    /// Remembers the size of text and controls, which egui changes too.
+    fn keep_scale(&mut self) {
+        let scale = self.ctx.zoom_factor();
+        let scale = (scale != 1.0).then_some(scale);
+        if self.preferences.now.scale != scale {
+            self.preferences.change(|saved| saved.scale = scale);
+        }
     }
 }
 

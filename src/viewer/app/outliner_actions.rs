@@ -59,13 +59,13 @@ impl App {
 
     /// Adds an object or a lamp where the picture was clicked last, or a material or a texture.
     pub fn add(&mut self, new: New) {
-        let placement = self.placement();
+        let (placement, exposure) = (self.placement(), self.session.look.display.exposure.into());
         let Some(editor) = &self.editor else { return };
         let document = &editor.document;
         let added = match new {
             New::Shape(kind) => document.add_shape(kind, &placement, None),
-            New::Lamp(kind) => document.add_lamp(kind, &placement),
-            New::LampWithoutSurface(kind) => document.add_lamp_without_surface(kind, &placement),
+            New::Lamp(kind) => document.add_lamp(kind, &placement, exposure),
+            New::LampWithoutSurface(kind) => document.add_lamp_without_surface(kind, &placement, exposure),
             New::Material => Some(added(document, "materials", "material", &mut MaterialDescription::default())),
             New::Texture => Some(added(document, "textures", "texture", &mut TextureKind::from(Checker::default()))),
         };

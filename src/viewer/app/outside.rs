@@ -1,5 +1,5 @@
 //! Follows the files of the open scene: other programs can change them.
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use noisefall::{
     edit::Outside,
@@ -30,8 +30,8 @@ impl App {
         while let Some(path) = self.background.files.take() {
             if self.editor.as_ref().is_some_and(|editor| editor.document.path() == Some(&path)) {
                 self.outside.recheck();
-            } else if self.session.path() == Some(&path) {
-                self.reload_foreign(path);
+            } else if self.session.path() == Some(&path) || self.is_source(&path) {
+                self.reload_foreign();
             } else {
                 // The scene names it. The compile reads files that have changed.
                 self.follow_document();
@@ -63,15 +63,26 @@ impl App {
         let is_other = before.is_none_or(|(of, _)| of != path);
         let named = named_files(document.description()).into_iter().map(|file| folder.join(file));
         let foreign = opened.path.clone().filter(|path| is_foreign(path));
-        let files = named.chain(document.path().map(Path::to_owned)).chain(foreign).collect();
+        let sources = foreign.iter().flat_map(|_| opened.scene.assets.sources()).map(|file| folder.join(file));
+        let files = named.chain(document.path().map(Path::to_owned)).chain(sources).chain(foreign.clone()).collect();
         self.background.files.watch(files);
         self.outside.watched = Some((path.to_owned(), version));
         // It could have changed before it was watched.
         self.outside.is_due |= is_other;
     }
 
-    /// Opens the file of another program again that has changed.
-    fn reload_foreign(&mut self, path: PathBuf) {
+    /// Whether the scene of another program was read from this file too, such as one that its file includes.
+    fn is_source(&self, path: &Path) -> bool {
+        let (Some(editor), Some(opened)) = (&self.editor, &self.session.opened) else { return false };
+        let Ok(inside) = path.strip_prefix(opened.folder()) else { return false };
+        let is_named = || named_files(editor.document.description()).iter().any(|file| file == inside);
+        let is_foreign = opened.path.as_deref().is_some_and(is_foreign);
+        is_foreign && opened.scene.assets.sources().any(|source| Path::new(source) == inside) && !is_named()
+    }
+
+    /// Opens the scene of another program again that has changed.
+    fn reload_foreign(&mut self) {
+        let Some(path) = self.session.path().map(Path::to_owned) else { return };
         self.window.kept_view = Some((path.clone(), self.session.camera, self.session.settings));
         self.ask_to_leave(Leaving::Open(Some(path)));
     }

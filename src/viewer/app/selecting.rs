@@ -7,7 +7,7 @@ use noisefall::render::RenderRequest;
 
 use super::state::App;
 use crate::viewer::canvas::{framing, interaction::Tool, picking, picture_area::PictureArea, selection};
-use crate::viewer::panels::{panel_tabs::PanelTab, subject::Subject};
+use crate::viewer::panels::{outliner::Action, panel_tabs::PanelTab, subject::Subject};
 
 impl App {
     /// Selects the object at a pixel of the picture, or nothing. The tool Picture shows its parameters; with the tool Camera the panel
@@ -18,6 +18,14 @@ impl App {
         self.selection.select(object.map(Subject::Object));
         if object.is_some() && self.window.tool == Tool::Picture {
             self.window.panel = PanelTab::Edit;
+        }
+    }
+
+    /// Gives the object at a pixel of the picture a material.
+    pub fn assign_at(&mut self, pixel: [u32; 2], material: String) {
+        match self.object_at(pixel) {
+            Some(object) => self.act_on(Subject::Object(object), Action::AssignMaterial(Some(material))),
+            None => self.tell("There is no object here. Drop the material on one".to_owned(), false),
         }
     }
 

@@ -80,6 +80,9 @@ impl App {
     pub fn new(ctx: &egui::Context, threads: Threads, scene: GivenScene, preferences: Preferences) -> App {
         set_fonts(ctx);
         set_themes(ctx, preferences.now.theme.as_deref());
+        if let Some(scale) = preferences.now.scale.filter(|scale| (0.5..=4.0).contains(scale)) {
+            ctx.set_zoom_factor(scale);
+        }
         let session = Session::new(threads.count());
         let mut background = Background {
             worker: RenderWorkerHandle::new(threads, ctx),

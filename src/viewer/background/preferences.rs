@@ -16,6 +16,8 @@ pub struct SavedState {
     pub toured: bool,
     /// "dark" or "light"; `None` follows the system.
     pub theme: Option<String>,
+    /// Size of text and controls relative to that of the system; `None` is 1.
+    pub scale: Option<f32>,
     /// The files that were opened last, the latest first.
     pub recent: Vec<PathBuf>,
 }
@@ -73,7 +75,7 @@ mod tests {
         let mut preferences = Preferences::in_folder(&inner);
         assert_eq!(preferences.now, SavedState::default());
         preferences.change(|now| {
-            (now.toured, now.theme) = (true, Some("light".to_owned()));
+            (now.toured, now.theme, now.scale) = (true, Some("light".to_owned()), Some(1.25));
             now.recent = vec![PathBuf::from("/a \"scene\".toml")];
         });
         let now = preferences.now.clone();

@@ -68,6 +68,7 @@ pub fn show(ctx: &egui::Context, dialog: &mut Option<OpenDialog>) -> Option<Path
         .show(ctx, |ui| asked = dialog_body(ui, &mut asking));
     let field = &mut asking.field;
     match asked.file.or(field.path().filter(|_| asked.opens)) {
+        Some(path) if path.is_file() && !can_be_scene(&path) => field.refusal = Some(foreign(&path)),
         Some(path) if path.is_file() => return Some(path),
         Some(path) => field.refusal = Some(format!("There is no file {}. Check the path, or choose Browse…", path.display())),
         None => {}
@@ -76,6 +77,18 @@ pub fn show(ctx: &egui::Context, dialog: &mut Option<OpenDialog>) -> Option<Path
         *dialog = Some(asking);
     }
     None
+}
+
+/// Whether a file may be a scene, a mesh or a saved image, by its name. A scene of our own may have any extension that no program claims.
+fn can_be_scene(path: &Path) -> bool {
+    const OTHERS: [&str; 12] = ["avif", "bmp", "csv", "gif", "hdr", "jpeg", "jpg", "mtl", "pdf", "tga", "tiff", "webp"];
+    let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+    !OTHERS.contains(&&*extension)
+}
+
+fn foreign(path: &Path) -> String {
+    let name = path.file_name().unwrap_or_default().display();
+    format!("{name} is not a scene. To use an image as a texture or sky, drop it on the window.")
 }
 
 /// Shows the files that were opened last; those that are gone are disabled. Returns the one that was clicked.

@@ -29,6 +29,8 @@ pub enum Command {
 pub struct Toolbar<'a> {
     pub is_open: bool,
     pub is_paused: bool,
+    /// The render has reached its target.
+    pub is_done: bool,
     pub has_region: bool,
     pub can_save: bool,
     pub is_comparing: bool,
@@ -104,12 +106,16 @@ impl Toolbar<'_> {
                 Button::new(label).min_size(egui::vec2(66.0, 0.0)),
                 "Pauses or resumes the render and keeps its samples. (Space)",
                 Command::TogglePause,
+                self.is_paused || !self.is_done,
             ),
-            (Button::new("Step"), step, Command::Step),
-            (Button::new("Restart"), "Restarts rendering. (Ctrl+R)", Command::Restart),
+            (Button::new("Step"), step, Command::Step, true),
+            (Button::new("Restart"), "Restarts rendering. (Ctrl+R)", Command::Restart, true),
         ];
-        let clicked = buttons
-            .map(|(button, doc, command)| ui.add_enabled(self.is_open, button).on_hover_text(doc).clicked().then_some(command));
+        let clicked = buttons.map(|(button, doc, command, is_possible)| {
+            let button = ui.add_enabled(self.is_open && is_possible, button).on_hover_text(doc);
+            let done = "The render has reached its target. To go on, raise the samples under Stop.";
+            button.on_disabled_hover_text(if self.is_open { done } else { doc }).clicked().then_some(command)
+        });
         clicked.into_iter().flatten().next()
     }
 

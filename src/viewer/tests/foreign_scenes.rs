@@ -86,3 +86,22 @@ fn a_scene_of_another_program_is_opened_again_when_its_file_changes() {
     wait(&mut window, "the changed mesh", move |app| corners(app) != before);
     assert!(window.state().dialogs.unsaved.is_none());
 }
+
+#[test]
+fn it_is_opened_again_when_a_file_that_it_includes_changes() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (room, ball) = (folder.path().join("room.xml"), folder.path().join("ball.xml"));
+    let write = |path: &FilePath, text: &str| std::fs::write(path, text).expect("it is written");
+    let radius = |radius: f64| {
+        format!("<scene version=\"3.0.0\"><shape type=\"sphere\"><float name=\"radius\" value=\"{radius}\"/></shape></scene>")
+    };
+    write(&ball, &radius(1.0));
+    write(&room, "<scene version=\"3.0.0\"><include filename=\"ball.xml\"/></scene>");
+    let mut window = open_with(Some(room.clone()), App::use_disk);
+    is_open(&mut window, &room);
+    wait(&mut window, "the watch", |app| app.outside.watched.is_some());
+    let corners = |app: &App| app.session.opened.as_ref().map(|opened| opened.scene.objects[0].shape.corners());
+    let before = corners(window.state());
+    write(&ball, &radius(2.0));
+    wait(&mut window, "the changed ball", move |app| corners(app) != before);
+}

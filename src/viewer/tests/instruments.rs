@@ -33,7 +33,7 @@ fn curves_of_other_settings_stay_and_those_of_other_cameras_go() {
     restarts(&mut window, "independent samples", |w| choose(w, "Sampler", "Independent"));
     grown(&mut window, 2);
     window.run_steps(2);
-    assert!(window.query_all_by_label_contains("sampler independent, ").count() > 0, "curves are named by what differs");
+    assert!(window.query_all_by_label_contains("Independent, ").count() > 0, "curves are named by what differs");
     window.state_mut().session.camera.fov = 50.0;
     grown(&mut window, 1);
 }
@@ -105,6 +105,7 @@ fn a_comparison_starts_with_one_click_and_both_sides_converge() {
         app.results.legend.as_ref().is_some_and(|legend| legend.title == "Difference" && legend.scale.is_some())
     });
     click(&mut window, "Wipe");
+    wait(&mut window, "both pictures", |app| app.results.textures.iter().all(Option::is_some));
     let line = window.state().window.view.wipe;
     let [middle, height] = [(1280.0 - 336.0) / 2.0, 500.0];
     never_restarts(&mut window, |w| drag(w, PointerButton::Primary, [middle, height], [middle - 100.0, height]));

@@ -155,7 +155,7 @@ fn each_side_of_a_comparison_has_its_own_figures_in_their_columns() {
     let texts = said(&mut app, |app, ui| app.instrument(ui, InstrumentTab::Compare));
     for row in [
         ["A", "MIS, Sobol (Owen), no sharing", "7", "2.5 s", "4.00 %", "5.00 %", "160", "the solution"],
-        ["B", "max-bounces 2, no sharing", "9", "3.5 s", "2.00 %", "10.00 %", "28.6", "biased: cap at 2"],
+        ["B", "cap of 2 bounces, no sharing", "9", "3.5 s", "2.00 %", "10.00 %", "28.6", "biased: cap at 2"],
     ] {
         assert!(texts.windows(row.len()).any(|cells| cells == row), "{row:?} is not in {texts:?}");
     }

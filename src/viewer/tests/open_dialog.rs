@@ -71,3 +71,18 @@ fn arrows_choose_from_the_list_and_enter_opens() {
     click(&mut window, "oven_one.toml");
     is_opened(&mut window, &folder.path().join("oven_one.toml"));
 }
+
+#[test]
+fn a_file_of_another_kind_is_refused_in_the_dialog() {
+    let folder = scenes();
+    let photo = folder.path().join("photo.jpg");
+    std::fs::write(&photo, "not a scene").expect("it is written");
+    let mut window = window("furnace");
+    window.key_press_modifiers(Modifiers::COMMAND, Key::O);
+    window.run_steps(4);
+    window.get_by_role(Role::TextInput).set_text_value_accesskit(&photo.display().to_string());
+    window.run_steps(3);
+    press(&mut window, Key::Enter);
+    let refusal = window.state().dialogs.open.as_ref().and_then(|dialog| dialog.field.refusal.clone());
+    assert!(refusal.is_some_and(|refusal| refusal.starts_with("photo.jpg is not a scene")));
+}

@@ -281,3 +281,14 @@ fn title_and_settings_of_the_scene_have_rows_too() {
     let opened = window.state().session.opened.as_ref().expect("it is open");
     assert!(opened.scene.source.contains("title = \"Five balls\""));
 }
+
+#[test]
+fn a_material_is_dragged_from_the_list_onto_an_object_in_the_image() {
+    let mut window = window("cornell_spheres");
+    let at = seen(&mut window, ball());
+    select(&mut window, Subject::Material("blue".to_owned()));
+    let row = window.get_all_by_role(Role::Button).find(|row| row.accesskit_node().label().as_deref() == Some("bluelambertian"));
+    let from = row.expect("the material has a row").rect().center();
+    edits(&mut window, "the blue ball", |window| drag(window, PointerButton::Primary, from.into(), at.into()));
+    assert_eq!(description(&window).objects[AMBER_BALL].material.as_deref(), Some("blue"));
+}

@@ -28,6 +28,27 @@ fn binary_files_hold_their_buffer() {
 }
 
 #[test]
+fn a_large_buffer_stays_on_disk_and_gives_the_same_mesh() {
+    // Corners, a gap as large as a file that is not read at once, and indices behind it.
+    const GAP: usize = 33 << 20;
+    let corners: Vec<u8> = CORNERS.iter().flat_map(|x| x.to_le_bytes()).collect();
+    let bytes = [corners, vec![0; GAP], [2u32, 0, 1].iter().flat_map(|i| i.to_le_bytes()).collect()].concat();
+    let mut json = triangle(json!({ "buffers": [{ "byteLength": bytes.len() }] }));
+    json["bufferViews"] = json!([json["bufferViews"][0], { "buffer": 0, "byteOffset": 36 + GAP, "byteLength": 12 }]);
+    json["accessors"] = json!([json["accessors"][0], { "bufferView": 1, "componentType": 5125, "count": 3, "type": "SCALAR" }]);
+    json["meshes"][0]["primitives"][0]["indices"] = json!(1);
+    let read = |json: &Value| {
+        let text = json.to_string();
+        read_bytes("a.glb", &glb(&[(b"JSON", text.as_bytes()), (b"BIN\0", &bytes)]), &ImportOptions::default())
+    };
+    let found = model(&read(&json).expect("it is read"), 0);
+    assert_eq!((found.vertices, found.triangles), (model(&imported(&triangle(json!({}))), 0).vertices, vec![[2, 0, 1]]));
+    json["bufferViews"][1]["byteLength"] = json!(16);
+    let error = read(&json).err().expect("the view is too long").to_string();
+    assert!(error.contains("goes beyond the end of buffer 0"), "{error}");
+}
+
+#[test]
 fn nodes_that_show_one_mesh_share_its_model() {
     let nodes = json!([
         { "mesh": 0, "name": "a", "translation": [1, 2, 3], "children": [1] },

@@ -10,7 +10,7 @@ use base64::{Engine, engine::general_purpose::STANDARD};
 use serde_json::{Map, Value, json};
 
 use crate::{
-    import::{ImportOptions, Imported},
+    import::{self, ImportOptions, Imported},
     model::Model,
     scene::{SceneError, description::ObjectDescription},
     shape::{ShapeKind, Transform, mesh::MeshSource},
@@ -69,7 +69,7 @@ fn read_bytes(name: &str, bytes: &[u8], options: &ImportOptions) -> Result<Impor
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join(name);
     fs::write(&path, bytes).expect("it is written");
-    super::read(&path, options)
+    import::read(&path, options)
 }
 
 fn read(json: &Value) -> Result<Imported, SceneError> {

@@ -1,8 +1,8 @@
 //! Randomly modified files: each is a valid scene or refused.
 use rand::{Rng, SeedableRng, rngs::SmallRng};
 
-use super::{super::read, SQUARE};
-use crate::import::ImportOptions;
+use super::SQUARE;
+use crate::import::{ImportOptions, read};
 
 const MTL: &str = "newmtl a\nKd 0.5 0.5 0.5\nKs 1 1 1\nNs 100\nNi 1.5\nd 0.5\nillum 2\nmap_Kd -s 2 2 1 -o 0 0 a.png\nnewmtl b\n\
     Pr 0.5\nPm 1\nKe 1 1 1\naniso 0.5\nTf 0.5 0.5 0.5\nillum 7\n";

@@ -5,8 +5,8 @@ mod scenes;
 
 use std::fs;
 
-use super::{super::Imported, read};
-use crate::import::ImportOptions;
+use super::super::Imported;
+use crate::import::{ImportOptions, read};
 
 /// The scene of a file `a.obj`, beside other files.
 fn scene(obj: &str, others: &[(&str, &[u8])]) -> Imported {

@@ -1,8 +1,8 @@
 //! Objects, cameras and light of mesh files.
-use super::{super::read, SQUARE, scene};
+use super::{SQUARE, scene};
 use crate::{
     declare::Resources,
-    import::{ImportOptions, Imported, open},
+    import::{ImportOptions, Imported, open, read},
     light::background::BackgroundDescription,
     model::Model,
     progress::{Progress, Stage},

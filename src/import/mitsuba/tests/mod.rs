@@ -8,10 +8,9 @@ mod shared;
 
 use std::{fs, path::Path};
 
-use super::read;
 use crate::{
     declare::check,
-    import::{ImportOptions, Imported},
+    import::{ImportOptions, Imported, read},
     scene::{
         SceneError,
         description::{MaterialDescription, ObjectDescription},

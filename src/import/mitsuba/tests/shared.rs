@@ -4,8 +4,10 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use super::read;
-use crate::{declare::check, import::ImportOptions};
+use crate::{
+    declare::check,
+    import::{ImportOptions, read},
+};
 
 fn scenes(folder: &Path, found: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {

@@ -7,9 +7,8 @@ mod shapes;
 
 use std::fs;
 
-use super::read;
 use crate::{
-    import::{ImportOptions, Imported},
+    import::{ImportOptions, Imported, read},
     scene::SceneError,
 };
 

@@ -108,8 +108,8 @@ mod tests {
                 "settings,sharing,spp,seconds,estimated_relative_error,true_relative_error,bias_in_standard_errors",
                 "\"MIS, Sobol (Owen), no sharing\",off,1,0.5,,2.5e-1,",
                 "\"MIS, Sobol (Owen), no sharing\",off,16,2,1.25e-1,6.25e-2,-1.5e0",
-                "\"sampler independent, shared paths\",on,4,0.75,5e-1,,",
-                "\"sampler independent, shared paths\",on,64,12,7.8125e-3,,2.25e0",
+                "\"Independent, shared paths\",on,4,0.75,5e-1,,",
+                "\"Independent, shared paths\",on,64,12,7.8125e-3,,2.25e0",
             ]
         );
     }
@@ -135,7 +135,7 @@ mod tests {
     fn the_drawing_is_over_what_the_plot_is_over() {
         let mut history = history();
         let over_samples = history.svg();
-        assert!(over_samples.contains("samples per pixel") && over_samples.contains("sampler independent"));
+        assert!(over_samples.contains("samples per pixel") && over_samples.contains("Independent"));
         assert_eq!(over_samples.matches("<circle").count(), 2, "points are true: two of them");
         history.over = HorizontalAxis::Seconds;
         let over_seconds = history.svg();

@@ -2,7 +2,7 @@
 use std::sync::Arc;
 
 use noisefall::{
-    render::{settings_text::options, sharing::sharing_name, truth::Reference},
+    render::{sharing::sharing_name, truth::Reference},
     scene::{Camera, RenderSettings, Scene},
 };
 
@@ -10,6 +10,7 @@ use super::{
     colours::COLOURS,
     curve::{Curve, HorizontalAxis, Moment},
 };
+use crate::viewer::widgets::counted::counted;
 
 /// The vertical axis of the curves.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -103,15 +104,24 @@ impl History {
 }
 
 /// Names settings by what differs from those of the scene, or by estimator and sampler if nothing does, and by whether pixels share paths.
+/// The words are those of the panel.
 pub fn name(settings: &RenderSettings, of_scene: &RenderSettings, shares: bool) -> String {
-    let differences = options(settings, of_scene);
-    let mut parts: Vec<&str> = differences.split(" --").filter(|part| !part.is_empty()).collect();
+    let RenderSettings { estimator, directions, sampler, roulette, max_bounces, reuse: _, adaptive, seed } = *settings;
+    let cap = max_bounces.map_or_else(|| "no cap".to_owned(), |cap| format!("cap of {}", counted(cap, "bounce")));
+    let parts = [
+        (estimator != of_scene.estimator, estimator.word().title.to_owned()),
+        (directions != of_scene.directions, format!("{} directions", directions.word().title)),
+        (sampler != of_scene.sampler, sampler.word().title.to_owned()),
+        (roulette != of_scene.roulette, roulette.words()),
+        (max_bounces != of_scene.max_bounces, cap),
+        (adaptive != of_scene.adaptive, if adaptive { "adaptive" } else { "not adaptive" }.to_owned()),
+        (seed != of_scene.seed, format!("seed {seed}")),
+    ];
+    let mut parts: Vec<String> = parts.into_iter().filter(|(differs, _)| *differs).map(|(_, words)| words).collect();
     if parts.is_empty() {
-        parts.extend([settings.estimator.word().title, settings.sampler.word().title]);
+        parts.extend([estimator.word().title, sampler.word().title].map(str::to_owned));
     }
-    // The word for it says less than what became of it.
-    parts.retain(|part| !part.starts_with("reuse "));
-    parts.push(sharing_name(shares));
+    parts.push(sharing_name(shares).to_owned());
     parts.join(", ")
 }
 
@@ -215,7 +225,7 @@ mod tests {
         }
         let names: Vec<String> = history.curves.iter().map(|curve| history.name(curve)).collect();
         assert_eq!(names[0], "MIS, Sobol (Owen), no sharing");
-        assert!(names[1].contains("independent") && names[1].contains('3') && names[1].ends_with(" (biased)"), "{}", names[1]);
+        assert!(names[1] == "Independent, cap of 3 bounces, no sharing (biased)", "{}", names[1]);
         let never = RenderSettings { reuse: Reuse::Off, ..scene.settings };
         assert_eq!(name(&never, &scene.settings, false), "no sharing");
         assert_eq!(name(&scene.settings, &scene.settings, true), "MIS, Sobol (Owen), shared paths");

@@ -130,6 +130,7 @@ impl Cell<'_> {
         match chosen {
             Some(references::Source::Constant) => self.set(Some(value(None))),
             Some(references::Source::Texture(name)) => self.set(Some(value(Some(name)))),
+            Some(references::Source::Shown(request)) => self.request = Some(request),
             Some(references::Source::File) => self.request = Some(Request::BrowseTexture { path: self.path.clone() }),
             None => {}
         }

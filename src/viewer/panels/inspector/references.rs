@@ -3,10 +3,13 @@ use egui::{Button, ComboBox, Id, Ui};
 use noisefall::declare::{Family, OwnedValue, Parameter, Path};
 
 use super::{Request, Surroundings};
+use crate::viewer::widgets::counted::counted;
 
 /// Source of a value.
 pub enum Source {
     Constant,
+    /// Not changed: the parameters of the texture are to be shown.
+    Shown(Request),
     Texture(String),
     /// An image file that the user chooses next.
     File,
@@ -50,7 +53,23 @@ pub fn names(
         }
     });
     combo.response.labelled_by(label);
-    request
+    request.or(current.and_then(|name| show_button(ui, family, name, surroundings)))
+}
+
+/// The button that shows the parameters of a material or texture, if the scene has it.
+fn show_button(ui: &mut Ui, family: Family, name: &str, surroundings: &Surroundings) -> Option<Request> {
+    let (all, what) = match family {
+        Family::Material => (surroundings.materials, "material"),
+        Family::Texture => (surroundings.textures, "texture"),
+    };
+    let button = ui.add_enabled(all.iter().any(|known| known == name), Button::new("Edit"));
+    let button = button.on_hover_ui(|ui| {
+        let count = (surroundings.count_objects)(name);
+        let users = if family == Family::Material { format!(", which {} use", counted(count, "object")) } else { String::new() };
+        let users = if count == 1 { users + "s" } else { users };
+        ui.label(format!("Show the {what} {name}{users}"));
+    });
+    button.clicked().then(|| Request::Show { family, name: name.to_owned() })
 }
 
 /// The menu of textures in place of the texture `current`.
@@ -61,7 +80,8 @@ pub fn textures(ui: &mut Ui, label: Id, current: &str, surroundings: &Surroundin
         entries(ui, Some(current), surroundings).or(is_constant.then_some(Source::Constant))
     });
     combo.response.labelled_by(label);
-    combo.inner.flatten()
+    let shown = show_button(ui, Family::Texture, current, surroundings).map(Source::Shown);
+    combo.inner.flatten().or(shown)
 }
 
 /// The button behind a constant, with the menu of textures in its place.

@@ -1,5 +1,5 @@
 //! Changes that the inspector requests.
-use noisefall::declare::{OwnedValue, Path};
+use noisefall::declare::{Family, OwnedValue, Path};
 
 /// The requests of one frame.
 #[derive(Debug, Default, PartialEq)]
@@ -35,4 +35,6 @@ pub enum Request {
     BrowseFile { path: Path },
     /// Let the user choose an image file, make a texture of it, and set the value to its name.
     BrowseTexture { path: Path },
+    /// Show the parameters of the material or texture of this name.
+    Show { family: Family, name: String },
 }

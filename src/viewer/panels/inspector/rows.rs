@@ -113,8 +113,9 @@ impl Parameters for Rows<'_> {
     }
 
     fn choose(&mut self, choice: &Choice, now: usize) -> usize {
-        let of_choice =
-            || Heading { title: capital(choice.what), tooltip: format!("The kind of {}.", choice.what), mark: Mark::None };
+        // The part itself is of that kind.
+        let title = if self.lengths.is_empty() { "Kind".to_owned() } else { capital(choice.what) };
+        let of_choice = || Heading { title, tooltip: format!("The kind of {}.", choice.what), mark: Mark::None };
         let (mut heading, form) = self.entered.take().unwrap_or_else(|| (of_choice(), Form::Table));
         if form == Form::NameOrTable {
             // It keeps its default if its key is absent, so there is nothing to remove.

@@ -2,7 +2,7 @@
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, accesskit::Role, vec2};
 use egui_kittest::{Harness, kittest::Queryable};
 use noisefall::{
-    declare::{Declare, OneOf, OwnedValue, Parameter, Parameters, Path, Textured, Value},
+    declare::{Declare, Family, OneOf, OwnedValue, Parameter, Parameters, Path, Textured, Value},
     material::{Conductor, Lambertian, Material},
     scene::description::{EmissionDescription, MaterialDescription, ObjectDescription},
     shape::{ShapeKind, Transform},
@@ -22,7 +22,7 @@ type Panel<T> = Harness<'static, State<T>>;
 fn inspect<T: Declare + 'static>(part: T) -> Panel<T> {
     let (names, mut inspector) = (["gold", "white"].map(str::to_owned), Inspector::default());
     let draw = move |ui: &mut egui::Ui, state: &mut State<T>| {
-        let surroundings = Surroundings { textures: &names, materials: &names, size: 1.0 };
+        let surroundings = Surroundings { textures: &names, materials: &names, count_objects: &|_| 2, size: 1.0 };
         let asked = inspector.show(ui, &mut state.part, &Path::of("part"), &surroundings);
         if asked != Asked::default() {
             state.asked.push(asked);
@@ -122,7 +122,7 @@ fn a_value_out_of_range_is_refused_in_the_words_of_the_reader() {
 #[test]
 fn another_kind_is_chosen_from_the_menu() {
     let mut panel = inspect(lambertian());
-    click(&mut panel, Role::ComboBox, "Material");
+    click(&mut panel, Role::ComboBox, "Kind");
     click(&mut panel, Role::Button, "thin dielectric");
     let name = "thin_dielectric";
     assert_eq!(*only(&panel), Request::Choose { path: Path::of("part"), choice: "material", name });
@@ -167,6 +167,20 @@ fn a_material_is_assigned_by_name() {
     click(&mut panel, Role::ComboBox, "Material");
     click(&mut panel, Role::Button, "none");
     assert_eq!(*only(&panel), Request::Remove { path: Path::of("part.material") });
+}
+
+#[test]
+fn a_button_leads_to_the_material_or_texture_that_a_row_names() {
+    let mut panel = inspect(ObjectDescription { material: Some("white".to_owned()), ..ObjectDescription::default() });
+    panel.get_by_role_and_label(Role::Button, "Edit").hover();
+    panel.run_steps(12);
+    assert!(panel.query_by_label("Show the material white, which 2 objects use").is_some());
+    click(&mut panel, Role::Button, "Edit");
+    assert_eq!(*only(&panel), Request::Show { family: Family::Material, name: "white".to_owned() });
+    let kind = Lambertian { albedo: Textured::Texture("gold".to_owned()) }.into();
+    let mut panel = inspect(MaterialDescription { kind, ..MaterialDescription::default() });
+    click(&mut panel, Role::Button, "Edit");
+    assert_eq!(*only(&panel), Request::Show { family: Family::Texture, name: "gold".to_owned() });
 }
 
 #[test]

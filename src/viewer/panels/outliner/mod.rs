@@ -126,7 +126,7 @@ impl Outliner {
         if row.double_clicked() && can_rename(subject) {
             self.renamed = Some(subject.clone());
         }
-        // A material is assigned by dragging it onto an object.
+        // A material is assigned by dragging it onto an object, here or in the image.
         if let Subject::Material(name) = subject {
             row.dnd_set_drag_payload(name.clone());
         }

@@ -1,0 +1,87 @@
+//! Opens what `render` renders: a scene, or a render that is continued.
+use std::{
+    path::{Path, PathBuf},
+    sync::Arc,
+};
+
+use noisefall::{
+    import::{Opened, Remarks},
+    render::{checkpoint::is_kept_file, settings_text::options},
+    render_file::Header,
+    scene::{Camera, RenderSettings, Scene, description::SceneDescription},
+};
+
+use super::Arguments;
+use crate::cli::{keeping::Resumed, messages::Failure};
+
+/// A scene with the camera and settings of its image, and the render of it that is continued.
+pub struct Begun {
+    pub scene: Arc<Scene>,
+    pub path: PathBuf,
+    pub description: Option<Arc<SceneDescription>>,
+    pub remarks: Remarks,
+    pub camera: Camera,
+    pub settings: RenderSettings,
+    pub resumed: Option<Resumed>,
+}
+
+impl Arguments {
+    /// Opens the scene, or the file of a render that is continued.
+    pub fn begin(&self) -> Result<Begun, Failure> {
+        match self.sequence.resumed() {
+            Some(file) => self.resume(file),
+            None => self.open(),
+        }
+    }
+
+    fn open(&self) -> Result<Begun, Failure> {
+        let path = self.scene.as_deref().or(self.sequence.scene()).unwrap_or(Path::new("")).to_owned();
+        if is_kept_file(&path) {
+            return Err(format!("{0}: this is a kept render; `render --resume {0}` continues it", path.display()));
+        }
+        let Opened { scene, remarks, description } = self.options.open(&path)?;
+        let camera = Camera { resolution: self.size.unwrap_or(scene.camera.resolution), ..scene.camera };
+        let settings = self.settings(scene.settings);
+        Ok(Begun { scene: Arc::new(scene), path, description, remarks, camera, settings, resumed: None })
+    }
+
+    fn resume(&self, file: &Path) -> Result<Begun, Failure> {
+        let resumed = self.keep.resume(file)?;
+        let Header { camera, settings, scene, .. } = resumed.header().clone();
+        self.check_same_image(&resumed)?;
+        let Opened { scene: opened, remarks, description } = resumed.open()?;
+        let path = Path::new(&scene.folder).join(&scene.name);
+        Ok(Begun { scene: Arc::new(opened), path, description, remarks, camera, settings, resumed: Some(resumed) })
+    }
+
+    /// Refuses options that would change the image of a render that is continued.
+    fn check_same_image(&self, resumed: &Resumed) -> Result<(), Failure> {
+        let Header { camera, settings, .. } = resumed.header();
+        let of_scene = self.options.words();
+        if !of_scene.is_empty() {
+            return Err(resumed.has_scene(&of_scene));
+        }
+        let given = self.settings(*settings);
+        if given != *settings {
+            return Err(resumed.changes_image(&options(&given, settings), &options(settings, &given)));
+        }
+        let size = |[width, height]: [u32; 2]| format!("--size {width}x{height}");
+        match self.size.filter(|given| *given != camera.resolution) {
+            Some(given) => Err(resumed.changes_image(&size(given), &size(camera.resolution))),
+            None => Ok(()),
+        }
+    }
+
+    pub(super) fn settings(&self, of_scene: RenderSettings) -> RenderSettings {
+        RenderSettings {
+            sampler: self.sampler.unwrap_or(of_scene.sampler),
+            estimator: self.estimator.unwrap_or(of_scene.estimator),
+            directions: self.directions.unwrap_or(of_scene.directions),
+            roulette: self.roulette.unwrap_or(of_scene.roulette),
+            max_bounces: self.max_bounces.map_or(of_scene.max_bounces, |cap| cap.0),
+            reuse: self.reuse.unwrap_or(of_scene.reuse),
+            adaptive: self.adaptive.unwrap_or(of_scene.adaptive),
+            seed: self.seed.unwrap_or(of_scene.seed),
+        }
+    }
+}
