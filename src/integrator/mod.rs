@@ -18,6 +18,7 @@ mod meet;
 mod normal_mapping;
 mod normal_shadowing;
 mod passage;
+mod profile;
 pub mod queue;
 mod queues;
 mod records;
@@ -47,12 +48,13 @@ pub use self::{
     batch::Batch,
     collision::{clear_fraction, is_blind},
     features::{Features, features},
+    profile::{CountedRays, Profile, StageCost, trace_profiled},
     replay::{
         EmitterHit, End, Outcome, Reflection, Replay, SampledLight, SharedLight, Surface, Vertex, pixel_samples, replay,
         seen_by_camera,
     },
     series::{SHARES, TERMS, Terms, trace_series},
     slots::{BLOCK, BLOCKS, TILE},
-    trace::{Interrupted, Segments, trace_counting},
+    trace::{Interrupted, PathStage, Segments, trace_counting},
     work::{Blocks, Work},
 };
