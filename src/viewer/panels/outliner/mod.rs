@@ -116,7 +116,9 @@ impl Outliner {
         if self.renamed.as_ref() == Some(subject) {
             return self.name_field(ui, entry, asked);
         }
-        let text = format!("{}  {}", entry.name, entry.kind);
+        let is_material = matches!(subject, Subject::Material(_));
+        let advice = if is_material { "\nDrag it onto an object, here or in the image, to assign it." } else { "" };
+        let text = format!("{}  {}{advice}", entry.name, entry.kind);
         let row = egui::Button::selectable(is_selected, entry.text(ui.visuals()));
         let row = row.sense(Sense::click_and_drag()).truncate().min_size(vec2(ui.available_width(), ROW - GAP));
         let row = ui.add(row).on_hover_text(text);
