@@ -1,143 +1,39 @@
 //! `noisefall render`: renders an image without a window, with the worker that also serves the window.
+mod arguments;
 mod begin;
 #[cfg(test)]
 mod tests;
 
 use std::{
     ops::Range,
-    path::{Path, PathBuf},
+    path::Path,
     process::ExitCode,
     time::{Duration, Instant},
 };
 
-use clap::ArgGroup;
 use noisefall::{
     math::SimdLevel,
-    render::{
-        Budget, Display, RenderRequest, image_file::Format, layers::Layer, tev::DEFAULT_ADDRESS, threads::Threads,
-        truth::Reference,
-    },
+    render::{Budget, Display, RenderRequest, image_file::Format, threads::Threads, truth::Reference},
     render_file::Target,
-    sampling::{Directions, Sampler},
-    scene::{Estimator, Reuse, Roulette, Scene},
+    scene::Scene,
 };
 
+pub use self::arguments::Arguments;
 use self::begin::Begun;
 use super::{
-    keeping::KeepOptions,
-    layers::{Layers, parse as layers_of},
-    live::{self, LiveView},
+    layers::Layers,
+    live::LiveView,
     messages::{Failure, tell, wrong_usage},
-    options::{self as parse, BounceCap, DisplayOptions},
     output::Output,
     progress::{Plan, Rendering},
     render_memory,
     replay::{self, Form, Which},
     samples::{self, SampleJob},
-    scene_file::SceneOptions,
-    sequence::SequenceOptions,
     shot::Job,
 };
 
 /// Samples per pixel if neither the command nor the scene states a number.
 const DEFAULT_SPP: u32 = 256;
-
-#[derive(clap::Args)]
-#[command(
-    group = ArgGroup::new("target"),
-    allow_negative_numbers = true,
-    override_usage = "noisefall render [OPTIONS] <SCENE> -o <OUTPUT>\n       noisefall render [OPTIONS] --resume <FILE> -o <OUTPUT>\n       \
-                      noisefall render [OPTIONS] <SCENE> --pixel <X,Y>"
-)]
-pub struct Arguments {
-    /// Scene file: .toml, .gltf, .glb, .xml (Mitsuba), .pbrt, .obj, .ply, .stl, or an image that carries its scene
-    #[arg(required_unless_present = "resume")]
-    scene: Option<PathBuf>,
-    /// Image to write: .png (sRGB, as displayed) or .exr (linear radiance); - for standard output
-    #[arg(short, long, required_unless_present = "pixel")]
-    output: Option<PathBuf>,
-    /// Format of an image on standard output: png or exr. Files get the format of their extension
-    #[arg(long, value_name = "FORMAT", value_parser = parse::format, requires = "output", conflicts_with = "pixel")]
-    format: Option<Format>,
-    /// Stop after N samples per pixel [default: the scene's number, or 256]. If several of --spp, --time and --noise are given,
-    /// the last one counts
-    #[arg(long, value_name = "N", value_parser = parse::samples, overrides_with_all = ["time", "noise"])]
-    spp: Option<u32>,
-    /// Render the samples A to B - 1 of every pixel into sums whose bits do not depend on their order. -o FILE.nf keeps them for
-    /// `noisefall merge`, which joins any ranges to the bits of one run; -o FILE.exr or .png writes their image
-    #[arg(long, value_name = "A..B", value_parser = parse::sample_range, requires = "output", conflicts_with = "spp")]
-    samples: Option<Range<u32>>,
-    /// Stop after a rendering time
-    #[arg(long, value_name = "SECONDS", value_parser = parse::seconds, overrides_with_all = ["spp", "noise"])]
-    time: Option<Duration>,
-    /// Stop at an estimated relative noise (0.01 is 1 %): the root of relMSE, the mean of (x − r)²/(r² + 0.01 · mean r²). The
-    /// sample count then depends on the samples, which biased the mean by less than a fortieth of the target in the worst case
-    /// tested
-    #[arg(long, value_name = "RELATIVE", value_parser = parse::noise, overrides_with_all = ["spp", "time"])]
-    noise: Option<f64>,
-    #[arg(long, help = format!("How direct light is estimated: {}", parse::one_of::<Estimator>()),
-          value_parser = parse::word::<Estimator>)]
-    estimator: Option<Estimator>,
-    #[arg(long, help = format!("How directions are sampled at diffuse surfaces: {}", parse::one_of::<Directions>()),
-          value_parser = parse::word::<Directions>)]
-    directions: Option<Directions>,
-    #[arg(long, help = format!("Sampler: {}", parse::one_of::<Sampler>()),
-          value_parser = parse::word::<Sampler>)]
-    sampler: Option<Sampler>,
-    /// Highest number of bounces (reflections and refractions), or none for no cap
-    #[arg(long, value_name = "N|none", value_parser = parse::bounce_cap)]
-    max_bounces: Option<BounceCap>,
-    #[arg(long, help = format!("Russian roulette: {}", parse::either(&Roulette::options())), value_parser = parse::roulette)]
-    roulette: Option<Roulette>,
-    #[arg(long, help = format!("Whether neighbouring pixels reuse each other's paths: {}", parse::one_of::<Reuse>()),
-          value_parser = parse::word::<Reuse>)]
-    reuse: Option<Reuse>,
-    /// Adaptive sampling, with more samples where there is more noise: on or off; --spp is then the average
-    #[arg(long, value_parser = parse::on_or_off)]
-    adaptive: Option<bool>,
-    /// Seed of the random numbers
-    #[arg(long, value_name = "N", value_parser = parse::whole)]
-    seed: Option<u32>,
-    /// Number of threads; 0 for one per core
-    #[arg(long, value_name = "N", default_value_t = 0, value_parser = parse::threads)]
-    threads: u16,
-    /// Resolution in pixels
-    #[arg(long, value_name = "WxH", value_parser = parse::resolution, allow_hyphen_values = true)]
-    size: Option<[u32; 2]>,
-    #[command(flatten)]
-    options: SceneOptions,
-    #[command(flatten)]
-    display: DisplayOptions,
-    #[arg(long, value_name = "LIST", help = format!("Layers of an EXR: all, or a list of {}", parse::one_of::<Layer>()),
-          value_parser = layers_of, requires = "output")]
-    layers: Option<Layers>,
-    /// Denoise the image, which biases it: non-local means over two halves of the samples. The file says so
-    #[arg(long, requires = "output")]
-    denoise: bool,
-    #[command(flatten)]
-    sequence: SequenceOptions,
-    #[command(flatten)]
-    keep: KeepOptions,
-    /// Show the image in the viewer tev while it is rendered: linear radiance, at most once a second
-    #[arg(long, value_name = "HOST:PORT", num_args = 0..=1, default_missing_value = DEFAULT_ADDRESS, value_parser = live::address,
-          conflicts_with = "pixel")]
-    tev: Option<String>,
-    /// Replay one path through this pixel instead of rendering
-    #[arg(long, value_name = "X,Y", value_parser = parse::pixel, allow_hyphen_values = true, conflicts_with = "output")]
-    pixel: Option<[u32; 2]>,
-    /// Sample to replay: a number, `lit` for the first that finds light, or with --csv a range such as 0-9999 [default: 0]
-    #[arg(long, value_name = "N", value_parser = parse::which, requires = "pixel", conflicts_with = "output")]
-    sample: Option<Which>,
-    /// Print the path as LaTeX: the nested sum with its numbers
-    #[arg(long, requires = "pixel", conflicts_with_all = ["json", "csv"])]
-    latex: bool,
-    /// Table of samples of the pixel to write, with running mean and variance; - for standard output
-    #[arg(long, value_name = "FILE", requires = "pixel", conflicts_with = "json")]
-    csv: Option<PathBuf>,
-    /// Print one line of JSON at the end; on standard error if the image goes to standard output
-    #[arg(long)]
-    json: bool,
-}
 
 pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let output = match arguments.output.as_deref().map(|path| Output::of(path, arguments.format)).transpose() {

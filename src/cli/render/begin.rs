@@ -11,7 +11,7 @@ use noisefall::{
     scene::{Camera, RenderSettings, Scene, description::SceneDescription},
 };
 
-use super::Arguments;
+use super::arguments::Arguments;
 use crate::cli::{keeping::Resumed, messages::Failure};
 
 /// A scene with the camera and settings of its image, and the render of it that is continued.

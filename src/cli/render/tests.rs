@@ -1,6 +1,9 @@
 //! Options of `noisefall render` in place of those of the scene.
 use clap::Parser;
-use noisefall::scene::{RenderSettings, built_in};
+use noisefall::{
+    sampling::{Directions, Sampler},
+    scene::{Estimator, RenderSettings, Reuse, Roulette, built_in},
+};
 
 use super::*;
 

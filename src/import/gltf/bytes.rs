@@ -3,10 +3,10 @@ use std::{
     borrow::Cow,
     cell::RefCell,
     fs::File,
-    io::{Seek, SeekFrom},
+    io::{Read, Seek, SeekFrom},
 };
 
-use super::{container::take, refusal::Found};
+use super::refusal::Found;
 use crate::{
     memory::Reservation,
     progress::{Progress, Stage},
@@ -108,4 +108,22 @@ impl From<Vec<u8>> for Slice<'_> {
     fn from(bytes: Vec<u8>) -> Self {
         Slice::Memory(Cow::Owned(bytes))
     }
+}
+
+/// Reads bytes that the file is known to have.
+pub fn take(file: &mut File, length: u64, progress: &Progress) -> Found<Vec<u8>> {
+    /// Bytes between two reports of progress.
+    const BLOCK: u64 = 1 << 24;
+    let mut bytes = Vec::new();
+    let size = usize::try_from(length).map_err(|_| "the file is too large")?;
+    bytes.try_reserve_exact(size).map_err(|_| format!("there is no memory for {length} bytes"))?;
+    for start in (0..length).step_by(BLOCK as usize) {
+        let block = BLOCK.min(length - start);
+        file.take(block).read_to_end(&mut bytes).map_err(|error| format!("cannot be read: {error}"))?;
+        progress.advance(block)?;
+    }
+    if bytes.len() < size {
+        return Err("the file ends too early".into());
+    }
+    Ok(bytes)
 }

@@ -6,7 +6,7 @@ use std::{
 };
 
 use super::{
-    bytes::Bytes,
+    bytes::{Bytes, take},
     document::Document,
     refusal::{Found, Refusal},
 };
@@ -98,24 +98,6 @@ fn chunks(file: &mut File, mut left: u64, room: &mut Reservation, progress: &Pro
 fn word(bytes: &[u8], place: usize) -> u32 {
     let at = 4 * place;
     u32::from_le_bytes([bytes[at], bytes[at + 1], bytes[at + 2], bytes[at + 3]])
-}
-
-/// Reads bytes that the file is known to have.
-pub fn take(file: &mut File, length: u64, progress: &Progress) -> Found<Vec<u8>> {
-    /// Bytes between two reports of progress.
-    const BLOCK: u64 = 1 << 24;
-    let mut bytes = Vec::new();
-    let size = usize::try_from(length).map_err(|_| "the file is too large")?;
-    bytes.try_reserve_exact(size).map_err(|_| format!("there is no memory for {length} bytes"))?;
-    for start in (0..length).step_by(BLOCK as usize) {
-        let block = BLOCK.min(length - start);
-        file.take(block).read_to_end(&mut bytes).map_err(|error| format!("cannot be read: {error}"))?;
-        progress.advance(block)?;
-    }
-    if bytes.len() < size {
-        return Err("the file ends too early".into());
-    }
-    Ok(bytes)
 }
 
 /// Parses the JSON.

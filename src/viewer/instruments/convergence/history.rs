@@ -106,7 +106,7 @@ impl History {
 /// Names settings by what differs from those of the scene, or by estimator and sampler if nothing does, and by whether pixels share paths.
 /// The words are those of the panel.
 pub fn name(settings: &RenderSettings, of_scene: &RenderSettings, shares: bool) -> String {
-    let RenderSettings { estimator, directions, sampler, roulette, max_bounces, reuse: _, adaptive, seed } = *settings;
+    let RenderSettings { estimator, directions, sampler, roulette, max_bounces, reuse, adaptive, seed } = *settings;
     let cap = max_bounces.map_or_else(|| "no cap".to_owned(), |cap| format!("cap of {}", counted(cap, "bounce")));
     let parts = [
         (estimator != of_scene.estimator, estimator.word().title.to_owned()),
@@ -118,7 +118,7 @@ pub fn name(settings: &RenderSettings, of_scene: &RenderSettings, shares: bool) 
         (seed != of_scene.seed, format!("seed {seed}")),
     ];
     let mut parts: Vec<String> = parts.into_iter().filter(|(differs, _)| *differs).map(|(_, words)| words).collect();
-    if parts.is_empty() {
+    if parts.is_empty() && reuse == of_scene.reuse {
         parts.extend([estimator.word().title, sampler.word().title].map(str::to_owned));
     }
     parts.push(sharing_name(shares).to_owned());
