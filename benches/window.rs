@@ -41,7 +41,7 @@ fn frames() {
         ("pixel", &[Key::F5], &["Use the middle pixel"]),
         ("a view of numbers", &[Key::V], &[]),
         ("gallery", &[Key::F6], &[]),
-        ("inspector", &[], &["Edit", "amberlambertian"]),
+        ("inspector", &[], &["Edit", "left wallsphere, red"]),
     ];
     println!("{:<20} {:>9} {:>9}", "1280 x 800, showing", "p50 ms", "p99 ms");
     for (name, keys, buttons) in states {
