@@ -61,7 +61,7 @@ pub use self::{
     object::Object,
     parse::{BUILT_IN, built_in, describe, parse, parse_watched},
     projection::Projection,
-    rays::CameraRays,
+    rays::{CameraJoin, CameraRays},
     roulette::Roulette,
     settings::{RenderSettings, Reuse},
     shipped::ShippedScene,

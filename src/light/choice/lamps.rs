@@ -47,7 +47,7 @@ impl Lights {
 
     /// The numbers of the lamps of `lights` in the lanes of `lamps`, and the first lamp in the others.
     #[inline(always)]
-    fn lamp<L: Lanes>(&self, l: L, lamps: M<L>, lights: U<L>) -> U<L> {
+    pub(super) fn lamp<L: Lanes>(&self, l: L, lamps: M<L>, lights: U<L>) -> U<L> {
         lamps.pick(lights + (self.count as u32).wrapping_neg(), l.u(0))
     }
 
