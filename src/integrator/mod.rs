@@ -4,6 +4,7 @@
 //! registers that reads a dense queue and appends to the next. The bounce is the same for a whole batch, so all that depends on
 //! it (the sampler's dimension, the cap, whether roulette has begun) is decided once per stage and not once per path.
 mod batch;
+mod bidirectional;
 mod collision;
 mod coordinates;
 #[cfg(test)]
@@ -45,6 +46,7 @@ pub use self::fault::trace;
 pub use self::trace::trace;
 pub use self::{
     batch::Batch,
+    bidirectional::Splat,
     collision::{clear_fraction, is_blind},
     features::{Features, features},
     replay::{

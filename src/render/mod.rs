@@ -42,6 +42,7 @@ pub mod series;
 mod session;
 pub mod settings_text;
 pub mod sharing;
+mod splats;
 pub mod split;
 pub mod still;
 mod target;

@@ -5,7 +5,7 @@ use super::{LightSample, Lights};
 use crate::{
     geometry::{MISS, Nearest},
     light::{LightCoordinates, ReferencePoint},
-    math::{Lanes, M, Pick, U, V},
+    math::{F, Lanes, M, Pick, U, V},
 };
 
 impl Lights {
@@ -43,6 +43,12 @@ impl Lights {
     pub fn are_lamps<L: Lanes>(&self, light: U<L>) -> M<L> {
         let first = self.count as u32;
         light.below(first + self.lamps.len() as u32) & !light.below(first)
+    }
+
+    /// Distances of the lamps among `lights` in the lanes of `lamps` from the points `p`.
+    #[inline(always)]
+    pub fn distance_of_lamps<L: Lanes>(&self, l: L, lamps: M<L>, lights: U<L>, p: V<L>) -> F<L> {
+        self.lamps.distance(l, self.lamp(l, lamps, lights), p)
     }
 
     /// The numbers of the lamps of `lights` in the lanes of `lamps`, and the first lamp in the others.

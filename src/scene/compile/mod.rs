@@ -172,6 +172,7 @@ impl Parts {
             camera,
             settings,
             sharing_pays: Default::default(),
+            light_paths: OnceLock::new(),
             spp,
             exposure,
             truth,
