@@ -1,7 +1,7 @@
 //! Paths from either end arrive at surfaces. Those from the camera add what these emit.
 use fearless_simd_macros::simd;
 
-use super::{partial::Partial, paths::LightPaths};
+use super::{partial::Partial, paths::LightPaths, strategy::weight_of};
 use crate::{
     geometry::{MISS, PrimitiveRef},
     integrator::{
@@ -70,7 +70,7 @@ pub(super) fn arrive_from_camera<L: Lanes>(
         if let Some(background) = &work.scene.lights.background
             && (at.live & miss).any()
         {
-            let weight = weigher.of_background(l, work, rays, path.d);
+            let weight = weight_of(work, l.u(0), *bounce + 2, weigher.of_background(l, work, rays, path.d));
             add(radiance, at.live & miss, path.slot, path.throughput * background.radiance(l, path.d) * weight);
         }
         let hit = at.live & !miss;
@@ -82,6 +82,7 @@ pub(super) fn arrive_from_camera<L: Lanes>(
         if emits.any() {
             let (le, seen) = emitted::<L, true>(l, work.scene, emits, &interaction);
             let weight = weigher.of_surface(l, work, rays, seen, path.d, &interaction);
+            let weight = weight_of(work, l.u(0), *bounce + 2, weight);
             add(radiance, seen, path.slot, path.throughput * le * weight);
         }
         if last {

@@ -63,7 +63,7 @@ pub(super) fn shade_camera_paths<L: Lanes>(l: L, work: &Work, batch: &mut Batch,
             Path { o: scattered.o, d: scattered.d, throughput: survival.throughput, slot }.push(keep, &mut next.paths);
         }
     }
-    finish_connections(l, work, state, radiance, rays);
+    finish_connections(l, work, reflection, state, radiance, rays);
 }
 
 /// Samples lights, and queues the samples that would contribute if they are visible.

@@ -6,6 +6,7 @@ use super::{
     paths::LightPaths,
     records::Connection,
     scatter::{Evaluated, depth, evaluate},
+    strategy::weight_of,
     vertices::LightVertex,
 };
 use crate::{
@@ -92,7 +93,7 @@ impl<L: Lanes> Connector<'_, '_, L> {
                 continue;
             }
             if state.connections[*stage as usize].0.len() + MAX_LANES > SLOTS {
-                finish(l, work, *stage, state, radiance, rays);
+                finish(l, work, *stage, self.reflection, state, radiance, rays);
             }
             let (queue, hits) = &mut state.connections[*stage as usize];
             record.push(here, queue);
@@ -103,15 +104,30 @@ impl<L: Lanes> Connector<'_, '_, L> {
 
 /// Finishes all connections.
 #[inline(always)]
-pub(super) fn finish_connections<L: Lanes>(l: L, work: &Work, state: &mut LightPaths, radiance: &mut [[f32; 4]], rays: &mut u64) {
+pub(super) fn finish_connections<L: Lanes>(
+    l: L,
+    work: &Work,
+    reflection: u32,
+    state: &mut LightPaths,
+    radiance: &mut [[f32; 4]],
+    rays: &mut u64,
+) {
     for stage in &work.scene.surfaces.stages {
-        finish(l, work, *stage, state, radiance, rays);
+        finish(l, work, *stage, reflection, state, radiance, rays);
     }
 }
 
 /// Evaluates the BSDFs at the vertices of lights of a stage, tests which connections are visible, and weights them.
 #[simd]
-fn finish<L: Lanes>(l: L, work: &Work, stage: Stage, state: &mut LightPaths, radiance: &mut [[f32; 4]], rays: &mut u64) {
+fn finish<L: Lanes>(
+    l: L,
+    work: &Work,
+    stage: Stage,
+    reflection: u32,
+    state: &mut LightPaths,
+    radiance: &mut [[f32; 4]],
+    rays: &mut u64,
+) {
     let LightPaths { connections, vertices, .. } = state;
     let (queue, hits) = &mut connections[stage as usize];
     for at in queue.registers(l) {
@@ -134,7 +150,9 @@ fn finish<L: Lanes>(l: L, work: &Work, stage: Stage, state: &mut LightPaths, rad
         let seen = faces & same & nearest.t.ge(distance * NEARLY);
         let from_camera = end.partial.sum(connection.pdf * leaving * per_area, pdf);
         let from_light = connection.partial * (reverse * cos * per_area);
-        add(radiance, seen, connection.slot, contribution * (1.0 / (1.0 + from_camera + from_light)));
+        let weight = 1.0 / (1.0 + from_camera + from_light);
+        let weight = weight_of(work, light.bounce + 2, reflection + 1, weight);
+        add(radiance, seen, connection.slot, contribution * weight);
     }
     queue.clear();
     hits.clear();

@@ -1,7 +1,7 @@
 //! Tests which light samples are visible, and weights them.
 use fearless_simd_macros::simd;
 
-use super::{paths::LightPaths, records::DirectSample};
+use super::{paths::LightPaths, records::DirectSample, strategy::weight_of};
 use crate::{
     geometry::{MISS, Nearest, PrimitiveRef},
     integrator::{
@@ -47,6 +47,7 @@ pub(super) fn test_light_samples<L: Lanes>(l: L, work: &Work, rays: &LightRays, 
             by_direction = lamps.pick(l.f(0.0), by_direction);
         }
         let weight = 1.0 / (1.0 + by_direction + sample.partial * (density / of_sample));
+        let weight = weight_of(work, l.u(1), batch.bounce + 2, weight);
         add(&mut batch.radiance, seen, sample.slot, light * weight);
     }
     batch.rays += state.direct.len() as u64;

@@ -7,6 +7,7 @@ use super::{
     paths::LightPaths,
     records::CameraRay,
     scatter::{Evaluated, depth, evaluate, scatter},
+    strategy::weight_of,
 };
 use crate::{
     geometry::{MISS, PrimitiveRef},
@@ -139,7 +140,8 @@ fn queue_join<L: Lanes>(
     let mut light = light * f_cos * (density / cos_in);
     if work.settings.estimator.connects() {
         let found = density * (1.0 / work.light_paths_of_image());
-        light = light * (1.0 / (1.0 + partial.sum(found, pdf)));
+        let weight = 1.0 / (1.0 + partial.sum(found, pdf));
+        light = light * weight_of(work, l.u(bounce + 2), 1, weight);
     }
     let o = height.above(0.0).pick(hit.p, hit.p - hit.n * depth(l, stage, hits, at));
     let keep = faces & light.max_component().above(0.0);

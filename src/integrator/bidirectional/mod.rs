@@ -32,6 +32,7 @@ pub(super) mod paths;
 mod records;
 mod scatter;
 pub(super) mod splat;
+mod strategy;
 mod trace;
 mod vertices;
 

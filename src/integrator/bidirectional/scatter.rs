@@ -103,7 +103,7 @@ fn scatter_kind<L: Lanes, K: Shade>(
     // A step of Newton's method to the length of 1, as in `shading.rs`.
     let d = d * (1.5 - d.length_squared() * 0.5);
     let (o, consistent) = vertex.leave::<K>(hit, d, sample.wi.z);
-    let Evaluated { f_cos, reverse, .. } = surface.evaluate(l, d, back);
+    let Evaluated { f_cos, pdf: reverse, .. } = surface.evaluate(l, d, back);
     let cosines = d.dot(hit.n).abs() / back.dot(hit.n).abs();
     // Refraction scales radiance, which roulette undoes; flux is not scaled.
     let front = vertex.local.front;

@@ -44,6 +44,7 @@ const UNIFORM: RenderSettings = RenderSettings {
     adaptive: false,
     seed: 3,
     fault: None,
+    strategy: None,
 };
 
 /// The variance of one sample of the furnace over the square of its mean, 2, and 1 % of that.

@@ -27,6 +27,7 @@ const IN_USE: RenderSettings = RenderSettings {
     adaptive: false,
     seed: 7,
     fault: None,
+    strategy: None,
 };
 const ADVISED: RenderSettings = RenderSettings { sampler: Sampler::Sobol, roulette: Roulette::BY_THROUGHPUT, ..IN_USE };
 
