@@ -171,7 +171,8 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let mismatch = reference.as_ref().and_then(|truth| truth.mismatch(camera.resolution));
     mismatch.iter().for_each(|mismatch| tell(&format!("note: {mismatch}")));
     let infinite = scene.infinite_variance(&settings);
-    scene.warnings().iter().chain(&infinite).for_each(|warning| tell(&format!("note: {warning}")));
+    let missing = scene.lacks_light_paths(&settings);
+    scene.warnings().iter().chain(&infinite).chain(&missing).for_each(|warning| tell(&format!("note: {warning}")));
     let threads = || Threads::new(arguments.threads.into(), SimdLevel::best()).map_err(|error| error.to_string());
     let of_images = threads()?;
     let request = RenderRequest { scene: scene.clone(), camera, settings };

@@ -9,6 +9,7 @@ use super::{
     area::Area,
     block::UNIFORM,
     error_estimator,
+    exact_sum::MOST_VALUES,
     film::Film,
     sampled_tile::{NextSamples, SampledTile},
     splats::SplatFilm,
@@ -87,10 +88,20 @@ impl Threads {
             };
             tiles.map(sample).reduce(PassCount::default, PassCount::merge)
         });
+        let is_full = splats.as_ref().is_some_and(SplatFilm::is_full);
+        let count = if is_full { count.merge(full(resolution)) } else { count };
         film.splats = splats;
         self.pool.install(|| film.spread_splats());
         count
     }
+}
+
+/// The failure of a film whose pixels can take no more light.
+fn full(resolution: [u32; 2]) -> PassCount {
+    let message =
+        format!("a pixel has light of {MOST_VALUES} batches of paths from lights, the most that its sums can take: stop earlier");
+    let failure = Failure { at: SampleId { pixel: [0, 0], sample: 0 }, replays: false, resolution, message };
+    PassCount { failure: Some(failure), ..PassCount::default() }
 }
 
 /// A tile of the film on its way to a number of samples per pixel, or to the next power of two.

@@ -15,6 +15,7 @@ use super::{
     protocol::{Budget, Publish, RenderRequest, State, is_below},
     region::Region,
     sharing::resolved_unless,
+    splats::SplatFilm,
     threads::{PassJob, Threads},
 };
 use crate::{
@@ -85,6 +86,10 @@ impl Session {
             request,
         };
         session.keep(0, memory);
+        let RenderRequest { scene, camera, settings } = &session.request;
+        if scene.traces_light_paths(settings) {
+            session.keep(1, SplatFilm::reserve(camera.resolution));
+        }
         session
     }
 

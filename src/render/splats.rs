@@ -1,10 +1,13 @@
 //! The light that paths from lights bring to the pixels, as exact sums: they do not depend on the order in which threads add it.
 use std::sync::{
-    Mutex, PoisonError,
+    Mutex, MutexGuard, PoisonError,
     atomic::{AtomicU64, Ordering},
 };
 
-use super::{area::Area, exact_sum::ExactSums};
+use super::{
+    area::Area,
+    exact_sum::{ExactSums, MOST_VALUES},
+};
 use crate::{
     integrator::{Splat, TILE},
     memory::{self, Reservation, TooMuch},
@@ -19,11 +22,19 @@ pub const PLANES: usize = 6;
 /// The light of a batch is added up for each pixel first. So its paths may be correlated, and the squares still tell the variance.
 pub struct SplatFilm {
     resolution: [u32; 2],
-    /// By tile; for each pixel, row by row, the sums of red, green, blue, and of their squares.
-    tiles: Vec<Mutex<ExactSums>>,
+    tiles: Vec<Mutex<TileSplats>>,
     batches: AtomicU64,
     /// Splats that were negative or not finite; they count as black.
     invalid: AtomicU64,
+}
+
+/// Sums of a tile.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct TileSplats {
+    /// For each pixel, row by row, the sums of red, green, blue, and of their squares.
+    pub sums: ExactSums,
+    /// For each pixel the number of values in its sums.
+    pub counts: Vec<u32>,
 }
 
 /// What splats add to a pixel.
@@ -38,13 +49,13 @@ pub struct SplatEstimate {
 impl SplatFilm {
     /// A film without light.
     pub fn new(resolution: [u32; 2]) -> SplatFilm {
-        let tiles = Area::tiles(resolution).map(|area| Mutex::new(ExactSums::new(PLANES * area.pixels()))).collect();
+        let tiles = Area::tiles(resolution).map(|area| Mutex::new(TileSplats::new(area.pixels()))).collect();
         SplatFilm { resolution, tiles, batches: AtomicU64::new(0), invalid: AtomicU64::new(0) }
     }
 
     /// Reserves memory for the sums of an image of this size, and for their means.
     pub fn reserve([width, height]: [u32; 2]) -> Result<Reservation, TooMuch> {
-        const PIXEL: u64 = PLANES as u64 * ExactSums::BYTES + size_of::<SplatEstimate>() as u64;
+        const PIXEL: u64 = PLANES as u64 * ExactSums::BYTES + 4 + size_of::<SplatEstimate>() as u64;
         memory::reserve(format_args!("light paths to {width} × {height} pixels"), PIXEL * u64::from(width) * u64::from(height))
     }
 
@@ -62,10 +73,10 @@ impl SplatFilm {
         // A stable sort, so that the light of a pixel is added in the order of the batch.
         shares.sort_by_key(|share| (share.tile, share.pixel));
         for of_tile in shares.chunk_by(|a, b| a.tile == b.tile) {
-            let mut sums = self.tiles[of_tile[0].tile].lock().unwrap_or_else(PoisonError::into_inner);
+            let mut tile = self.lock(of_tile[0].tile);
             for of_pixel in of_tile.chunk_by(|a, b| a.pixel == b.pixel) {
                 let [r, g, b] = of_pixel.iter().fold([0.0; 3], |sum, share| [0, 1, 2].map(|i| sum[i] + share.light[i]));
-                sums.add(PLANES * of_pixel[0].pixel, &[r, g, b, r * r, g * g, b * b]);
+                tile.add(of_pixel[0].pixel, [r, g, b]);
             }
         }
     }
@@ -92,8 +103,37 @@ impl SplatFilm {
 
     /// The estimates of the pixels of a tile after `paths` paths from lights.
     pub fn estimates(&self, tile: usize, paths: u64) -> Vec<SplatEstimate> {
-        let sums = self.tiles[tile].lock().unwrap_or_else(PoisonError::into_inner);
-        estimates(&sums, paths, self.batches.load(Ordering::Relaxed))
+        self.lock(tile).estimates(paths, self.batches())
+    }
+
+    /// Number of batches of paths.
+    pub fn batches(&self) -> u64 {
+        self.batches.load(Ordering::Relaxed)
+    }
+
+    /// The sums of a tile.
+    pub fn tile(&self, tile: usize) -> TileSplats {
+        self.lock(tile).clone()
+    }
+
+    /// The film with these sums.
+    pub fn of_tiles(resolution: [u32; 2], tiles: Vec<TileSplats>, [batches, invalid]: [u64; 2]) -> SplatFilm {
+        let tiles = tiles.into_iter().map(Mutex::new).collect();
+        SplatFilm { resolution, tiles, batches: AtomicU64::new(batches), invalid: AtomicU64::new(invalid) }
+    }
+
+    /// Whether the sums of a pixel can take no more values. Its light would be too dark.
+    pub fn is_full(&self) -> bool {
+        (0..self.tiles.len()).any(|tile| self.lock(tile).counts.iter().any(|count| *count >= MOST_VALUES))
+    }
+
+    fn lock(&self, tile: usize) -> MutexGuard<'_, TileSplats> {
+        self.tiles[tile].lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Splats that were negative or not finite since this was called before.
+    pub fn take_invalid(&self) -> u64 {
+        self.invalid.swap(0, Ordering::Relaxed)
     }
 
     /// Splats that were negative or not finite.
@@ -118,17 +158,38 @@ fn pixels_around(x: f32, reach: f32, count: u32) -> std::ops::Range<u32> {
     first..end.min(count)
 }
 
-/// The estimates of pixels from their sums over `batches` of together `paths` paths.
-fn estimates(sums: &ExactSums, paths: u64, batches: u64) -> Vec<SplatEstimate> {
-    let (paths, batches) = (paths.max(1) as f64, batches.max(1) as f64);
-    let pixels = sums.parts().0.len() / PLANES;
-    let estimate = |pixel: usize| {
-        let sum = |plane: usize| sums.value(PLANES * pixel + plane);
-        let mean = [0, 1, 2].map(|channel| (sum(channel) / paths) as f32);
-        let deviations = |channel: usize| (sum(channel + 3) - sum(channel).powi(2) / batches).max(0.0);
-        SplatEstimate { mean, variance: [0, 1, 2].map(|channel| (deviations(channel) / (paths * paths)) as f32) }
-    };
-    (0..pixels).map(estimate).collect()
+impl TileSplats {
+    /// Sums of no values.
+    pub fn new(pixels: usize) -> TileSplats {
+        TileSplats { sums: ExactSums::new(PLANES * pixels), counts: vec![0; pixels] }
+    }
+
+    /// Adds the light of a batch to a pixel.
+    fn add(&mut self, pixel: usize, [r, g, b]: [f64; 3]) {
+        let count = &mut self.counts[pixel];
+        if *count < MOST_VALUES {
+            *count += 1;
+            self.sums.add(PLANES * pixel, &[r, g, b, r * r, g * g, b * b]);
+        }
+    }
+
+    /// Adds the sums of other paths.
+    pub fn merge(&mut self, other: &TileSplats) {
+        self.sums.merge(&other.sums);
+        self.counts.iter_mut().zip(&other.counts).for_each(|(count, more)| *count = count.saturating_add(*more));
+    }
+
+    /// The estimates of the pixels after `batches` of together `paths` paths.
+    pub fn estimates(&self, paths: u64, batches: u64) -> Vec<SplatEstimate> {
+        let (paths, batches) = (paths.max(1) as f64, batches.max(1) as f64);
+        let estimate = |pixel: usize| {
+            let sum = |plane: usize| self.sums.value(PLANES * pixel + plane);
+            let mean = [0, 1, 2].map(|channel| (sum(channel) / paths) as f32);
+            let deviations = |channel: usize| (sum(channel + 3) - sum(channel).powi(2) / batches).max(0.0);
+            SplatEstimate { mean, variance: [0, 1, 2].map(|channel| (deviations(channel) / (paths * paths)) as f32) }
+        };
+        (0..self.counts.len()).map(estimate).collect()
+    }
 }
 
 #[cfg(test)]
