@@ -13,7 +13,7 @@ use noisefall::{
     math::SimdLevel,
     render::{
         Budget, Display, RenderRequest, checkpoint::is_kept_file, image_file::Format, layers::Layer, settings_text::options,
-        tev::DEFAULT_ADDRESS, threads::Threads, truth::Reference,
+        sharing::resolved, tev::DEFAULT_ADDRESS, threads::Threads, truth::Reference,
     },
     render_file::{Header, Target},
     sampling::{Directions, Sampler},
@@ -175,6 +175,10 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     scene.warnings().iter().chain(&infinite).chain(&missing).for_each(|warning| tell(&format!("note: {warning}")));
     let threads = || Threads::new(arguments.threads.into(), SimdLevel::best()).map_err(|error| error.to_string());
     let of_images = threads()?;
+    if settings.estimator == Estimator::Auto {
+        of_images.install(|| resolved(&scene, &scene.rays(&camera), &settings));
+        scene.estimator_in_force(&settings).iter().for_each(|chosen| tell(&format!("note: estimator `auto` is {chosen}")));
+    }
     let request = RenderRequest { scene: scene.clone(), camera, settings };
     let keeping =
         arguments.keep.keeping((&request, description.as_deref(), &path), &arguments.options, &budget, resumed, &of_images)?;

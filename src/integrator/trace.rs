@@ -46,9 +46,7 @@ pub struct Interrupted;
 /// 1986, equation 1), with one sampled direction in place of the integral at every surface. Light samples replace the emission at
 /// the next surface or are combined with it by multiple importance sampling (Veach 1997, chapter 9).
 pub fn trace(level: SimdLevel, work: &Work, batch: &mut Batch, interrupted: &dyn Fn() -> bool) -> Result<(), Interrupted> {
-    if work.settings.estimator.traces_light_paths()
-        && let Ok(rays) = work.scene.light_rays()
-    {
+    if let Some(rays) = work.scene.light_rays(work.settings) {
         return in_lanes!(level, l => trace_both_ends(l, work, rays, batch, interrupted));
     }
     in_lanes!(level, l => trace_in(l, work, batch, interrupted, &mut ()))

@@ -20,7 +20,7 @@ use super::{
 };
 use crate::{
     memory::{Reservation, TooMuch},
-    scene::{RenderSettings, Reuse},
+    scene::{Estimator, RenderSettings, Reuse},
 };
 
 /// Camera samples per second before the first measurement: those of a slow machine with a simple scene.
@@ -87,7 +87,7 @@ impl Session {
         };
         session.keep(0, memory);
         let RenderRequest { scene, camera, settings } = &session.request;
-        if scene.traces_light_paths(settings) {
+        if scene.traces_light_paths(settings) || settings.estimator == Estimator::Auto {
             session.keep(1, SplatFilm::reserve(camera.resolution));
         }
         session

@@ -2,17 +2,48 @@
 use glam::DVec3;
 
 use super::{
-    Object, RenderSettings, Scene,
+    Estimator, Object, RenderSettings, Scene,
     surface::{ONE_SIDED, SELF_LIT, STAGE_MASK, STAGE_SHIFT},
 };
 use crate::{geometry::Shape, light::LightRays, material::Stage};
 
 /// Space around the scene, relative to its size.
 const MARGIN: f64 = 1e-4;
+/// Without roulette, paths of at most this many bounces are connected with each other.
+const MOST_BOUNCES: u32 = 64;
+const ENDLESS: &str = "without roulette or a bounce cap, there would be too many connections between paths";
+
+/// Whether paths may have so many vertices that the connections between them would take for ever.
+fn goes_on_for_ever(settings: &RenderSettings) -> bool {
+    settings.roulette.survival() == 1.0 && settings.max_bounces.is_none_or(|cap| cap > MOST_BOUNCES)
+}
 
 impl Scene {
-    /// The rays with which paths from lights start, or the reason why there are none.
-    pub fn light_rays(&self) -> Result<&LightRays, &'static str> {
+    /// The rays with which paths from lights start, if the estimator traces any and the scene allows it.
+    pub fn light_rays(&self, settings: &RenderSettings) -> Option<&LightRays> {
+        let traces = settings.estimator.traces_light_paths() && !goes_on_for_ever(settings);
+        if traces { self.rays_or_obstacle().ok() } else { None }
+    }
+
+    /// Whether paths start at lights, too.
+    pub fn traces_light_paths(&self, settings: &RenderSettings) -> bool {
+        self.light_rays(settings).is_some()
+    }
+
+    /// The note that an estimator without its paths from lights works like `mis`; `None` if that is not so.
+    pub fn lacks_light_paths(&self, settings: &RenderSettings) -> Option<String> {
+        if !settings.estimator.traces_light_paths() {
+            return None;
+        }
+        let name = settings.estimator.name();
+        if goes_on_for_ever(settings) {
+            return Some(format!("the estimator `{name}` works like `mis`: {ENDLESS}"));
+        }
+        let reason = self.rays_or_obstacle().err()?;
+        Some(format!("the estimator `{name}` works like `mis` in this scene, which has {reason}"))
+    }
+
+    fn rays_or_obstacle(&self) -> Result<&LightRays, &'static str> {
         let made = self.light_paths.get_or_init(|| {
             if let Some(obstacle) = self.obstacle_to_light_paths() {
                 return Err(obstacle);
@@ -23,15 +54,18 @@ impl Scene {
         made.as_ref().map_err(|reason| *reason)
     }
 
-    /// Whether paths start at lights, too.
-    pub fn traces_light_paths(&self, settings: &RenderSettings) -> bool {
-        settings.estimator.traces_light_paths() && self.light_rays().is_ok()
-    }
-
-    /// The note that an estimator without its paths from lights works like `mis` in this scene; `None` if that is not so.
-    pub fn lacks_light_paths(&self, settings: &RenderSettings) -> Option<String> {
-        let reason = self.light_rays().err().filter(|_| settings.estimator.traces_light_paths())?;
-        Some(format!("the estimator `{}` works like `mis` in this scene, which has {reason}", settings.estimator.name()))
+    /// What is known of the estimator in force, where it is not the one of the settings.
+    pub fn estimator_in_force(&self, settings: &RenderSettings) -> Option<String> {
+        let traces = settings.estimator == Estimator::Auto || settings.estimator.traces_light_paths();
+        if traces && goes_on_for_ever(settings) {
+            return Some(format!("MIS: {ENDLESS}"));
+        }
+        let obstacle = self.light_paths.get().and_then(|made| made.as_ref().err());
+        match (settings.estimator, self.light_paths_pay.get()) {
+            (Estimator::Auto, Some(true)) => Some("bidirectional: less noise at equal cost in a trial".to_owned()),
+            (Estimator::Auto, Some(false)) => Some("MIS: paths from lights did not pay in a trial".to_owned()),
+            _ => obstacle.filter(|_| traces).map(|reason| format!("MIS: the scene has {reason}")),
+        }
     }
 
     /// What paths from lights do not know yet.

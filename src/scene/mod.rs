@@ -120,8 +120,10 @@ pub struct Scene {
     pub settings: RenderSettings,
     /// Whether sharing paths between pixels pays, once it has been tried.
     pub sharing_pays: OnceLock<bool>,
-    /// See [`Scene::light_rays`].
+    /// The rays with which paths from lights start, or what keeps them from it: see [`Scene::light_rays`].
     pub light_paths: OnceLock<Result<LightRays, &'static str>>,
+    /// Whether paths from lights pay, once it has been tried.
+    pub light_paths_pay: OnceLock<bool>,
     /// Samples per pixel to stop at.
     pub spp: Option<u32>,
     /// Exposure that the scene is displayed with, stops.

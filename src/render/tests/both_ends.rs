@@ -68,31 +68,47 @@ fn mean(scene: &Scene, settings: &RenderSettings, spp: u32) -> [f64; 2] {
     [sum / pixels, variance / (pixels * pixels)]
 }
 
-/// The light that is reflected this often, by `mis`.
-fn term(scene: &Scene, reflections: u32, spp: u32) -> [f64; 2] {
-    let up_to = |cap: u32| {
-        let settings = RenderSettings { estimator: Estimator::Mis, max_bounces: Some(cap), seed: 40 + cap, ..SETTINGS };
-        mean(scene, &settings, spp)
-    };
-    let ([all, variance], [before, of_before]) = (up_to(reflections), up_to(reflections - 1));
-    [all - before, variance + of_before]
-}
-
 #[test]
 fn every_strategy_alone_finds_the_light_of_its_number_of_reflections() {
+    let mut worst: f64 = 0.0;
     for ball in ["white", "gloss", "coated"] {
         let scene = scene(&PANELS.replace("BALL", ball));
         for reflections in 1..=3 {
-            let [exact, variance] = term(&scene, reflections, 4000);
-            for s in 0..=reflections + 1 {
+            let alone = |s: u32| {
                 let t = reflections + 2 - s;
-                if t == 0 {
-                    continue;
-                }
-                let settings = RenderSettings { strategy: Some([s, t]), max_bounces: Some(reflections), ..SETTINGS };
-                let [found, of_found] = mean(&scene, &settings, 2000);
-                let z = (found - exact) / (variance + of_found).sqrt();
-                println!("{ball} ({s}, {t}): {found:.5} {exact:.5} z = {z:.2} error {:.4}", of_found.sqrt() / exact);
+                mean(
+                    &scene,
+                    &RenderSettings { strategy: Some([s, t]), max_bounces: Some(reflections), seed: 7 + s, ..SETTINGS },
+                    1000,
+                )
+            };
+            let [light_samples, variance] = alone(1);
+            assert!(light_samples > 0.0 && variance > 0.0);
+            for s in (0..=reflections + 1).filter(|s| *s != 1) {
+                let [found, of_found] = alone(s);
+                let z = (found - light_samples) / (variance + of_found).sqrt();
+                worst = worst.max(z.abs());
+                assert!(z.abs() < 4.0, "{ball} ({s}, {}): {found} and {light_samples}, {z} σ", reflections + 2 - s);
+                let is_known = of_found.sqrt() < 0.6 * found;
+                assert!(is_known, "{ball} ({s}, {}): {found} ± {}", reflections + 2 - s, of_found.sqrt());
+            }
+        }
+    }
+    assert!(worst > 0.3, "chance is at work: {worst} σ");
+}
+
+#[test]
+fn all_strategies_together_find_the_light_of_mis() {
+    const SETTINGS: RenderSettings = RenderSettings { roulette: Roulette::BY_THROUGHPUT, ..self::SETTINGS };
+    for ball in ["white", "gloss", "coated"] {
+        let scene = scene(&PANELS.replace("BALL", ball));
+        for cap in [Some(2), Some(3), None] {
+            let with = |estimator, spp| mean(&scene, &RenderSettings { estimator, max_bounces: cap, ..SETTINGS }, spp);
+            let [of_mis, variance] = with(Estimator::Mis, 4000);
+            for estimator in [Estimator::Forward, Estimator::Bidirectional] {
+                let [found, of_found] = with(estimator, 2000);
+                let z = (found - of_mis) / (variance + of_found).sqrt();
+                assert!(z.abs() < 4.0, "{ball}, {}, cap {cap:?}: {found} and {of_mis}, {z} σ", estimator.name());
             }
         }
     }

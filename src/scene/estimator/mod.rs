@@ -1,6 +1,7 @@
 //! How direct light is estimated. All estimators converge to the same image; they differ in noise.
 //!
 //! An estimator is one file and one line of the catalogue below.
+mod auto;
 mod bidirectional;
 mod forward;
 mod light;
@@ -23,6 +24,7 @@ crate::declare::word_kinds! {
         mis::Mis,
         forward::Forward,
         bidirectional::Bidirectional,
+        auto::Auto,
     }
     in_estimator
 }
