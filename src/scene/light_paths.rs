@@ -9,13 +9,14 @@ use crate::{geometry::Shape, light::LightRays, material::Stage};
 
 /// Space around the scene, relative to its size.
 const MARGIN: f64 = 1e-4;
-/// Without roulette, paths of at most this many bounces are connected with each other.
+/// Where more paths survive roulette, they are connected with each other only if they have at most this many bounces.
 const MOST_BOUNCES: u32 = 64;
-const ENDLESS: &str = "without roulette or a bounce cap, there would be too many connections between paths";
+const MOST_SURVIVORS: f32 = 0.98;
+const ENDLESS: &str = "with so little roulette and no low bounce cap, there would be too many connections between paths";
 
 /// Whether paths may have so many vertices that the connections between them would take for ever.
 fn goes_on_for_ever(settings: &RenderSettings) -> bool {
-    settings.roulette.survival() == 1.0 && settings.max_bounces.is_none_or(|cap| cap > MOST_BOUNCES)
+    settings.roulette.survival() > MOST_SURVIVORS && settings.max_bounces.is_none_or(|cap| cap > MOST_BOUNCES)
 }
 
 impl Scene {

@@ -1,7 +1,11 @@
 //! Paths from either end arrive at surfaces. Those from the camera add what these emit.
 use fearless_simd_macros::simd;
 
-use super::{partial::Partial, paths::LightPaths, strategy::weight_of};
+use super::{
+    partial::{Partial, finite},
+    paths::LightPaths,
+    strategy::weight_of,
+};
 use crate::{
     geometry::{MISS, PrimitiveRef},
     integrator::{
@@ -33,7 +37,7 @@ pub(super) fn arrive_from_lights<L: Lanes>(l: L, work: &Work, batch: &mut Batch,
             continue;
         }
         let interaction = interact::<L, true>(l, work, &arrival.path, hit, nearest, None);
-        let (slot, cos) = (arrival.path.slot, interaction.cos.abs());
+        let (slot, cos) = (arrival.path.slot, finite(interaction.cos));
         // The numbers of the first surface depend on its type: see `light.rs`.
         if !first {
             let partial = end.partial(l, slot).arrive(nearest.t, cos);
@@ -88,7 +92,7 @@ pub(super) fn arrive_from_camera<L: Lanes>(
         if last {
             continue;
         }
-        let cos = interaction.cos.abs();
+        let cos = finite(interaction.cos);
         let arrived = if first { seen_first(l, work, path, &interaction, cos) } else { partial.arrive(nearest.t, cos) };
         end.put_partial(hit, path.slot, arrived);
         end.put_place(hit, path.slot, -path.d, interaction.place.primitive, interaction.place.element);

@@ -4,6 +4,7 @@ use fearless_simd_macros::simd;
 
 use super::{
     connect::{Connector, finish_connections},
+    partial::cosine,
     path_state::PathVertex,
     paths::LightPaths,
     records::DirectSample,
@@ -53,7 +54,7 @@ pub(super) fn shade_camera_paths<L: Lanes>(l: L, work: &Work, batch: &mut Batch,
             if is_joined {
                 keep = keep & scattered.delta;
             }
-            let cos = scattered.d.dot(vertex.hit.n).abs();
+            let cos = cosine(scattered.d, vertex.hit.n);
             let pdfs = [scattered.pdf, scattered.reverse];
             let partial = vertex.partial.scatter(scattered.delta, pdfs, cos, connects);
             let slot = vertex.hit.slot;

@@ -2,6 +2,7 @@
 use fearless_simd_macros::simd;
 
 use super::{
+    partial::cosine,
     path_state::PathVertex,
     paths::LightPaths,
     records::Connection,
@@ -137,7 +138,7 @@ fn finish<L: Lanes>(
         let light = vertices.read(l, index);
         let end = vertices.read_end(l, index);
         let Evaluated { f_cos, pdf, reverse } = evaluate(l, work, stage, hits, at, [-d, end.back]);
-        let (leaving, arriving) = (d.dot(light.n).abs(), end.back.dot(light.n).abs());
+        let (leaving, arriving) = (d.dot(light.n).abs(), cosine(end.back, light.n));
         let per_area = 1.0 / (distance * distance);
         let contribution = connection.light * end.light * f_cos * (leaving / arriving * per_area);
         let faces = at.live & contribution.max_component().above(0.0);

@@ -4,7 +4,7 @@ use fearless_simd_macros::simd;
 use super::{paths::LightPaths, records::CameraRay, splat::Splat};
 use crate::{
     integrator::{batch::Batch, work::Work},
-    math::{Lanes, MAX_LANES},
+    math::{F, Lanes, MAX_LANES},
 };
 
 #[simd]
@@ -13,7 +13,7 @@ pub(super) fn join<L: Lanes>(l: L, work: &Work, batch: &mut Batch, state: &mut L
         let CameraRay { o, d, distance, slot, x, y, light } = CameraRay::read(l, &state.joins, at.start);
         let nearest = work.scene.shapes.closest(l, at.live, o, d, work.time(l, slot));
         let seen = at.live & nearest.t.ge(distance);
-        let [x, y, r, g, b] = [x, y, light.x, light.y, light.z].map(|number| number.to_array());
+        let [x, y, r, g, b] = [x, y, light.x, light.y, light.z].map(F::to_array);
         let mut lanes = seen.bits();
         while lanes != 0 {
             let lane = lanes.trailing_zeros() as usize % MAX_LANES;

@@ -2,7 +2,7 @@
 use fearless_simd_macros::simd;
 
 use super::{
-    partial::Partial,
+    partial::{Partial, cosine},
     path_state::PathVertex,
     paths::LightPaths,
     records::CameraRay,
@@ -54,7 +54,7 @@ pub(super) fn shade_light_paths<L: Lanes>(l: L, work: &Work, rays: &LightRays, b
             let throughput = vertex.hit.throughput * scattered.adjoint_weight;
             let survival = survive(l, work.settings.roulette, *bounce + 1, scattered.roulette, throughput, l.f(1.0));
             let keep = at.live & survival.alive & scattered.consistent & survival.throughput.max_component().above(0.0);
-            let cos = scattered.d.dot(vertex.hit.n).abs();
+            let cos = cosine(scattered.d, vertex.hit.n);
             let pdfs = [scattered.pdf, scattered.reverse];
             let partial = vertex.partial.scatter(scattered.delta, pdfs, cos, connects);
             let slot = vertex.hit.slot;
@@ -88,7 +88,7 @@ fn at_first_surface<L: Lanes>(
         pdf = lamps.pick(pdf_of_lamps(l, work, rays, &at, lamps, light), pdf);
         finds_light = lamps.pick(l.f(0.0), finds_light);
     }
-    let cos = back.dot(hit.n).abs();
+    let cos = cosine(*back, hit.n);
     let v = pdf * inverse_density / cos;
     Partial { v, c: finds_light * inverse_density / cos }
 }
@@ -135,7 +135,7 @@ fn queue_join<L: Lanes>(
     let distance = join.way.length_squared().sqrt();
     let d = join.way * (1.0 / distance);
     let Evaluated { f_cos, pdf, .. } = evaluate(l, work, stage, hits, at, [d, *back]);
-    let (height, cos_in) = (d.dot(hit.n), back.dot(hit.n).abs());
+    let (height, cos_in) = (d.dot(hit.n), cosine(*back, hit.n));
     let density = join.density * height.abs();
     let mut light = light * f_cos * (density / cos_in);
     if work.settings.estimator.connects() {

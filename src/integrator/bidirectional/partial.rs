@@ -8,7 +8,22 @@
 //!
 //! In a single direction, as off a mirror, no other strategy can sample, so v becomes 0. Both pdfs of such a direction count as 1 at either
 //! end. Roulette is no part of any pdf.
-use crate::math::{F, Lanes, M, Pick};
+use crate::math::{F, Lanes, M, Pick, V};
+
+/// Largest value of either number. Where a path has it, others find its light far more likely; larger numbers would become infinite.
+const MOST: f32 = 1e30;
+
+/// The cosine of the angle between a unit direction and a normal on either side, of which reciprocals are finite.
+#[inline(always)]
+pub(super) fn cosine<L: Lanes>(d: V<L>, n: V<L>) -> F<L> {
+    finite(d.dot(n))
+}
+
+/// A cosine as [`cosine`] returns it.
+#[inline(always)]
+pub(super) fn finite<L: Lanes>(cos: F<L>) -> F<L> {
+    cos.abs().max(cos.splat(1e-9))
+}
 
 /// The two numbers of a path.
 #[derive(Clone, Copy)]
@@ -22,7 +37,7 @@ impl<L: Lanes> Partial<L> {
     #[inline(always)]
     pub fn arrive(self, t: F<L>, cos: F<L>) -> Self {
         let inverse = 1.0 / cos;
-        Partial { v: self.v * (t * t * inverse), c: self.c * inverse }
+        Partial { v: self.v * (t * t * inverse), c: self.c * inverse }.bounded()
     }
 
     /// After a direction with the pdf `pdf` has been sampled at an angle with the cosine `cos`; `reverse` is the pdf of the direction back
@@ -31,7 +46,13 @@ impl<L: Lanes> Partial<L> {
     pub fn scatter(self, delta: M<L>, [pdf, reverse]: [F<L>; 2], cos: F<L>, connects: bool) -> Self {
         let zero = pdf.splat(0.0);
         let c = delta.pick(self.c * cos, (self.c * reverse + self.v) * (cos / pdf));
-        Partial { v: delta.pick(zero, 1.0 / pdf), c: if connects { c } else { zero } }
+        Partial { v: delta.pick(zero, 1.0 / pdf), c: if connects { c } else { zero } }.bounded()
+    }
+
+    #[inline(always)]
+    fn bounded(self) -> Self {
+        let most = self.v.splat(MOST);
+        Partial { v: self.v.min(most), c: self.c.min(most) }
     }
 
     /// The sum at a vertex for these P and R.

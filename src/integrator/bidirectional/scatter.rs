@@ -1,6 +1,7 @@
 //! What depends on the type of BSDF: its values for two directions, and samples of it.
 use fearless_simd_macros::simd;
 
+use super::partial::cosine;
 use crate::{
     integrator::{
         coordinates::ReflectionCoordinates,
@@ -104,7 +105,7 @@ fn scatter_kind<L: Lanes, K: Shade>(
     let d = d * (1.5 - d.length_squared() * 0.5);
     let (o, consistent) = vertex.leave::<K>(hit, d, sample.wi.z);
     let Evaluated { f_cos, pdf: reverse, .. } = surface.evaluate(l, d, back);
-    let cosines = d.dot(hit.n).abs() / back.dot(hit.n).abs();
+    let cosines = d.dot(hit.n).abs() / cosine(back, hit.n);
     // Refraction scales radiance, which roulette undoes; flux is not scaled.
     let front = vertex.local.front;
     let judged = K::roulette_scale(&bsdf, front, sample.wi.z);
