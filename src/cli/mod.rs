@@ -1,4 +1,6 @@
 //! The command line. Exit status: 0 done, 1 failed with a message on standard error, 2 wrong usage, 130 interrupted.
+#[cfg(feature = "reports")]
+mod bench;
 mod check;
 mod compare;
 mod completions;
@@ -96,6 +98,9 @@ enum Command {
     /// Render images with several settings onto one labelled sheet
     #[cfg(feature = "reports")]
     Sheet(sheet::Arguments),
+    /// Measure where the time of a render goes, by stage and bounce
+    #[cfg(feature = "reports")]
+    Bench(bench::Arguments),
     /// Report errors and likely mistakes in scene files
     Check(check::Arguments),
     /// Write a scene of another program as a scene file of Noisefall, with its meshes and textures
@@ -132,6 +137,8 @@ pub fn run() -> ExitCode {
         Some(Command::Evidence(arguments)) => evidence::run(&arguments),
         #[cfg(feature = "reports")]
         Some(Command::Sheet(arguments)) => sheet::run(&arguments),
+        #[cfg(feature = "reports")]
+        Some(Command::Bench(arguments)) => bench::run(&arguments),
         Some(Command::Schema) => schema().map(succeeded),
         Some(Command::Scenes(arguments)) => scenes::run(&arguments).map(succeeded),
         Some(Command::Man(arguments)) => man::run(&arguments, Arguments::command()).map(succeeded),

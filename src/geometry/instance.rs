@@ -8,7 +8,7 @@ use glam::DAffine3;
 use super::{
     Coordinates, DirectionSample, MISS, PrimitiveRef, SurfacePoint,
     bounding_sphere::BoundingSphere,
-    bvh::Stack,
+    bvh::{Search, Stack},
     isosurface::Isosurface,
     lists::Lists,
     mesh::Mesh,
@@ -73,51 +73,52 @@ impl Instance {
         LaneTransform::new(l, &self.at_rest, &self.motion, time)
     }
 
-    /// The first intersection with o + td, d of unit length, with 0 < t < `limit`. Lanes with a limit of 0 cost almost nothing.
+    /// The first intersection with o + td, d of unit length, and t > 0. Lanes with a limit of 0 cost almost nothing.
     #[simd]
-    pub fn closest<L: Lanes>(&self, l: L, ray: (V<L>, V<L>), time: F<L>, limit: F<L>) -> Intersection<L> {
-        self.meet(l, l.token(), &mut Stack::default(), ray, time, limit)
+    pub fn closest<L: Lanes>(&self, l: L, ray: (V<L>, V<L>), time: F<L>, search: Search<L>) -> Intersection<L> {
+        self.meet(l, l.token(), &mut Stack::<false>::default(), ray, time, search)
     }
 
     /// The same; a mesh is tested with the instructions of `s`, for any lanes.
     #[inline(always)]
-    pub fn meet<L: Lanes, S: Simd>(
+    pub fn meet<L: Lanes, S: Simd, const COUNTS: bool>(
         &self,
         l: L,
         s: S,
-        stack: &mut Stack,
+        stack: &mut Stack<COUNTS>,
         (o, d): (V<L>, V<L>),
         time: F<L>,
-        limit: F<L>,
+        search: Search<L>,
     ) -> Intersection<L> {
         if self.is_world {
-            return self.meet_in_body(l, s, stack, (o, d), limit);
+            return self.meet_in_body(l, s, stack, (o, d), search);
         }
         let transform = self.transform(l, time);
         let local = transform.vector_to_local(d);
         let speed = local.length_squared().sqrt();
         let ray = (transform.point_to_local(o), local * (1.0 / speed));
-        let found = self.meet_in_body(l, s, stack, ray, limit * speed);
+        let search = Search { limit: search.limit * speed, enough: search.enough * speed };
+        let found = self.meet_in_body(l, s, stack, ray, search);
         Intersection { t: found.t / speed, ..found }
     }
 
     #[inline(always)]
-    fn meet_in_body<L: Lanes, S: Simd>(
+    fn meet_in_body<L: Lanes, S: Simd, const COUNTS: bool>(
         &self,
         l: L,
         s: S,
-        stack: &mut Stack,
+        stack: &mut Stack<COUNTS>,
         (o, d): (V<L>, V<L>),
-        limit: F<L>,
+        search: Search<L>,
     ) -> Intersection<L> {
         let zero = l.u(0);
         match &self.body {
             Body::Mesh(mesh) => {
-                let (t, element) = mesh.closest_by(l, s, stack, (o, d), limit);
+                let (t, element) = mesh.closest_by(l, s, stack, (o, d), search);
                 let none = element.is(MISS);
                 Intersection { t: none.pick(l.f(f32::INFINITY), t), piece: zero, element: none.pick(zero, element) }
             }
-            Body::Isosurface(surface) => Intersection { t: surface.intersect(l, o, d, limit), piece: zero, element: zero },
+            Body::Isosurface(surface) => Intersection { t: surface.intersect(l, o, d, search.limit), piece: zero, element: zero },
             Body::Shape(_, list) => {
                 let (t, piece) = list.closest(l, o, d);
                 Intersection { t, piece, element: zero }

@@ -93,7 +93,7 @@ impl<'a> MeshBuilder<'a> {
             return Ok((self.take_over(tree), moved));
         }
         let start = Instant::now();
-        let mesh = Arc::new(Mesh::build(&data.transformed(&pose), self.progress)?);
+        let mesh = Arc::new(Mesh::build(data, &pose, self.progress)?);
         self.times.push(Some(start.elapsed()));
         self.trees.0.push(MeshTree { data: data.clone(), pose, mesh: mesh.clone() });
         Ok((mesh, still))

@@ -2,14 +2,14 @@
 //!
 //! A list tests a shape against all lanes at once. For a few shapes this costs less than a step in a tree; among many, a tree
 //! finds the few near a ray. This module decides which shapes go where.
-use fearless_simd::Simd;
+use fearless_simd::{ExtractToken, Simd};
 use fearless_simd_macros::simd;
 use glam::DVec3;
 
 use super::{
     Nearest,
     bounds::Bounds,
-    bvh::{Bvh, Leaves, Slabs, Stack, traverse},
+    bvh::{Bvh, Leaves, Search, Slabs, Stack, traverse},
     instance::Instance,
     lists::{Listed, Lists},
     object::{Kind, Object},
@@ -112,24 +112,24 @@ impl Objects {
         self.bvh.bounds()
     }
 
-    /// Updates `nearest` with nearer hits along o + td, d of unit length, in the lanes of `live`.
+    /// Updates `nearest` with nearer hits along o + td, d of unit length, in the lanes of `live`. A hit before `enough` ends the search.
     #[simd]
     pub fn closest<L: Lanes>(
         &self,
         l: L,
         instances: &[Instance],
-        live: M<L>,
+        (live, enough): (M<L>, F<L>),
         (o, d): (V<L>, V<L>),
         time: F<L>,
         nearest: &mut Nearest<L>,
     ) {
         let slabs = Slabs::new(l, o, d, &self.bvh.bounds());
         let (origins, directions) = (arrays(o), arrays(d));
-        let times = time.to_array();
+        let (times, enough) = (time.to_array(), enough.to_array());
         let mut distances = nearest.t.to_array();
         let mut primitives = nearest.primitive.as_real_bits().to_array();
         let mut elements = nearest.element.as_real_bits().to_array();
-        let (mut stack, mut below) = (Stack::default(), Stack::default());
+        let (mut stack, mut below) = (Stack::<false>::default(), Stack::<false>::default());
         let mut rest = live.bits();
         while rest != 0 {
             let lane = rest.trailing_zeros() as usize % MAX_LANES;
@@ -141,29 +141,50 @@ impl Objects {
                 o: vector(&origins, lane),
                 d: vector(&directions, lane),
                 time: F(times[lane]),
+                enough: F(enough[lane]),
                 primitive: primitives[lane].to_bits(),
                 element: elements[lane].to_bits(),
             };
-            distances[lane] = traverse(l.token(), &self.bvh, &mut stack, (&slabs, lane), distances[lane], &mut found);
+            let search = (distances[lane], enough[lane]);
+            distances[lane] = traverse(l.token(), &self.bvh, &mut stack, (&slabs, lane), search, &mut found);
             (primitives[lane], elements[lane]) = (f32::from_bits(found.primitive), f32::from_bits(found.element));
         }
         *nearest = Nearest { t: l.load(&distances), primitive: l.load(&primitives).bits(), element: l.load(&elements).bits() };
     }
 }
 
+impl Objects {
+    /// Finds the nearest hit of one ray that is nearer than `nearest`, and counts the visits of this tree and of those below.
+    pub fn count(
+        &self,
+        instances: &[Instance],
+        (o, d): (V<One>, V<One>),
+        time: F<One>,
+        nearest: &Nearest<One>,
+        stacks: &mut [Stack<true>; 2],
+    ) {
+        let slabs = Slabs::new(One, o, d, &self.bvh.bounds());
+        let [stack, below] = stacks;
+        let (primitive, element) = (nearest.primitive.0, nearest.element.0);
+        let mut found = Found { objects: self, instances, below, o, d, time, enough: F(0.0), primitive, element };
+        traverse(One.token(), &self.bvh, stack, (&slabs, 0), (nearest.t.0, 0.0), &mut found);
+    }
+}
+
 /// The nearest hit of one ray so far.
-struct Found<'a> {
+struct Found<'a, const COUNTS: bool> {
     objects: &'a Objects,
     instances: &'a [Instance],
-    below: &'a mut Stack,
+    below: &'a mut Stack<COUNTS>,
     o: V<One>,
     d: V<One>,
     time: F<One>,
+    enough: F<One>,
     primitive: u32,
     element: u32,
 }
 
-impl<S: Simd> Leaves<S> for Found<'_> {
+impl<S: Simd, const COUNTS: bool> Leaves<S> for Found<'_, COUNTS> {
     #[inline(always)]
     fn meet(&mut self, s: S, leaf: u32, t_max: f32) -> f32 {
         let (t, primitive, element) = match self.objects.items[leaf as usize] {
@@ -173,7 +194,8 @@ impl<S: Simd> Leaves<S> for Found<'_> {
             }
             Item::Instance(index) => {
                 let instance = &self.instances[index as usize];
-                let found = instance.meet(One, s, self.below, (self.o, self.d), self.time, F(t_max));
+                let search = Search { limit: F(t_max), enough: self.enough };
+                let found = instance.meet(One, s, self.below, (self.o, self.d), self.time, search);
                 (found.t, found.piece + instance.first, found.element)
             }
         };

@@ -3,10 +3,12 @@ mod at_point;
 
 use std::{sync::Arc, time::Duration};
 
+use fearless_simd::ExtractToken;
 use glam::{DAffine3, DVec3};
 
 use super::{
-    Motion, Nearest, SurfacePoint,
+    MISS, Motion, Nearest, SurfacePoint,
+    bvh::{Search, Stack, Visits},
     clusters::take_clusters,
     identity::same_map,
     instance::{Body, Instance},
@@ -20,7 +22,7 @@ use super::{
 };
 use crate::{
     declare::Precision,
-    math::{F, Lanes, M, Pick, U, V},
+    math::{F, Lanes, M, One, Pick, U, V},
     progress::{Cancelled, Progress},
 };
 
@@ -34,6 +36,8 @@ pub struct Shapes {
     loops: Vec<u32>,
     /// Shapes in a tree.
     objects: Option<Objects>,
+    /// The first primitive that is not in lists; [`MISS`] if all are.
+    first_unlisted: u32,
     /// Whether there are meshes, whose triangles are elements.
     has_elements: bool,
     moves: bool,
@@ -61,13 +65,19 @@ impl Shapes {
         progress: &Progress,
     ) -> Result<(Shapes, Vec<Option<Duration>>), Cancelled> {
         let mut meshes = MeshBuilder::new(shapes.clone(), before.map(|before| &before.meshes), precision, progress);
-        let mut all = Shapes { near, ..Shapes::default() };
+        let mut all = Shapes { near, first_unlisted: MISS, ..Shapes::default() };
         let mut objects = Vec::new();
         for (shape, motion) in shapes {
             let kind = all.push(shape, motion, &mut meshes, near)?;
             objects.push(Object { bounds: shape.bounds(motion), kind });
         }
         let [mut few, many] = few_and_many(objects);
+        let first = |kind: &Kind| match kind {
+            Kind::Analytic { first, .. } => *first,
+            Kind::Instance(index) => all.instances[*index as usize].first,
+        };
+        let looped = few.iter().filter(|object| matches!(object.kind, Kind::Instance(_)));
+        all.first_unlisted = looped.chain(&many).map(|object| first(&object.kind)).min().unwrap_or(MISS);
         all.lists.set_clusters(take_clusters(&mut few, near));
         for object in few {
             match object.kind {
@@ -197,6 +207,11 @@ impl Shapes {
         self.objects.is_none() && self.loops.is_empty()
     }
 
+    /// The primitives before this one are in lists, which rays test first.
+    pub fn first_unlisted(&self) -> u32 {
+        self.first_unlisted
+    }
+
     /// Whether all surfaces are static spheres, or static, open and flat.
     pub fn are_simple(&self) -> bool {
         self.instances.is_empty() && self.tables.are_simple()
@@ -218,22 +233,66 @@ impl Shapes {
     /// The first surface along o + td, d of unit length, in the lanes of `live`.
     #[inline(always)]
     pub fn closest<L: Lanes>(&self, l: L, live: M<L>, o: V<L>, d: V<L>, time: F<L>) -> Nearest<L> {
+        let listed = self.closest_listed(l, o, d);
+        self.nearer(l, (live, l.f(0.0)), (o, d), time, listed)
+    }
+
+    /// The first of the surfaces in lists.
+    #[inline(always)]
+    pub fn closest_listed<L: Lanes>(&self, l: L, o: V<L>, d: V<L>) -> Nearest<L> {
         let (t, primitive) = self.lists.closest(l, o, d);
-        let mut nearest = Nearest { t, primitive, element: l.u(0) };
+        Nearest { t, primitive, element: l.u(0) }
+    }
+
+    /// Work of one ray in trees, on its way to the first surface.
+    pub fn visits(&self, ray: (V<One>, V<One>), time: F<One>) -> Visits {
+        let (o, d) = ray;
+        let mut nearest = self.closest_listed(One, o, d);
+        let mut stacks = [Stack::<true>::default(), Stack::default()];
+        for instance in self.loops.iter().map(|index| &self.instances[*index as usize]) {
+            if instance.near(M(true), o, d).0 {
+                let search = Search::nearest(One, nearest.t);
+                let found = instance.meet(One, One.token(), &mut stacks[1], ray, time, search);
+                nearest.t = if found.t.0 < nearest.t.0 { found.t } else { nearest.t };
+            }
+        }
+        if let Some(objects) = &self.objects {
+            objects.count(&self.instances, ray, time, &nearest, &mut stacks);
+        }
+        let [a, b] = stacks.map(|stack| stack.visits);
+        Visits { nodes: a.nodes + b.nodes, leaves: a.leaves + b.leaves }
+    }
+
+    /// The first of the surfaces that are not in lists, in the lanes of `live`, or `listed` if that is nearer. Any before `enough` will
+    /// do: for rays that only ask whether something is in their way.
+    #[inline(always)]
+    pub fn nearer<L: Lanes>(
+        &self,
+        l: L,
+        (mut live, enough): (M<L>, F<L>),
+        (o, d): (V<L>, V<L>),
+        time: F<L>,
+        listed: Nearest<L>,
+    ) -> Nearest<L> {
+        let mut nearest = listed;
         for &index in &self.loops {
             let instance = &self.instances[index as usize];
             let near = instance.near(live, o, d);
             if !near.any() {
                 continue;
             }
-            let found = instance.closest(l, (o, d), time, near.pick(nearest.t, l.f(0.0)));
+            let search = Search { limit: near.pick(nearest.t, l.f(0.0)), enough };
+            let found = instance.closest(l, (o, d), time, search);
             let nearer = found.t.lt(nearest.t);
             nearest.t = nearer.pick(found.t, nearest.t);
             nearest.primitive = nearer.pick(found.piece + instance.first, nearest.primitive);
             nearest.element = nearer.pick(found.element, nearest.element);
+            live = live & !(nearer & nearest.t.lt(enough));
         }
-        if let Some(objects) = &self.objects {
-            objects.closest(l, &self.instances, live, (o, d), time, &mut nearest);
+        if let Some(objects) = &self.objects
+            && live.any()
+        {
+            objects.closest(l, &self.instances, (live, enough), (o, d), time, &mut nearest);
         }
         nearest
     }

@@ -21,6 +21,7 @@ mod meet;
 mod normal_mapping;
 mod normal_shadowing;
 mod passage;
+mod profile;
 pub mod queue;
 mod queues;
 mod records;
@@ -52,12 +53,13 @@ pub use self::{
     features::{Features, features},
     interrupted::Interrupted,
     light_paths::splat::Splat,
+    profile::{CountedRays, Profile, StageCost, trace_profiled},
     replay::{
         EmitterHit, End, Outcome, Reflection, Replay, SampledLight, SharedLight, Surface, Vertex, pixel_samples, replay,
         seen_by_camera,
     },
     series::{SHARES, TERMS, Terms, trace_series},
     slots::{BLOCK, BLOCKS, TILE},
-    trace::{Segments, trace_counting},
+    trace::{PathStage, Segments, trace_counting},
     work::{Blocks, Work},
 };

@@ -14,7 +14,7 @@ use super::{
     work::Work,
 };
 use crate::{
-    geometry::PrimitiveRef,
+    geometry::{Nearest, PrimitiveRef},
     math::{F, Lanes, M, One, Pick, U, V},
 };
 
@@ -145,10 +145,18 @@ impl<L: Lanes> Second<L> {
         // Of a surface that is not convex a ray may meet another part first.
         const NEARLY: f32 = 0.999;
         let shapes = &work.scene.shapes;
-        let nearest =
-            if shapes.are_spheres() { shapes.closest_sphere(l, o, d) } else { shapes.closest(l, lanes, o, d, self.place.time) };
-        let same = nearest.primitive.equals(self.place.primitive) & nearest.element.equals(self.place.element);
-        same & nearest.t.ge(distance * NEARLY)
+        let is_here =
+            |nearest: &Nearest<L>| nearest.primitive.equals(self.place.primitive) & nearest.element.equals(self.place.element);
+        let before = distance * NEARLY;
+        let mut nearest = if shapes.are_spheres() { shapes.closest_sphere(l, o, d) } else { shapes.closest_listed(l, o, d) };
+        if !shapes.are_listed() {
+            // A point in a list is hidden by any other surface, and every point by one that is clearly before it.
+            let listed = self.place.primitive.below(shapes.first_unlisted());
+            let open = lanes & nearest.t.ge(before) & (is_here(&nearest) | !listed);
+            let enough = listed.pick(l.f(f32::INFINITY), before);
+            nearest = shapes.nearer(l, (open, enough), (o, d), self.place.time, nearest);
+        }
+        is_here(&nearest) & nearest.t.ge(before)
     }
 }
 

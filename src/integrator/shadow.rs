@@ -32,13 +32,14 @@ pub(super) fn shadow<L: Lanes>(l: L, work: &Work, batch: &mut Batch) {
 #[simd]
 fn test<L: Lanes, const PASSAGES: bool>(l: L, work: &Work, batch: &mut Batch) {
     let Batch { shadows, radiance, rays, bounce, .. } = batch;
+    let ends_at_any = work.scene.lights_are_listed() && !work.scene.shapes.are_listed();
     for at in shadows.registers(l) {
         let shadow = Shadow::read(l, &shadows.shadows, at.start);
         let media = if work.has_media() { shadows.media(l, at) } else { l.u(0) };
         let Arriving { seen, light, .. } = if PASSAGES {
             through_surfaces(l, work, at.live, &shadow, media, *bounce + 1, rays)
         } else {
-            directly(l, work, at.live, &shadow, media)
+            directly(l, work, at.live, &shadow, media, ends_at_any)
         };
         add(radiance, seen, shadow.slot, light);
     }
@@ -70,16 +71,23 @@ pub(super) fn arriving<L: Lanes>(
     if work.has_passages() {
         through_surfaces(l, work, live, shadow, media, reflection, rays)
     } else {
-        directly(l, work, live, shadow, media)
+        directly(l, work, live, shadow, media, false)
     }
 }
 
-/// [`arriving`] where every surface stops light.
+/// [`arriving`] where every surface stops light. If all lights are in lists, the ray may end at any other surface before its light; `t`
+/// of hidden light is then the distance to one of those that hide it.
 #[inline(always)]
-fn directly<L: Lanes>(l: L, work: &Work, live: M<L>, shadow: &Shadow<L>, media: U<L>) -> Arriving<L> {
+fn directly<L: Lanes>(l: L, work: &Work, live: M<L>, shadow: &Shadow<L>, media: U<L>, ends_at_any: bool) -> Arriving<L> {
     let scene = work.scene;
     let time = work.time(l, shadow.slot);
-    let nearest = scene.shapes.closest(l, live, shadow.o, shadow.d, time);
+    let listed = scene.shapes.closest_listed(l, shadow.o, shadow.d);
+    let (mut open, mut enough) = (live, l.f(0.0));
+    if ends_at_any {
+        let at_light = scene.lights.light_at(l, listed.primitive, listed.element).equals(shadow.target);
+        (open, enough) = (live & at_light, l.f(f32::INFINITY));
+    }
+    let nearest = scene.shapes.nearer(l, (open, enough), (shadow.o, shadow.d), time, listed);
     let (arrives, Nearest { t, primitive, element }) = scene.lights.arrives(l, shadow.target, shadow.o, nearest);
     let seen = live & arrives;
     let mut light = shadow.radiance;

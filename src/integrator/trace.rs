@@ -32,6 +32,26 @@ pub trait Observer {
 
     /// Called when all paths have ended, before pixels share them.
     fn before_sharing(&mut self, _work: &Work, _batch: &Batch) {}
+
+    /// Called after each stage.
+    fn after(&mut self, _stage: PathStage, _batch: &Batch) {}
+}
+
+/// A stage of the path loop.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PathStage {
+    /// Generates camera rays.
+    Spawn,
+    /// Finds the first surface of every path.
+    Intersect,
+    /// Evaluates the surfaces, and adds emission and background.
+    Surface,
+    /// Samples a light and the next direction.
+    Shade,
+    /// Traces shadow rays.
+    Shadow,
+    /// Shares paths between pixels.
+    Reuse,
 }
 
 impl Observer for () {}
@@ -87,26 +107,31 @@ pub(super) fn trace_in<L: Lanes, O: Observer>(
     let last_bounce = work.settings.last_bounce();
     let cut_short = work.settings.max_bounces != Some(last_bounce);
     spawn(l, work, batch);
+    observer.after(PathStage::Spawn, batch);
     while !batch.current().is_empty() {
         if interrupted() {
             return Err(Interrupted);
         }
         let last = batch.bounce == last_bounce;
         intersect(l, work, batch, Decisions::Random);
+        observer.after(PathStage::Intersect, batch);
         if work.scene.is_plain() {
             surfaces::<L, false>(l, work, batch, last && !cut_short);
         } else {
             surfaces::<L, true>(l, work, batch, last && !cut_short);
         }
+        observer.after(PathStage::Surface, batch);
         observer.at_surfaces(work, batch);
         if last {
             batch.cut_paths += if cut_short { batch.hits.iter().map(HitQueues::len).sum::<usize>() as u64 } else { 0 };
             break;
         }
         shade_all(l, work, batch);
+        observer.after(PathStage::Shade, batch);
         observer.at_shaded(work, batch);
         if work.samples_lights() {
             shadow(l, work, batch);
+            observer.after(PathStage::Shadow, batch);
         }
         batch.bounce += 1;
     }
@@ -115,6 +140,7 @@ pub(super) fn trace_in<L: Lanes, O: Observer>(
         if !share(l, work, batch, interrupted) {
             return Err(Interrupted);
         }
+        observer.after(PathStage::Reuse, batch);
     }
     Ok(())
 }

@@ -6,7 +6,7 @@
 //! differences.
 use rayon::prelude::*;
 
-use super::{block::Block, estimate::SquaredRadiance, film::Film, region::Region, tile::Tile};
+use super::{block::Block, estimate::SquaredRadiance, film::Film, region::Region, scatter::Parts, tile::Tile};
 use crate::measure::{BlockErrors, Floor};
 
 /// The standard error of the natural logarithm of the estimate, beside chance: of samples that are not independent, how the error
@@ -19,6 +19,12 @@ const LEAST: f64 = 0.15;
 /// The weight of the law of factors in the mean of both laws. A fit to every other shipped scene gives 0.68, and the error of the
 /// estimate in the others is then 11 % (root mean square), as with the best weight for these, 0.84: the choice hardly matters.
 const FACTORS: f64 = 0.65;
+
+/// Fewest effective samples that make the variance an estimate. Before, the light that causes the noise may not have been found.
+const FEWEST: f64 = 8.0;
+/// The number of samples per pixel from which on a film that has found fewer is taken as it is, so that renders of black scenes
+/// to a noise target end.
+const ENOUGH: u32 = 1024;
 
 /// Records the moves of blocks whose sample counts have just become a power of two. The floor of relMSE is that of the whole
 /// image, so this waits until all tiles are ready: no block takes another sample before. Returns whether it is complete; after an
@@ -46,7 +52,7 @@ fn mean_square(film: &Film, interrupted: &(dyn Fn() -> bool + Sync)) -> Option<f
     Some(sums.into_iter().fold(SquaredRadiance::default(), SquaredRadiance::plus).mean(film.resolution))
 }
 
-/// The expected relMSE of a film; `None` before the second sample.
+/// The expected relMSE of a film; `None` before the second sample, and while too few samples have found light.
 pub(super) fn rel_mse_estimate(film: &Film) -> Option<f64> {
     let all = Region { from: [0, 0], to: film.resolution };
     rel_mse_estimate_in(film, &all)
@@ -55,11 +61,19 @@ pub(super) fn rel_mse_estimate(film: &Film) -> Option<f64> {
 /// The same for the tiles in a region.
 pub(super) fn rel_mse_estimate_in(film: &Film, region: &Region) -> Option<f64> {
     let tiles = || film.tiles.iter().filter(|tile| tile.lies_in(region));
-    let have_doubled = tiles().flat_map(|tile| &tile.blocks).map(|block| block.doubled).min()? >= 2;
-    have_doubled.then(|| tiles().map(Sums::of).fold(Sums::default(), |a, b| a.plus(&b, 1.0)).estimate())
+    let doubled = tiles().flat_map(|tile| &tile.blocks).map(|block| block.doubled).min()?;
+    let is_known = doubled >= ENOUGH || doubled >= 2 && has_found_light(&tiles);
+    is_known.then(|| tiles().map(Sums::of).fold(Sums::default(), |a, b| a.plus(&b, 1.0)).estimate())
 }
 
-/// The expected relMSE of a film, and the same without each of its tiles; `None` before the second sample.
+/// Whether the variance comes from enough samples that differ. Without any noise, all pixels must have found light.
+fn has_found_light<'a, I: Iterator<Item = &'a Tile>>(tiles: &impl Fn() -> I) -> bool {
+    let effective = Parts::effective_count(tiles().flat_map(Tile::parts));
+    let is_lit = |tile: &Tile| tile.sum.iter().all(|sum| *sum != [0.0; 3]);
+    if effective.is_finite() { effective >= FEWEST } else { tiles().all(is_lit) }
+}
+
+/// The expected relMSE of a film, and the same without each of its tiles; `None` where that is.
 pub(super) fn block_errors(film: &Film) -> Option<BlockErrors> {
     let whole = rel_mse_estimate(film)?;
     let sums: Vec<Sums> = film.tiles.iter().map(Sums::of).collect();

@@ -48,9 +48,9 @@ pub struct Frame {
     pub elapsed: Duration,
     /// The series by number of bounces, if requested.
     pub series: Option<Series>,
-    /// Estimated relMSE of the image: see `render/error_estimator.rs`; `None` before the second sample.
+    /// Estimated relMSE of the image: see `render/error_estimator.rs`; `None` before the second sample, and until light is found.
     pub rel_mse_estimate: Option<f64>,
-    /// The same estimate with each of its blocks left out; `None` before the second sample.
+    /// The same estimate with each of its blocks left out; `None` where that is.
     pub block_errors: Option<BlockErrors>,
     /// Two halves of the samples, if requested.
     pub halves: Option<Halves>,

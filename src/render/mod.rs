@@ -31,6 +31,7 @@ mod pass_count;
 pub mod path_formula;
 pub mod path_samples;
 pub mod path_text;
+pub mod profile;
 mod protocol;
 pub mod region;
 #[cfg(feature = "cli")]

@@ -4,6 +4,7 @@ mod font;
 pub mod picture;
 pub mod plot;
 pub mod sheet;
+pub mod stack;
 pub mod table;
 #[cfg(test)]
 mod tests;

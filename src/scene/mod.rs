@@ -166,6 +166,11 @@ impl Scene {
         self.surfaces.plain && !self.lights.emitters.vary() && self.shapes.are_simple()
     }
 
+    /// Whether all lights are the background or surfaces in lists, so that any other surface on the way to one hides it.
+    pub fn lights_are_listed(&self) -> bool {
+        self.lights.lamps.is_empty() && self.lights.emitters.len() <= self.shapes.first_unlisted() as usize
+    }
+
     /// Whether pixels share path suffixes.
     #[inline(always)]
     pub fn shares(&self, rays: &CameraRays, settings: &RenderSettings) -> bool {

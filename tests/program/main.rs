@@ -1,4 +1,5 @@
 //! Tests of the program: scene files, command line, worker, and the structure of the source.
+mod bench;
 mod checkpoints;
 mod circles;
 mod closed_streams;

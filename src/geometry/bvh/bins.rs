@@ -6,6 +6,9 @@
 //! 2007).
 use glam::Vec4;
 
+use super::item::Item;
+use crate::progress::Progress;
+
 /// Maximum number of bins along an axis.
 const BINS: usize = 32;
 /// Minimum number of bins along an axis.
@@ -87,6 +90,38 @@ impl Grid {
     }
 }
 
+/// The bins of some boxes, by axis.
+struct Bins([[Bin; BINS]; 3]);
+
+impl Bins {
+    /// Number of items that are binned in a row.
+    const IN_A_ROW: usize = 1 << 15;
+
+    const EMPTY: Bins = Bins([[Bin::EMPTY; BINS]; 3]);
+
+    /// Adds items, many of them on all threads. The result does not depend on their order. If the build is cancelled, some are left
+    /// out.
+    fn fill(&mut self, items: &[Item], grid: &Grid, progress: &Progress) {
+        if items.len() > Bins::IN_A_ROW && !progress.is_cancelled() {
+            let (left, right) = items.split_at(items.len() / 2);
+            let mut others = Bins::EMPTY;
+            rayon::join(|| self.fill(left, grid, progress), || others.fill(right, grid, progress));
+            self.add(&others);
+            return;
+        }
+        for item in items.iter().take(Bins::IN_A_ROW) {
+            for (bins, at) in self.0.iter_mut().zip(grid.bins_of(item.center())) {
+                bins[at].add(&Bin { extent: Extent { min: item.min, max: item.max }, count: 1 });
+            }
+        }
+    }
+
+    fn add(&mut self, other: &Bins) {
+        let bins = self.0.as_flattened_mut().iter_mut().zip(other.0.as_flattened());
+        bins.for_each(|(bin, other)| bin.add(other));
+    }
+}
+
 /// A plane between bins.
 pub(super) struct Plane {
     pub axis: usize,
@@ -96,15 +131,11 @@ pub(super) struct Plane {
     pub right: Extent,
 }
 
-/// The plane of lowest cost for boxes given by (minimum, maximum); `None` if all centres fall into one bin along every axis.
-pub(super) fn cheapest_plane<const LEAF_SIZE: usize>(boxes: impl Iterator<Item = (Vec4, Vec4)>, grid: &Grid) -> Option<Plane> {
-    let mut bins = [[Bin::EMPTY; BINS]; 3];
-    for (min, max) in boxes {
-        let at = grid.bins_of(min + max);
-        for axis in 0..3 {
-            bins[axis][at[axis]].add(&Bin { extent: Extent { min, max }, count: 1 });
-        }
-    }
+/// The plane of lowest cost; `None` if all centres fall into one bin along every axis.
+pub(super) fn cheapest_plane<const LEAF_SIZE: usize>(items: &[Item], grid: &Grid, progress: &Progress) -> Option<Plane> {
+    let mut bins = Bins::EMPTY;
+    bins.fill(items, grid, progress);
+    let Bins(bins) = bins;
     let (mut lowest, mut best) = (f32::INFINITY, None);
     for (axis, bins) in bins.iter().enumerate() {
         let mut right_costs = [f32::INFINITY; BINS];

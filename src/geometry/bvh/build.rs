@@ -1,8 +1,15 @@
 //! Builds a binary tree top-down, which `collapse.rs` turns into one with eight children per node.
+//!
+//! Both sides of a large branch grow at the same time. The tree is the same for any number of threads, because a split depends on the
+//! items of its branch alone.
+use std::cmp::Ordering;
+
+use rayon::prelude::*;
+
 use super::{
     Bvh,
     bins::{Extent, Grid, Plane, cheapest_plane},
-    collapse::{Branch, Collapse, Forest},
+    collapse::{Branch, Collapse, Costs},
     item::Item,
 };
 use crate::{
@@ -13,6 +20,14 @@ use crate::{
 /// Maximum number of branches between the root and a leaf. If splits by the heuristic would go deeper, items are halved instead.
 pub(super) const MAX_DEPTH: usize = 36;
 
+/// Items of a branch that reports its progress when it is finished.
+const REPORT: usize = 1 << 14;
+
+/// Items of a branch whose sides grow at the same time, at least.
+const LARGE: usize = 1 << 15;
+/// The same as a fraction of all items. Smaller sides would be copied more often.
+const LARGE_SHARE: usize = 16;
+
 /// A range of items below one branch.
 #[derive(Clone, Copy)]
 struct Part {
@@ -21,125 +36,175 @@ struct Part {
     bounds: Extent,
     /// The box of the doubled centres.
     centers: Extent,
+    /// Whether items with the same content were removed.
+    is_distinct: bool,
 }
 
 impl Part {
-    fn of(items: &[Item], start: usize, end: usize) -> Part {
-        let mut part = Part { start, end, bounds: Extent::EMPTY, centers: Extent::EMPTY };
-        for item in &items[start..end] {
-            part.bounds.add(item.min, item.max);
-            part.centers.add(item.center(), item.center());
+    /// The part of items that start at `start`.
+    fn of(items: &[Item], start: usize) -> Part {
+        let (mut bounds, mut centers) = (Extent::EMPTY, Extent::EMPTY);
+        for item in items {
+            bounds.add(item.min, item.max);
+            centers.add(item.center(), item.center());
         }
-        part
+        Part { start, end: start + items.len(), bounds, centers, is_distinct: false }
     }
 
     fn len(&self) -> usize {
         self.end - self.start
     }
+
+    /// Whether all items have the same centre, so that no plane divides them.
+    fn is_heap(&self) -> bool {
+        self.centers.min.truncate() == self.centers.max.truncate()
+    }
 }
 
-/// Items of a branch that reports its progress when it is finished.
-const REPORT: usize = 1 << 14;
+/// Compares the contents of two items by their numbers.
+type Compare<'a> = dyn Fn(u32, u32) -> Ordering + Sync + 'a;
 
 struct Builder<'a, const LEAF_SIZE: usize> {
-    items: Vec<Item>,
-    branches: Vec<Branch>,
+    contents: Option<&'a Compare<'a>>,
+    /// Items of a branch whose sides grow at the same time.
+    large: usize,
     progress: &'a Progress,
 }
 
 impl Bvh {
     /// Builds a tree over boxes, none of which may be empty or infinite, and returns it with the numbers of the boxes in its
-    /// leaves: leaf k holds `order[k * LEAF_SIZE..][..LEAF_SIZE]`, of which the last ones may be [`NONE`].
-    pub fn build<const LEAF_SIZE: usize>(boxes: impl ExactSizeIterator<Item = Bounds>) -> (Bvh, Vec<u32>) {
-        Bvh::build_watched::<LEAF_SIZE>(boxes, &Progress::default()).expect("nobody cancels")
+    /// leaves: leaf k holds `order[k * LEAF_SIZE..][..LEAF_SIZE]`, of which the last ones may be [`NONE`](super::NONE).
+    pub fn build<const LEAF_SIZE: usize>(boxes: impl Iterator<Item = Bounds>) -> (Bvh, Vec<u32>) {
+        let boxes: Vec<Bounds> = boxes.collect();
+        Bvh::build_watched::<LEAF_SIZE>(boxes.len(), |number| boxes[number], None, &Progress::default()).expect("nobody cancels")
     }
 
-    /// The same, with progress, which counts items, and cancellation.
+    /// The same for `count` boxes, on all threads, with progress, which counts items, and cancellation. Of items in one place with
+    /// the same `contents`, only the first is in the tree, so that a ray does not test them all.
     pub fn build_watched<const LEAF_SIZE: usize>(
-        boxes: impl ExactSizeIterator<Item = Bounds>,
+        count: usize,
+        bounds: impl Fn(usize) -> Bounds + Sync,
+        contents: Option<&Compare>,
         progress: &Progress,
     ) -> Result<(Bvh, Vec<u32>), Cancelled> {
-        let count = boxes.len();
-        let mut items = Vec::with_capacity(count);
-        items.extend(boxes.enumerate().map(|(number, bounds)| Item::new(number, &bounds)));
-        let all = Part::of(&items, 0, count);
-        let branches = Vec::with_capacity(4 * count / LEAF_SIZE + 1);
-        let mut builder = Builder::<LEAF_SIZE> { items, branches, progress };
-        builder.grow(all, MAX_DEPTH)?;
+        let mut items: Vec<Item> = (0..count).into_par_iter().map(|number| Item::new(number, &bounds(number))).collect();
+        let all = Part::of(&items, 0);
+        let builder = Builder::<LEAF_SIZE> { contents, large: LARGE.max(count / LARGE_SHARE), progress };
+        let mut branches = Vec::with_capacity(most_branches::<LEAF_SIZE>(count));
+        if count > 0 {
+            builder.grow(&mut items, all, MAX_DEPTH, &mut branches)?;
+        }
         progress.advance(if count <= REPORT { count as u64 } else { 0 })?;
         let [min, max] = [all.bounds.min, all.bounds.max].map(|corner| corner.truncate().to_array());
-        let (nodes, order) = Collapse::of(&builder.branches, &builder.items, LEAF_SIZE);
+        let (nodes, order) = Collapse::of(&branches, &items, LEAF_SIZE);
         Ok((Bvh { nodes, bounds: Bounds { min, max } }, order))
     }
 }
 
 impl<const LEAF_SIZE: usize> Builder<'_, LEAF_SIZE> {
-    /// Adds the branch for `part` and its subtree, which may have up to `levels` levels. Returns its index.
-    fn grow(&mut self, part: Part, levels: usize) -> Result<u32, Cancelled> {
-        let place = self.branches.len();
-        let mut branch = Branch::leaf(part.bounds, part.start as u32, part.len() as u32);
-        self.branches.push(branch);
-        if part.len() > LEAF_SIZE {
-            let parts = self.split(part, levels);
-            if part.len() > REPORT {
-                self.progress.check()?;
-            }
-            let mut sides = [0; 2];
-            for (side, below) in sides.iter_mut().zip(parts) {
-                *side = self.grow(below, levels - 1)?;
-                if part.len() > REPORT && below.len() <= REPORT {
-                    self.progress.advance(below.len() as u64)?;
-                }
-            }
-            branch.forest = Forest::over(&part.bounds, sides, &self.branches);
-            self.branches[place] = branch;
+    /// Appends the branch for `part`, whose items are `items`, and its subtree, which may have up to `levels` levels. Returns the costs
+    /// of its forests.
+    fn grow(&self, items: &mut [Item], part: Part, levels: usize, branches: &mut Vec<Branch>) -> Result<Costs, Cancelled> {
+        let part = if part.len() > LEAF_SIZE && part.is_heap() { self.without_copies(items, part) } else { part };
+        let items = &mut items[..part.len()];
+        let (leaf, costs) = Branch::leaf(&part.bounds, part.start, part.len());
+        let place = branches.len();
+        branches.push(leaf);
+        if part.len() <= LEAF_SIZE {
+            return Ok(costs);
         }
-        Ok(place as u32)
+        let parts = self.split(items, part, levels);
+        if part.len() > REPORT {
+            self.progress.check()?;
+        }
+        let [left, right] = parts;
+        let (left_items, right_items) = items.split_at_mut(left.len());
+        let of_right;
+        let costs = if part.len() > self.large {
+            let mut others = Vec::with_capacity(most_branches::<LEAF_SIZE>(right.len()));
+            let sides = rayon::join(
+                || self.grow(left_items, left, levels - 1, branches),
+                || self.grow(right_items, right, levels - 1, &mut others),
+            );
+            of_right = branches.len() - place;
+            branches.append(&mut others);
+            [sides.0?, sides.1?]
+        } else {
+            let left_costs = self.grow(left_items, left, levels - 1, branches)?;
+            of_right = branches.len() - place;
+            [left_costs, self.grow(right_items, right, levels - 1, branches)?]
+        };
+        if part.len() > REPORT {
+            let finished = parts.iter().map(Part::len).filter(|count| *count <= REPORT);
+            self.progress.advance(finished.sum::<usize>() as u64)?;
+        }
+        let (branch, costs) = Branch::over(&part.bounds, of_right, &costs);
+        branches[place] = branch;
+        Ok(costs)
     }
 
-    fn split(&mut self, part: Part, levels: usize) -> [Part; 2] {
+    /// Moves the first of all items with the same content to the front, in the order of their contents. The others are left out.
+    fn without_copies(&self, items: &mut [Item], part: Part) -> Part {
+        let Some(contents) = self.contents.filter(|_| !part.is_distinct) else { return part };
+        let compare = |a: &Item, b: &Item| contents(a.number(), b.number()).then(a.number().cmp(&b.number()));
+        items.par_sort_unstable_by(compare);
+        let mut kept = 0;
+        for at in 1..items.len() {
+            if contents(items[kept].number(), items[at].number()).is_ne() {
+                kept += 1;
+                items.swap(kept, at);
+            }
+        }
+        Part { end: part.start + kept + 1, is_distinct: true, ..part }
+    }
+
+    fn split(&self, items: &mut [Item], part: Part, levels: usize) -> [Part; 2] {
         // However the heuristic splits, a side must fit under the levels that are left.
         let most = LEAF_SIZE.saturating_mul(1 << (levels - 1));
         if part.len() <= most {
             let grid = Grid::new(&part.centers, part.len());
-            // Large parts take long. Where the build is cancelled, any plane will do.
-            let is_live = || part.len() <= REPORT || !self.progress.is_cancelled();
-            let boxes = self.items[part.start..part.end].iter().map_while(|item| is_live().then_some((item.min, item.max)));
-            if let Some(plane) = cheapest_plane::<LEAF_SIZE>(boxes, &grid) {
-                return self.partition(part, &grid, &plane);
+            // Where the build is cancelled, any plane will do.
+            if let Some(plane) = cheapest_plane::<LEAF_SIZE>(items, &grid, self.progress) {
+                return partition(items, part, &grid, &plane);
             }
         }
-        self.halve(part)
+        halve(items, part)
     }
+}
 
-    /// Moves the items left of the plane to the front.
-    fn partition(&mut self, part: Part, grid: &Grid, plane: &Plane) -> [Part; 2] {
-        let items = &mut self.items[..part.end];
-        let (mut left, mut right) = (Extent::EMPTY, Extent::EMPTY);
-        let (mut middle, mut end) = (part.start, part.end);
-        while middle < end {
-            let center = items[middle].center();
-            if grid.bins_of(center)[plane.axis] < plane.bin {
-                left.add(center, center);
-                middle += 1;
-            } else {
-                right.add(center, center);
-                end -= 1;
-                items.swap(middle, end);
-            }
+/// The most branches over so many items, if leaves are half full on average. What is not used takes no memory.
+fn most_branches<const LEAF_SIZE: usize>(count: usize) -> usize {
+    4 * count / LEAF_SIZE + 1
+}
+
+/// Moves the items left of the plane to the front.
+fn partition(items: &mut [Item], part: Part, grid: &Grid, plane: &Plane) -> [Part; 2] {
+    let (mut left, mut right) = (Extent::EMPTY, Extent::EMPTY);
+    let (mut middle, mut end) = (0, items.len());
+    while middle < end {
+        let center = items[middle].center();
+        if grid.bins_of(center)[plane.axis] < plane.bin {
+            left.add(center, center);
+            middle += 1;
+        } else {
+            right.add(center, center);
+            end -= 1;
+            items.swap(middle, end);
         }
-        [
-            Part { start: part.start, end: middle, bounds: plane.left, centers: left },
-            Part { start: middle, end: part.end, bounds: plane.right, centers: right },
-        ]
     }
+    let middle = part.start + middle;
+    [
+        Part { end: middle, bounds: plane.left, centers: left, ..part },
+        Part { start: middle, bounds: plane.right, centers: right, ..part },
+    ]
+}
 
-    /// Splits into two halves along the axis with the largest extent of centres.
-    fn halve(&mut self, part: Part) -> [Part; 2] {
-        let axis = (part.centers.max - part.centers.min).truncate().max_position();
-        let middle = part.start + part.len() / 2;
-        self.items[part.start..part.end]
-            .select_nth_unstable_by(part.len() / 2, |a, b| a.center()[axis].total_cmp(&b.center()[axis]));
-        [Part::of(&self.items, part.start, middle), Part::of(&self.items, middle, part.end)]
-    }
+/// Splits into two halves along the axis with the largest extent of centres.
+fn halve(items: &mut [Item], part: Part) -> [Part; 2] {
+    let axis = (part.centers.max - part.centers.min).truncate().max_position();
+    let middle = items.len() / 2;
+    items.select_nth_unstable_by(middle, |a, b| a.center()[axis].total_cmp(&b.center()[axis]));
+    let (left, right) = items.split_at(middle);
+    let [left, right] = [Part::of(left, part.start), Part::of(right, part.start + middle)];
+    [left, right].map(|half| Part { is_distinct: part.is_distinct, ..half })
 }

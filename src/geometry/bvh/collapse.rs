@@ -14,47 +14,54 @@ use super::{
 /// Cost of a leaf relative to a node.
 const LEAF_COST: f32 = 1.0;
 
-/// The cheapest forests under a branch; entry k − 1 is for up to k trees.
-#[derive(Clone, Copy)]
-pub(super) struct Forest {
-    sides: [u32; 2],
-    costs: [f32; WIDTH],
-    /// Number of trees of each side; [0, 0] if the branch stays one tree.
-    shares: [[u8; 2]; WIDTH],
-    /// Number of the eight children of each side, if the branch is a node.
-    children: [u8; 2],
-}
+/// The costs of the cheapest forests under a branch; entry k − 1 is for up to k trees.
+pub(super) type Costs = [f32; WIDTH];
 
-/// A box of the binary tree.
+/// A box of the binary tree, in an order in which the left side of a branch follows it.
 #[derive(Clone, Copy)]
 pub(super) struct Branch {
-    bounds: Extent,
-    first: u32,
+    min: [f32; 3],
+    max: [f32; 3],
+    /// The first item of a leaf; elsewhere, the distance in branches to the right side.
+    link: u32,
+    /// The number of items of a leaf; 0 elsewhere.
     count: u32,
-    /// For a leaf, only costs.
-    pub forest: Forest,
+    /// Entry k − 1 has the shares of both sides in the cheapest forest of up to k trees; 0 if that is one tree. One tree is never
+    /// divided: entry 0 has the children of each side, if the branch is a node.
+    shares: [Shares; WIDTH],
 }
 
-impl Branch {
-    pub fn leaf(bounds: Extent, first: u32, count: u32) -> Branch {
-        let costs = [bounds.half_area() * LEAF_COST; WIDTH];
-        let forest = Forest { sides: [0; 2], costs, shares: [[0; 2]; WIDTH], children: [0; 2] };
-        Branch { bounds, first, count, forest }
+/// The numbers of trees of both sides, each up to 7, in half a byte.
+#[derive(Clone, Copy, Default)]
+struct Shares(u8);
+
+impl Shares {
+    fn new(left: usize, right: usize) -> Shares {
+        Shares((left << 4 | right) as u8)
+    }
+
+    fn sides(self) -> [usize; 2] {
+        [self.0 >> 4, self.0 & 15].map(usize::from)
     }
 }
 
-impl Forest {
-    /// Combines two finished branches.
-    pub fn over(bounds: &Extent, sides: [u32; 2], branches: &[Branch]) -> Forest {
-        let [left, right] = sides.map(|side| &branches[side as usize].forest.costs);
-        let (mut costs, mut shares) = ([f32::INFINITY; WIDTH], [[0; 2]; WIDTH]);
+impl Branch {
+    /// A leaf, with the costs of its forests.
+    pub fn leaf(bounds: &Extent, first: usize, count: usize) -> (Branch, Costs) {
+        let branch = Branch { link: first as u32, count: count as u32, ..Branch::around(bounds) };
+        (branch, [bounds.half_area() * LEAF_COST; WIDTH])
+    }
+
+    /// A branch over two sides with these costs, the right one of which is `right` branches further, with its own costs.
+    pub fn over(bounds: &Extent, right: usize, [left_costs, right_costs]: &[Costs; 2]) -> (Branch, Costs) {
+        let (mut costs, mut shares) = ([f32::INFINITY; WIDTH], [Shares::default(); WIDTH]);
         for trees in 2..=WIDTH {
             for share in 1..trees {
-                let cost = left[share - 1] + right[trees - share - 1];
+                let cost = left_costs[share - 1] + right_costs[trees - share - 1];
                 // The first is taken even if areas overflow.
                 if share == 1 || cost < costs[trees - 1] {
                     costs[trees - 1] = cost;
-                    shares[trees - 1] = [share as u8, (trees - share) as u8];
+                    shares[trees - 1] = Shares::new(share, trees - share);
                 }
             }
         }
@@ -66,7 +73,17 @@ impl Forest {
                 shares[trees] = shares[trees - 1];
             }
         }
-        Forest { sides, costs, shares, children }
+        shares[0] = children;
+        (Branch { link: right as u32, shares, ..Branch::around(bounds) }, costs)
+    }
+
+    fn around(bounds: &Extent) -> Branch {
+        let [min, max] = [bounds.min, bounds.max].map(|corner| corner.truncate().to_array());
+        Branch { min, max, link: 0, count: 0, shares: [Shares::default(); WIDTH] }
+    }
+
+    fn is_leaf(&self) -> bool {
+        self.count > 0
     }
 }
 
@@ -88,30 +105,37 @@ struct Children {
 impl Collapse<'_> {
     /// Returns the nodes, with the root first (none if there are no items), and the numbers of the items in leaves.
     pub fn of(branches: &[Branch], items: &[Item], leaf_size: usize) -> (Vec<Node>, Vec<u32>) {
-        let mut collapse = Collapse { branches, items, leaf_size, nodes: Vec::new(), order: Vec::new() };
-        let mut children = Children { places: [0; WIDTH], count: 0 };
-        let root = &branches[0];
-        if root.count as usize > leaf_size {
-            collapse.gather(root.forest.sides, root.forest.children, &mut children);
-        } else {
-            children.count = 1;
-        }
-        if root.count > 0 {
+        let leaves = branches.len().div_ceil(2);
+        let (nodes, order) = (Vec::with_capacity(leaves / (WIDTH - 2)), Vec::with_capacity(leaves * leaf_size));
+        let mut collapse = Collapse { branches, items, leaf_size, nodes, order };
+        if let Some(root) = branches.first() {
+            let children = match root.is_leaf() {
+                true => Children { places: [0; WIDTH], count: 1 },
+                false => collapse.children(0),
+            };
             collapse.node(&children);
         }
+        collapse.nodes.shrink_to_fit();
         (collapse.nodes, collapse.order)
     }
 
+    /// The children of a branch that becomes a node.
+    fn children(&self, branch: u32) -> Children {
+        let mut children = Children { places: [0; WIDTH], count: 0 };
+        self.gather(branch, self.branches[branch as usize].shares[0], &mut children);
+        children
+    }
+
     /// Appends `shares` trees from both sides of a branch.
-    fn gather(&self, sides: [u32; 2], shares: [u8; 2], into: &mut Children) {
-        for (side, share) in sides.into_iter().zip(shares) {
-            let forest = &self.branches[side as usize].forest;
-            match forest.shares[share as usize - 1] {
-                [0, 0] => {
-                    into.places[into.count] = side;
-                    into.count += 1;
-                }
-                shares => self.gather(forest.sides, shares, into),
+    fn gather(&self, branch: u32, shares: Shares, into: &mut Children) {
+        let sides = [branch + 1, branch + self.branches[branch as usize].link];
+        for (side, share) in sides.into_iter().zip(shares.sides()) {
+            let below = self.branches[side as usize].shares[share - 1];
+            if share == 1 || below.0 == 0 {
+                into.places[into.count] = side;
+                into.count += 1;
+            } else {
+                self.gather(side, below, into);
             }
         }
     }
@@ -126,19 +150,16 @@ impl Collapse<'_> {
         for (place, &child) in children.iter().enumerate() {
             let branch = &branches[child as usize];
             for axis in 0..3 {
-                node.bounds[axis][0][place] = branch.bounds.min[axis];
-                node.bounds[axis][1][place] = branch.bounds.max[axis];
+                node.bounds[axis][0][place] = branch.min[axis];
+                node.bounds[axis][1][place] = branch.max[axis];
             }
-            if branch.count as usize <= self.leaf_size {
+            if branch.is_leaf() {
                 node.children[place] = self.leaf(branch);
             }
         }
         for (place, &child) in children.iter().enumerate() {
-            let branch = &branches[child as usize];
-            if branch.count as usize > self.leaf_size {
-                let mut below = Children { places: [0; WIDTH], count: 0 };
-                self.gather(branch.forest.sides, branch.forest.children, &mut below);
-                node.children[place] = self.node(&below);
+            if !branches[child as usize].is_leaf() {
+                node.children[place] = self.node(&self.children(child));
             }
         }
         self.nodes[number] = node;
@@ -147,7 +168,7 @@ impl Collapse<'_> {
 
     fn leaf(&mut self, branch: &Branch) -> u32 {
         let leaf = (self.order.len() / self.leaf_size) as u32;
-        self.order.extend(self.items[branch.first as usize..][..branch.count as usize].iter().map(Item::number));
+        self.order.extend(self.items[branch.link as usize..][..branch.count as usize].iter().map(Item::number));
         self.order.resize((leaf as usize + 1) * self.leaf_size, NONE);
         LEAF | leaf
     }

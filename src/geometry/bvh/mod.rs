@@ -20,7 +20,7 @@ mod traverse;
 pub use self::{
     item::NONE,
     slabs::Slabs,
-    traverse::{Leaves, Stack, traverse},
+    traverse::{Leaves, Search, Stack, Visits, traverse},
 };
 use super::bounds::Bounds;
 

@@ -79,14 +79,14 @@ fn every_box_that_is_met_is_shown() {
         numbers.sort_unstable();
         assert!(numbers.iter().copied().eq(0..count as u32), "each in one leaf");
         assert!(boxes.iter().all(|bounds| bvh.bounds().contains(bounds)));
-        let mut stack = Stack::default();
+        let mut stack = Stack::<false>::default();
         for k in 0..2000 {
             let mut corner = || [0; 3].map(|_| rng.random_range(-1.5f32..1.5));
             let (o, mut d) = (corner(), corner());
             d[k % 3] *= [1.0, 0.0, -0.0, 1e-12][k % 4];
             let slabs = Slabs::new(One, V::splat(One, o), V::splat(One, d), &bvh.bounds());
             let mut marks = Marks { order: &order, shown: vec![false; count] };
-            traverse(Fallback::new(), &bvh, &mut stack, (&slabs, 0), f32::INFINITY, &mut marks);
+            traverse(Fallback::new(), &bvh, &mut stack, (&slabs, 0), (f32::INFINITY, 0.0), &mut marks);
             let lost = boxes.iter().zip(marks.shown).position(|(bounds, shown)| !shown && meets(bounds, o, d));
             assert_eq!(lost, None, "{o:?} {d:?}");
         }
@@ -95,15 +95,31 @@ fn every_box_that_is_met_is_shown() {
 
 #[test]
 fn progress_counts_the_boxes_and_a_cancelled_build_has_no_tree() {
-    let line = |count: usize| (0..count).map(|i| Bounds::of_points([[i as f32, (i * i % 97) as f32, 0.0]]));
+    let point = |i: usize| Bounds::of_points([[i as f32, (i * i % 97) as f32, 0.0]]);
     // Few are counted at the end, and many on the way.
     for count in [0, 5, 40_000] {
         let progress = Progress::default();
         progress.expect(Stage::Trees, count as u64 + 1);
-        let built = Bvh::build_watched::<4>(line(count), &progress);
-        assert_eq!(built.map(|(_, order)| order), Ok(Bvh::build::<4>(line(count)).1), "{count}");
+        let built = Bvh::build_watched::<4>(count, point, None, &progress);
+        assert_eq!(built.map(|(_, order)| order), Ok(Bvh::build::<4>((0..count).map(point)).1), "{count}");
         assert_eq!(progress.fraction(), count as f64 / (count + 1) as f64);
         progress.cancel();
-        assert_eq!(Bvh::build_watched::<4>(line(count), &progress).err(), Some(Cancelled), "{count}");
+        assert_eq!(Bvh::build_watched::<4>(count, point, None, &progress).err(), Some(Cancelled), "{count}");
     }
+}
+
+#[test]
+fn copies_in_one_place_count_once_and_others_there_stay() {
+    // Nine contents about one centre, many times each, and one apart.
+    let size = |i: usize| 1.0 + (i % 9) as f32;
+    let item = |i: usize| match i {
+        999 => Bounds { min: [50.0; 3], max: [51.0; 3] },
+        i => Bounds { min: [-size(i); 3], max: [size(i); 3] },
+    };
+    let contents = |a: u32, b: u32| (a % 9).cmp(&(b % 9));
+    let (bvh, order) = Bvh::build_watched::<4>(1000, item, Some(&contents), &Progress::default()).expect("nobody cancels");
+    let mut kept: Vec<u32> = order.into_iter().filter(|&item| item != NONE).collect();
+    kept.sort_unstable();
+    assert_eq!(kept, [(0..9).collect(), vec![999]].concat());
+    assert_eq!((bvh.bounds().min, bvh.bounds().max), ([-9.0; 3], [51.0; 3]));
 }

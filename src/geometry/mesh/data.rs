@@ -1,7 +1,7 @@
 //! Vertices and triangles of a mesh, before its tree is built.
 use std::{borrow::Cow, sync::Arc};
 
-use glam::{DAffine3, DVec3, Vec3};
+use glam::{DAffine3, DMat3, DVec3, Vec3};
 use rayon::prelude::*;
 
 use crate::geometry::bounds::Bounds;
@@ -45,18 +45,20 @@ impl MeshData {
         if *map == DAffine3::IDENTITY {
             return Cow::Borrowed(self);
         }
-        let mirrors = map.matrix3.determinant() < 0.0;
-        let covector = map.matrix3.inverse().transpose();
-        let point = |p: &[f32; 3]| map.transform_point3(Vec3::from(*p).as_dvec3()).as_vec3().to_array();
-        let normal = |n: &[f32; 3]| (covector * Vec3::from(*n).as_dvec3()).normalize_or_zero().as_vec3().to_array();
-        let turned = |&[a, b, c]: &[u32; 3]| if mirrors { [a, c, b] } else { [a, b, c] };
+        let posed = self.posed(map);
         Cow::Owned(MeshData {
-            vertices: self.vertices.par_iter().map(point).collect(),
-            triangles: self.triangles.par_iter().map(turned).collect(),
-            normals: self.normals.par_iter().map(normal).collect(),
+            vertices: self.vertices.par_iter().map(|p| posed.point(p)).collect(),
+            triangles: posed.triangles().into_owned(),
+            normals: self.normals.par_iter().map(|n| posed.normal(n)).collect(),
             uvs: self.uvs.clone(),
             colours: self.colours.clone(),
         })
+    }
+
+    /// The same, computed where it is needed.
+    pub(super) fn posed(&self, map: &DAffine3) -> Posed<'_> {
+        let covector = map.matrix3.inverse().transpose();
+        Posed { data: self, map: *map, covector, is_moved: *map != DAffine3::IDENTITY }
     }
 
     /// Whether a point lies inside a closed mesh, that is, whether a ray from it crosses the mesh an odd number of times.
@@ -71,6 +73,35 @@ impl MeshData {
             ahead && (weights.min_element() > 0.0 || weights.max_element() < 0.0)
         };
         self.triangles.iter().filter(crosses).count() % 2 == 1
+    }
+}
+
+/// The image of a mesh under a map.
+pub(super) struct Posed<'a> {
+    data: &'a MeshData,
+    map: DAffine3,
+    covector: DMat3,
+    is_moved: bool,
+}
+
+impl<'a> Posed<'a> {
+    pub fn point(&self, p: &[f32; 3]) -> [f32; 3] {
+        if self.is_moved { self.map.transform_point3(Vec3::from(*p).as_dvec3()).as_vec3().to_array() } else { *p }
+    }
+
+    pub fn normal(&self, n: &[f32; 3]) -> [f32; 3] {
+        if !self.is_moved {
+            return *n;
+        }
+        (self.covector * Vec3::from(*n).as_dvec3()).normalize_or_zero().as_vec3().to_array()
+    }
+
+    /// The triangles, turned if the map mirrors.
+    pub fn triangles(&self) -> Cow<'a, [[u32; 3]]> {
+        match self.map.matrix3.determinant() < 0.0 {
+            true => self.data.triangles.par_iter().map(|&[a, b, c]| [a, c, b]).collect::<Vec<_>>().into(),
+            false => Cow::Borrowed(&self.data.triangles),
+        }
     }
 }
 

@@ -3,51 +3,49 @@
 //! | part | file |
 //! |---|---|
 //! | a ray against several triangles at once | `block.rs` |
+//! | construction | `build.rs` |
 //! | the surface point at a hit | `surface.rs` |
+//! | pieces of long triangles | `pieces.rs` |
+//! | the order of triangles in leaves | `slots.rs` |
 //! | coordinates, smooth normals and colours there | `shading.rs` |
 //! | directions towards one that emits | `toward.rs` |
 //! | vertices and triangles | `data.rs` |
 //! | procedural meshes | `generate.rs` |
 mod block;
+mod build;
 mod data;
 mod edges;
 pub mod generate;
+mod pieces;
 mod shading;
+mod slots;
 mod surface;
 #[cfg(test)]
 mod tests;
 mod toward;
 
-use std::{borrow::Cow, sync::Arc};
+use std::sync::Arc;
 
 use fearless_simd::Simd;
 use fearless_simd_macros::simd;
-use rayon::prelude::*;
 
-use self::{
-    block::{Block, Shear, Shears},
-    edges::scaled_area_squared,
-};
+use self::block::{Block, Shear, Shears};
 pub use self::{
     data::MeshData,
     surface::{Attributes, MeshPoint},
 };
 use super::{
     bounds::Bounds,
-    bvh::{Bvh, Leaves, NONE, Slabs, Stack, traverse},
+    bvh::{Bvh, Leaves, NONE, Search, Slabs, Stack, traverse},
 };
-use crate::{
-    math::{F, Lanes, MAX_LANES, One, U, V},
-    progress::{Cancelled, Progress},
-};
-
-/// Limit of coordinates: products of larger ones could overflow.
-const LARGEST: f32 = 1e11;
+use crate::math::{F, Lanes, MAX_LANES, U, V};
 
 /// A triangle mesh with its tree. A triangle's front is the side from which its vertices run counter-clockwise.
 pub struct Mesh {
     bvh: Bvh,
     blocks: Vec<Block>,
+    /// The triangle in each slot of the blocks; empty if it is the slot itself.
+    triangle_of: Vec<u32>,
     /// The vertices of the triangles as integers in bits, in the order of the leaves.
     triangles: Vec<[f32; 4]>,
     /// Position, then u.
@@ -65,7 +63,7 @@ pub struct Mesh {
 struct Nearest<'a> {
     blocks: &'a [Block],
     ray: Shear,
-    triangle: u32,
+    slot: u32,
 }
 
 impl<S: Simd> Leaves<S> for Nearest<'_> {
@@ -80,7 +78,7 @@ impl<S: Simd> Leaves<S> for Nearest<'_> {
             let t = sheared.distance(place as usize, &self.ray);
             let nearer = (t > 0.0) & (t < t_max);
             t_max = if nearer { t } else { t_max };
-            self.triangle = if nearer { block.first + place } else { self.triangle };
+            self.slot = if nearer { block.first + place } else { self.slot };
         }
         t_max
     }
@@ -106,63 +104,28 @@ impl Rays {
 }
 
 impl Mesh {
-    /// [`Mesh::build`] without progress.
-    #[cfg(test)]
-    pub fn new(data: &MeshData) -> Mesh {
-        Mesh::build(data, &Progress::default()).expect("nobody cancels")
-    }
-
-    /// Builds a mesh. Drops degenerate triangles, and those with coordinates that are not finite or beyond 10¹¹. Progress counts
-    /// triangles.
-    pub fn build(data: &MeshData, progress: &Progress) -> Result<Mesh, Cancelled> {
-        let corners = |triangle: [u32; 3]| triangle.map(|vertex| data.vertices[vertex as usize]);
-        let is_kept = |triangle: &[u32; 3]| has_area(corners(*triangle));
-        // Almost all meshes keep all triangles.
-        let kept: Cow<[[u32; 3]]> = match data.triangles.par_iter().all(is_kept) {
-            true => Cow::Borrowed(&data.triangles),
-            false => data.triangles.iter().copied().filter(is_kept).collect(),
-        };
-        let boxes = kept.iter().map(|&triangle| Bounds::of_points(corners(triangle)));
-        let (bvh, order) = Bvh::build_watched::<{ block::SIZE }>(boxes, progress)?;
-
-        let mut blocks = Vec::with_capacity(order.len() / block::SIZE);
-        let mut triangles = Vec::with_capacity(kept.len());
-        for leaf in order.chunks_exact(block::SIZE) {
-            progress.check()?;
-            let first = triangles.len();
-            let members = leaf.iter().filter(|&&number| number != NONE).map(|&number| kept[number as usize]);
-            triangles.extend(members.map(|[a, b, c]| [a, b, c, 0].map(f32::from_bits)));
-            let vertices: Vec<_> = triangles[first..].iter().map(|row| corners(ids(row))).collect();
-            blocks.push(Block::new(&vertices, first as u32));
-        }
-        let (vertices, normals) = rows(data);
-        let (is_smooth, has_uvs) = (!data.normals.is_empty(), !data.uvs.is_empty());
-        let dropped = data.triangles.len() - kept.len();
-        Ok(Mesh { bvh, blocks, triangles, vertices, normals, colours: data.colours.clone(), is_smooth, has_uvs, dropped })
-    }
-
     /// The first triangle along o + td with 0 < t < `t_max`: t, or `t_max` if there is none, and the triangle's number or `NONE`.
     /// Both sides count. d need not be of unit length. Lanes with a `t_max` of 0 cost almost nothing.
     #[inline(always)]
     pub fn closest<L: Lanes>(&self, l: L, o: V<L>, d: V<L>, t_max: F<L>) -> (F<L>, U<L>) {
-        self.closest_by(l, l.token(), &mut Stack::default(), (o, d), t_max)
+        self.closest_by(l, l.token(), &mut Stack::<false>::default(), (o, d), Search::nearest(l, t_max))
     }
 
-    /// The same; boxes and triangles are tested with the instructions of `s`, for any lanes.
+    /// The same within the limit of a search; boxes and triangles are tested with the instructions of `s`, for any lanes.
     #[inline(always)]
-    pub fn closest_by<L: Lanes, S: Simd>(
+    pub fn closest_by<L: Lanes, S: Simd, const COUNTS: bool>(
         &self,
         l: L,
         s: S,
-        stack: &mut Stack,
+        stack: &mut Stack<COUNTS>,
         (o, d): (V<L>, V<L>),
-        t_max: F<L>,
+        search: Search<L>,
     ) -> (F<L>, U<L>) {
         let rays = Rays::new(l, o, d, &self.bounds());
-        let mut distances = t_max.to_array();
+        let (mut distances, enough) = (search.limit.to_array(), search.enough.to_array());
         let mut triangles = [0.0; MAX_LANES];
         for lane in 0..L::N {
-            let (t, triangle) = self.closest_of(s, stack, &rays, lane, distances[lane]);
+            let (t, triangle) = self.closest_of(s, stack, &rays, lane, (distances[lane], enough[lane]));
             distances[lane] = t;
             triangles[lane] = f32::from_bits(triangle);
         }
@@ -171,18 +134,22 @@ impl Mesh {
 
     /// The same for the ray in one lane.
     #[simd]
-    fn closest_of<S: Simd>(&self, s: S, stack: &mut Stack, rays: &Rays, lane: usize, t_max: f32) -> (f32, u32) {
-        let mut nearest = Nearest { blocks: &self.blocks, ray: rays.shears.lane(lane), triangle: NONE };
-        let t = traverse(s, &self.bvh, stack, (&rays.slabs, lane), t_max, &mut nearest);
-        (t, nearest.triangle)
+    fn closest_of<S: Simd, const COUNTS: bool>(
+        &self,
+        s: S,
+        stack: &mut Stack<COUNTS>,
+        rays: &Rays,
+        lane: usize,
+        search: (f32, f32),
+    ) -> (f32, u32) {
+        let mut nearest = Nearest { blocks: &self.blocks, ray: rays.shears.lane(lane), slot: NONE };
+        let t = traverse(s, &self.bvh, stack, (&rays.slabs, lane), search, &mut nearest);
+        (t, self.triangle_of.get(nearest.slot as usize).copied().unwrap_or(nearest.slot))
     }
 
     /// The vertices of a triangle.
     pub fn corners(&self, triangle: u32) -> [[f32; 3]; 3] {
-        ids(&self.triangles[triangle as usize]).map(|vertex| {
-            let [x, y, z, _] = self.vertices[vertex as usize];
-            [x, y, z]
-        })
+        ids(&self.triangles[triangle as usize]).map(|vertex| position(&self.vertices, vertex))
     }
 
     /// The box around all triangles.
@@ -218,7 +185,8 @@ impl Mesh {
     /// Memory in bytes.
     pub fn bytes(&self) -> usize {
         let rows = self.triangles.len() + self.vertices.len() + self.normals.len() + self.colours.len();
-        self.bvh.bytes() + size_of_val(self.blocks.as_slice()) + rows * size_of::<[f32; 4]>()
+        let slots = size_of_val(self.blocks.as_slice()) + size_of_val(self.triangle_of.as_slice());
+        self.bvh.bytes() + slots + rows * size_of::<[f32; 4]>()
     }
 }
 
@@ -226,23 +194,8 @@ fn ids(row: &[f32; 4]) -> [u32; 3] {
     [row[0].to_bits(), row[1].to_bits(), row[2].to_bits()]
 }
 
-/// The tables of vertices and normals.
-fn rows(data: &MeshData) -> (Vec<[f32; 4]>, Vec<[f32; 4]>) {
-    let uv = |vertex: usize| data.uvs.get(vertex).copied().unwrap_or_default();
-    let vertices = data.vertices.iter().enumerate().map(|(vertex, [x, y, z])| [*x, *y, *z, uv(vertex)[0]]).collect();
-    let count = data.normals.len().max(data.uvs.len());
-    let normal = |vertex: usize| data.normals.get(vertex).copied().unwrap_or_default();
-    let normals = (0..count).map(|vertex| {
-        let [x, y, z] = normal(vertex);
-        [x, y, z, uv(vertex)[1]]
-    });
-    (vertices, normals.collect())
-}
-
-/// Whether the triangle has a normal in f32, and coordinates within the limit.
-fn has_area(corners: [[f32; 3]; 3]) -> bool {
-    let fine = corners.as_flattened().iter().all(|x| x.abs() <= LARGEST);
-    let [a, b, c] = corners.map(|corner| V::splat(One, corner));
-    let area_squared = scaled_area_squared(a, b, c).0;
-    fine && area_squared > 0.0 && area_squared.is_finite()
+/// The position of a vertex.
+fn position(vertices: &[[f32; 4]], vertex: u32) -> [f32; 3] {
+    let [x, y, z, _] = vertices[vertex as usize];
+    [x, y, z]
 }

@@ -94,6 +94,11 @@ impl Emitters {
         self.rows.is_empty()
     }
 
+    /// Number of primitives that emit: the first ones.
+    pub fn len(&self) -> usize {
+        self.rows.len()
+    }
+
     /// The lanes whose primitive emits from at least one side.
     #[inline(always)]
     pub fn emits<L: Lanes>(&self, primitive: U<L>) -> M<L> {

@@ -156,11 +156,15 @@ fn an_interrupted_pilot_is_sent_again() {
 }
 
 #[test]
-fn a_black_picture_has_a_figure_all_the_same() {
+fn a_picture_has_no_figure_before_light_is_found_and_a_black_one_gets_it_late() {
+    let tiny = shipped("tiny_lamp");
+    let figures = [2, 256].map(|spp| frame(&render(&tiny, &UNIFORM, [16, 16], spp)).rel_mse_estimate.is_some());
+    assert_eq!(figures, [false, true]);
     let scene = shipped("inside_lit_outside");
     let film = render(&scene, &UNIFORM, [40, 40], 8);
     assert!(frame(&film).is_black());
-    assert_eq!(frame(&film).rel_mse_estimate, Some(0.0));
+    assert_eq!(frame(&film).rel_mse_estimate, None);
+    assert_eq!(frame(&render(&scene, &UNIFORM, [8, 8], 1024)).rel_mse_estimate, Some(0.0));
     assert!(frame(&film).noise.is_some_and(|noise| noise.variance_of_mean() == 0.0 && noise.effective_samples == f64::INFINITY));
 }
 

@@ -127,7 +127,7 @@ impl StatusBar<'_> {
         let text = self.status.relative_noise().map_or_else(|| "–".to_owned(), percent);
         ui.label(format!("noise {text}")).on_hover_text(
             "Estimated relative error: the root of relMSE, the mean of (x − r)²/(r² + 0.01 · mean r²) over pixels x with true radiance r. It is \
-             estimated from the change of the image as the sample count doubles. Where light is hard to find, it is too low at first.",
+             estimated from the change of the image as the sample count doubles. It is not known before enough samples have found light.",
         );
     }
 
