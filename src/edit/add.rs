@@ -1,5 +1,9 @@
 //! Adds shapes and lamps where the pointer is.
-use super::{Document, Edit, put, references::references, tree::Tree};
+use super::{
+    Document, Edit, put,
+    references::{nameless_file, references},
+    tree::Tree,
+};
 use crate::{
     declare::{Family, OneOf, OwnedValue, Path},
     light::lamp::LampKind,
@@ -87,6 +91,14 @@ impl Document {
         let mut edits: Vec<Edit> = new_texture.into_iter().chain([Edit::insert(path.clone())]).collect();
         edits.extend(needed.into_iter().map(set));
         if edits.len() == 1 { edits.swap_remove(0) } else { Edit::All(edits) }
+    }
+
+    /// The path of a file that must be chosen for an edit of the part at a path to make sense: it would leave the file without a name.
+    pub fn missing_file(&self, edit: &Edit, path: &Path) -> Option<Path> {
+        let mut after = self.clone();
+        let is_new = nameless_file(&mut self.description().clone(), path).is_none();
+        after.apply(edit).ok()?;
+        nameless_file(&mut after.description().clone(), path).filter(|_| is_new)
     }
 
     fn add(&self, kind: &str, placement: &Placement, object: ObjectDescription) -> Option<(Edit, Path)> {

@@ -1,4 +1,4 @@
-//! References to materials and textures in a description.
+//! References to materials, textures and files in a description.
 use super::walk::{Walk, follows_walk};
 use crate::declare::{Declare, Family, Parameter, Parameters, Path, Textured, Value};
 
@@ -6,6 +6,28 @@ use crate::declare::{Declare, Family, Parameter, Parameters, Path, Textured, Val
 pub fn references(description: &mut dyn Declare, path: &Path, look: impl FnMut(&Path, Family, &mut String)) {
     let mut searcher = Searcher { walk: Walk::to(path), look };
     description.parameters(&mut searcher);
+}
+
+/// The path of the first file below a path that has no name yet.
+pub fn nameless_file(description: &mut dyn Declare, path: &Path) -> Option<Path> {
+    let mut searcher = FileSearcher { walk: Walk::to(path), found: None };
+    description.parameters(&mut searcher);
+    searcher.found
+}
+
+struct FileSearcher<'p> {
+    walk: Walk<'p>,
+    found: Option<Path>,
+}
+
+impl Parameters for FileSearcher<'_> {
+    fn value(&mut self, parameter: &Parameter, value: Value<'_>) {
+        if self.walk.takes(parameter.key) && matches!(value, Value::File(name) if name.is_empty()) {
+            self.found.get_or_insert_with(|| self.walk.path_of(parameter.key));
+        }
+    }
+
+    follows_walk!();
 }
 
 struct Searcher<'p, F> {

@@ -200,6 +200,19 @@ fn what_is_inserted_has_the_texture_that_it_needs() {
 }
 
 #[test]
+fn an_edit_that_leaves_a_file_without_a_name_is_noticed() {
+    let mut document = room();
+    let (map, mesh) = (path("materials.white.normal_map"), path("objects.1.shape"));
+    assert_eq!(document.missing_file(&document.insert(&map), &map), Some(map.clone()));
+    let choose = document.change_kind(&mesh, "shape", "mesh");
+    assert_eq!(document.missing_file(&choose, &mesh), None, "a new mesh is made by a formula");
+    does(&mut document, &choose);
+    let from_file = Edit::choose(mesh.key("mesh"), "mesh", "path");
+    assert_eq!(document.missing_file(&from_file, &mesh), Some(mesh.key("mesh").key("path")));
+    assert_eq!(document.missing_file(&document.insert(&path("objects.1.emission")), &path("objects.1.emission")), None);
+}
+
+#[test]
 fn several_edits_are_all_done_or_none_is() {
     let made = [Edit::insert(path("materials.clay")), text("objects.0.material", "clay"), number("camera.fov", 50.0)];
     there_and_back(&Edit::All(made.to_vec()), |scene| assert_eq!(scene.objects[0].material.as_deref(), Some("clay")));

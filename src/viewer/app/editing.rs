@@ -9,6 +9,9 @@ use noisefall::{
 use super::state::App;
 use crate::viewer::background::{render_worker::EditedDescription, settler::EditedScene};
 
+/// The beginning of the message that an edited scene cannot be compiled. It holds until one can.
+const BEFORE: &str = "The image shows the scene before this change";
+
 impl App {
     /// Renders a changed scene. If changes come faster than their images, only the latest counts.
     pub fn edit_scene(&mut self, description: Arc<SceneDescription>) {
@@ -33,7 +36,7 @@ impl App {
         match self.background.worker.take_edited() {
             Some(Ok(scene)) => self.take_edited(scene),
             Some(Err(error)) if self.diagnose_file(&error) => {}
-            Some(Err(error)) => self.tell(format!("The image shows the scene before this change: {error}"), true),
+            Some(Err(error)) => self.tell(format!("{BEFORE}: {error}"), true),
             None => {}
         }
         // A drag goes on as long as a button is down.
@@ -73,6 +76,7 @@ impl App {
             session.budget.max_spp = scene.spp;
         }
         session.earlier.note(&description, &scene);
+        self.dialogs.notices.0.retain(|notice| !notice.text.starts_with(BEFORE));
         opened.description = description.clone();
         let folder = opened.folder();
         self.background.settler.note(EditedScene { scene: scene.clone(), description: description.clone(), folder });

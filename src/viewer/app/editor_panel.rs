@@ -78,11 +78,21 @@ impl App {
                 Request::Set { path, value } => Edit::set(path, value),
                 Request::Choose { path, choice, name } => {
                     let Some(editor) = &self.editor else { return };
-                    editor.document.change_kind(&path, choice, name)
+                    let edit = editor.document.change_kind(&path, choice, name);
+                    if let Some(file) = editor.document.missing_file(&edit, &path) {
+                        self.ask_for_file(FilePurpose::After(edit, file));
+                        continue;
+                    }
+                    edit
                 }
                 Request::Insert { path } => {
                     let Some(editor) = &self.editor else { return };
-                    editor.document.insert(&path)
+                    let edit = editor.document.insert(&path);
+                    if let Some(file) = editor.document.missing_file(&edit, &path) {
+                        self.ask_for_file(FilePurpose::After(edit, file));
+                        continue;
+                    }
+                    edit
                 }
                 Request::Remove { path } => Edit::remove(path),
                 Request::BrowseFile { path } => {

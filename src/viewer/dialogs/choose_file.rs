@@ -16,6 +16,8 @@ use crate::viewer::widgets::path_field::PathField;
 pub enum FilePurpose {
     /// The value at a path is a file.
     Value(Path),
+    /// The same for a value that is there after an edit, and would make no sense without a file.
+    After(Edit, Path),
     /// A texture with the image in the file stands for the value at a path.
     Texture(Path),
 }
@@ -39,6 +41,7 @@ impl FilePurpose {
         let text = file.display().to_string();
         match self {
             FilePurpose::Value(path) => Edit::set(path.clone(), OwnedValue::Text(text)),
+            FilePurpose::After(edit, path) => Edit::All(vec![edit.clone(), Edit::set(path.clone(), OwnedValue::Text(text))]),
             FilePurpose::Texture(path) => {
                 let stem = file.file_stem().unwrap_or_default().to_string_lossy();
                 let name = document.free_name("textures", &stem);
