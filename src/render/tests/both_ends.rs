@@ -79,7 +79,7 @@ fn every_strategy_alone_finds_the_light_of_its_number_of_reflections() {
                 mean(
                     &scene,
                     &RenderSettings { strategy: Some([s, t]), max_bounces: Some(reflections), seed: 7 + s, ..SETTINGS },
-                    1000,
+                    2000,
                 )
             };
             let [light_samples, variance] = alone(1);
