@@ -4,6 +4,7 @@ mod at_point;
 use std::{sync::Arc, time::Duration};
 
 use fearless_simd::ExtractToken;
+use fearless_simd_macros::simd;
 use glam::{DAffine3, DVec3};
 
 use super::{
@@ -234,7 +235,7 @@ impl Shapes {
     #[inline(always)]
     pub fn closest<L: Lanes>(&self, l: L, live: M<L>, o: V<L>, d: V<L>, time: F<L>) -> Nearest<L> {
         let listed = self.closest_listed(l, o, d);
-        self.nearer(l, (live, l.f(0.0)), (o, d), time, listed)
+        if self.are_listed() { listed } else { self.nearer(l, (live, l.f(0.0)), (o, d), time, listed) }
     }
 
     /// The first of the surfaces in lists.
@@ -264,8 +265,8 @@ impl Shapes {
     }
 
     /// The first of the surfaces that are not in lists, in the lanes of `live`, or `listed` if that is nearer. Any before `enough` will
-    /// do: for rays that only ask whether something is in their way.
-    #[inline(always)]
+    /// do: for rays that only ask whether something is in their way. A call, which scenes of lists do not make.
+    #[simd]
     pub fn nearer<L: Lanes>(
         &self,
         l: L,

@@ -32,7 +32,7 @@ pub(super) fn shadow<L: Lanes>(l: L, work: &Work, batch: &mut Batch) {
 #[simd]
 fn test<L: Lanes, const PASSAGES: bool>(l: L, work: &Work, batch: &mut Batch) {
     let Batch { shadows, radiance, rays, bounce, .. } = batch;
-    let ends_at_any = work.scene.lights_are_listed() && !work.scene.shapes.are_listed();
+    let ends_at_any = work.scene.lights_are_listed();
     for at in shadows.registers(l) {
         let shadow = Shadow::read(l, &shadows.shadows, at.start);
         let media = if work.has_media() { shadows.media(l, at) } else { l.u(0) };
@@ -81,13 +81,15 @@ pub(super) fn arriving<L: Lanes>(
 fn directly<L: Lanes>(l: L, work: &Work, live: M<L>, shadow: &Shadow<L>, media: U<L>, ends_at_any: bool) -> Arriving<L> {
     let scene = work.scene;
     let time = work.time(l, shadow.slot);
-    let listed = scene.shapes.closest_listed(l, shadow.o, shadow.d);
-    let (mut open, mut enough) = (live, l.f(0.0));
-    if ends_at_any {
-        let at_light = scene.lights.light_at(l, listed.primitive, listed.element).equals(shadow.target);
-        (open, enough) = (live & at_light, l.f(f32::INFINITY));
+    let mut nearest = scene.shapes.closest_listed(l, shadow.o, shadow.d);
+    if !scene.shapes.are_listed() {
+        let (mut open, mut enough) = (live, l.f(0.0));
+        if ends_at_any {
+            let at_light = scene.lights.light_at(l, nearest.primitive, nearest.element).equals(shadow.target);
+            (open, enough) = (live & at_light, l.f(f32::INFINITY));
+        }
+        nearest = scene.shapes.nearer(l, (open, enough), (shadow.o, shadow.d), time, nearest);
     }
-    let nearest = scene.shapes.nearer(l, (open, enough), (shadow.o, shadow.d), time, listed);
     let (arrives, Nearest { t, primitive, element }) = scene.lights.arrives(l, shadow.target, shadow.o, nearest);
     let seen = live & arrives;
     let mut light = shadow.radiance;

@@ -10,7 +10,7 @@ use super::{
     data::Posed,
     edges::scaled_area_squared,
     ids,
-    pieces::{Piece, pieces},
+    pieces::{Piece, Pieces, pieces},
     position,
     slots::Slots,
 };
@@ -43,7 +43,10 @@ impl Mesh {
             false => all.iter().copied().filter(is_kept).collect(),
         };
         let of_triangle = |number: usize| corners(kept[number]);
-        let pieces = pieces(kept.len(), of_triangle);
+        let (pieces, room_for_pieces) = match pieces(kept.len(), of_triangle) {
+            Some(Pieces { pieces, memory }) => (Some(pieces), Some(memory)),
+            None => (None, None),
+        };
         let (bvh, order) = tree(kept.len(), &of_triangle, pieces.as_deref(), progress)?;
         let slots = Slots::new(&order, &kept, pieces.as_deref());
         drop((order, pieces));
@@ -71,6 +74,7 @@ impl Mesh {
             is_smooth,
             has_uvs,
             dropped,
+            _room_for_pieces: room_for_pieces,
         })
     }
 }

@@ -38,7 +38,10 @@ use super::{
     bounds::Bounds,
     bvh::{Bvh, Leaves, NONE, Search, Slabs, Stack, traverse},
 };
-use crate::math::{F, Lanes, MAX_LANES, U, V};
+use crate::{
+    math::{F, Lanes, MAX_LANES, U, V},
+    memory::Reservation,
+};
 
 /// A triangle mesh with its tree. A triangle's front is the side from which its vertices run counter-clockwise.
 pub struct Mesh {
@@ -57,6 +60,7 @@ pub struct Mesh {
     is_smooth: bool,
     has_uvs: bool,
     dropped: usize,
+    _room_for_pieces: Option<Reservation>,
 }
 
 /// The nearest intersection so far; tests leaves for nearer ones.

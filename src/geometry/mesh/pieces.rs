@@ -6,7 +6,10 @@
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
-use crate::geometry::bounds::Bounds;
+use crate::{
+    geometry::bounds::Bounds,
+    memory::{self, Reservation},
+};
 
 /// A triangle is long if the half area of its box is more than this multiple of its own area. A large equilateral one has 4.
 const LONG: f32 = 24.0;
@@ -16,6 +19,8 @@ const SHARE: f32 = 0.25;
 const CROWD: f32 = 32.0;
 /// Number of pieces per triangle, on average at most.
 const PIECES: f32 = 6.0;
+/// Bytes per triangle of pieces, of their boxes while the tree is built, and of leaves, besides those of whole triangles.
+const BYTES: u64 = 900;
 /// Number of times that a triangle is halved, at most.
 const MOST_HALVINGS: u32 = 6;
 
@@ -26,8 +31,14 @@ pub(super) struct Piece {
     pub bounds: Bounds,
 }
 
-/// The pieces of `count` triangles, in their order; `None` if too few of them are long.
-pub(super) fn pieces(count: usize, corners: impl Fn(usize) -> [[f32; 3]; 3] + Sync) -> Option<Vec<Piece>> {
+/// Pieces in the order of their triangles, with room for them and for their leaves.
+pub(super) struct Pieces {
+    pub pieces: Vec<Piece>,
+    pub memory: Reservation,
+}
+
+/// The pieces of `count` triangles; `None` if too few of them are long, or if there is no room.
+pub(super) fn pieces(count: usize, corners: impl Fn(usize) -> [[f32; 3]; 3] + Sync) -> Option<Pieces> {
     let bounds = |triangle: usize| Bounds::of_points(corners(triangle));
     let is_long = |triangle: usize| bounds(triangle).surface_area() > 2.0 * LONG * area(corners(triangle));
     let measure = |triangle: usize| Sums::of(&bounds(triangle), is_long(triangle));
@@ -39,6 +50,7 @@ pub(super) fn pieces(count: usize, corners: impl Fn(usize) -> [[f32; 3]; 3] + Sy
     if !sums.ask_for_pieces() {
         return None;
     }
+    let memory = memory::reserve(format_args!("pieces of {count} triangles"), BYTES * count as u64).ok()?;
     // Halving adds up to twice as many pieces as the length asks for.
     let longest = 2.0 * sums.lengths / (PIECES * count as f32);
     let divide = |triangle: usize| {
@@ -51,7 +63,7 @@ pub(super) fn pieces(count: usize, corners: impl Fn(usize) -> [[f32; 3]; 3] + Sy
         pieces
     };
     let parts: Vec<Vec<Piece>> = (0..count).into_par_iter().map(divide).collect();
-    Some(parts.concat())
+    Some(Pieces { pieces: parts.concat(), memory })
 }
 
 /// Triangles whose sums are added in a row.
@@ -150,7 +162,7 @@ mod tests {
 
     #[test]
     fn pieces_cover_a_needle_with_small_boxes() {
-        let pieces = pieces(64, |_| NEEDLE).expect("they are long");
+        let Pieces { pieces, .. } = pieces(64, |_| NEEDLE).expect("they are long");
         assert_eq!(pieces.len(), 64 * 4, "halved until a third of their length");
         let area: f32 = pieces[..4].iter().map(|piece| piece.bounds.surface_area()).sum();
         assert!(area < 0.26 * Bounds::of_points(NEEDLE).surface_area(), "{area}");

@@ -275,6 +275,29 @@ fn coinciding_triangles_fit_into_the_tree() {
 }
 
 #[test]
+fn no_hit_on_crowded_needles_is_lost_to_the_boxes_of_their_pieces() {
+    let mut rng = SmallRng::seed_from_u64(5);
+    let mut data = MeshData::default();
+    for k in 0..2000 {
+        let (center, along) = (point(&mut rng, 0.5), unit(&mut rng));
+        let across = along.any_orthonormal_vector() * 1e-3;
+        data.vertices.extend([center - along, center + along, center + across].map(|p| p.to_array()));
+        data.triangles.push([3 * k, 3 * k + 1, 3 * k + 2]);
+    }
+    let mesh = Mesh::new(&data);
+    assert!(mesh.triangle_of.len() > 2 * mesh.len() && mesh.len() == 2000, "{} slots", mesh.triangle_of.len());
+    let rays = rays(&mesh, 1200, &mut rng);
+    assert_no_hit_is_lost(&mesh, &rays);
+    // The hit is on the triangle that is told.
+    for ((o, d), (t, triangle)) in rays.iter().zip(closest(&mesh, &rays)).filter(|(_, (_, triangle))| *triangle != NONE) {
+        let p = V::splat(One, *o) + V::splat(One, *d) * F(t);
+        let [a, b, c] = mesh.corners(triangle).map(Vec3::from);
+        let off = (Vec3::new(p.x.0, p.y.0, p.z.0) - a).dot((b - a).cross(c - a).normalize()).abs();
+        assert!(off < 1e-4 * (1.0 + Vec3::from(*o).length()), "{off}");
+    }
+}
+
+#[test]
 fn every_level_gives_the_same_bits() {
     let mut rng = SmallRng::seed_from_u64(11);
     for mesh in meshes(&mut rng) {
