@@ -19,7 +19,7 @@ use super::{
 };
 use crate::{
     material::in_stage,
-    math::{Lanes, One, SimdLevel, in_lanes},
+    math::{Lanes, One, SimdLevel, in_few_lanes, in_lanes},
 };
 
 /// Observes a batch between the stages; `()` does nothing.
@@ -64,7 +64,7 @@ impl Observer for () {}
 /// the next surface or are combined with it by multiple importance sampling (Veach 1997, chapter 9).
 pub fn trace(level: SimdLevel, work: &Work, batch: &mut Batch, interrupted: &dyn Fn() -> bool) -> Result<(), Interrupted> {
     if let Some(rays) = work.scene.light_rays(work.settings) {
-        return in_lanes!(level, l => trace_both_ends(l, work, rays, batch, interrupted));
+        return in_few_lanes!(level, l => trace_both_ends(l, work, rays, batch, interrupted));
     }
     in_lanes!(level, l => trace_in(l, work, batch, interrupted, &mut ()))
 }
