@@ -80,8 +80,6 @@ impl Validation {
             seed: self.next_seed(),
             #[cfg(test)]
             fault: self.fault,
-            #[cfg(test)]
-            strategy: None,
         }
     }
 
