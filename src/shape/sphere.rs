@@ -37,7 +37,7 @@ impl Declare for Sphere {
 
 impl Build for Sphere {
     fn shapes(&self, _: &mut ShapeBuilder) -> Result<Vec<Shape>, Problem> {
-        Ok(vec![Shape::Sphere { center: self.center, radius: self.radius }])
+        Ok(vec![Shape::sphere(self.center, self.radius)])
     }
 
     fn placed(&self, placement: &Placement) -> Option<ShapeKind> {
