@@ -53,6 +53,10 @@ impl App {
                 let edit = document.assign(&[place], material.as_deref());
                 self.edit(&edit);
             }
+            Action::AssignTexture(texture) => {
+                let Subject::Object(place) = subject else { return };
+                self.assign_texture(place, texture);
+            }
             Action::AddBackground => _ = self.edit(&Edit::insert(subject.path())),
         }
     }

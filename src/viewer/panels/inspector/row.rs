@@ -68,7 +68,7 @@ impl Heading {
             let is_clicked = checkbox.clicked();
             return (checkbox, is_clicked);
         }
-        let label = ui.add(Label::new(text).truncate().show_tooltip_when_elided(false));
+        let label = ui.add(Label::new(text).wrap());
         (label.on_hover_text(self.hover_text()), is_removed)
     }
 }
