@@ -1,15 +1,16 @@
 //! Joins the outliner and the inspector with the document.
 use egui::{RichText, ScrollArea, Ui};
 use noisefall::{
-    declare::{Declare, Family, Path},
+    declare::{Declare, Family, OneOf, Path},
     edit::Edit,
     scene::Camera,
+    texture::TextureKind,
 };
 
 use super::{scene_editor::SceneEditor, state::App};
 use crate::viewer::background::loader::OpenedScene;
 use crate::viewer::dialogs::{
-    choose_file::{FileDialog, FilePurpose},
+    choose_file::{FileDialog, FilePurpose, texture_in_place},
     unsaved::Leaving,
 };
 use crate::viewer::panels::{
@@ -125,6 +126,12 @@ impl App {
                 Request::BrowseTexture { path } => {
                     self.ask_for_file(FilePurpose::Texture(path));
                     continue;
+                }
+                Request::NewTexture { path, kind } => {
+                    let Some(editor) = &mut self.editor else { return };
+                    let new = TextureKind::alternatives().into_iter().find(|texture| texture.name() == kind);
+                    let Some(texture) = new else { continue };
+                    texture_in_place(&mut editor.document, &path, kind, texture)
                 }
                 Request::Show { family, name } => {
                     let subject = match family {

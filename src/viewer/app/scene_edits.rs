@@ -6,7 +6,7 @@ use noisefall::{
 };
 
 use super::{scene_editor::SceneEditor, state::App};
-use crate::viewer::panels::subject::Subject;
+use crate::viewer::{panels::subject::Subject, widgets::wording::capitalised};
 
 impl App {
     /// Makes an edit, as a step of its own. What the reader of scene files would refuse is refused, with its message.
@@ -32,7 +32,7 @@ impl App {
             }
             Err(problem) => {
                 let help = if problem.help.is_empty() { String::new() } else { format!(": {}", problem.help) };
-                self.tell(format!("{}{help}", problem.message), true);
+                self.tell(format!("{}{help}", capitalised(&problem.message)), true);
             }
         }
         made.is_ok()
