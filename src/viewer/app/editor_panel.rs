@@ -78,20 +78,20 @@ impl App {
         };
         let Some(mut part) = subject.of(editor.document.description()) else { return };
         let (path, size, object) = (subject.path(), opened.scene.size, self.selection.object());
-        ui.horizontal(|ui| {
+        let user = ui.horizontal_wrapped(|ui| {
             ui.label(RichText::new("Parameters").strong());
             if matches!(subject, Subject::Object(_) | Subject::Lamp(_)) {
                 modes::show(ui, &mut self.selection.gizmo.mode);
             }
+            users::show(ui, editor.document.description(), subject)
         });
         if let Some(object) = object {
             objects::show(ui, &opened.scene, opened.scene.objects_of(object));
         }
-        let user = users::show(ui, editor.document.description(), subject);
         let asked = inspected(editor, ui, &mut *part, &path, size);
         self.follow_inspector(asked);
-        if user.is_some() {
-            self.selection.select(user);
+        if user.inner.is_some() {
+            self.selection.select(user.inner);
         }
     }
 

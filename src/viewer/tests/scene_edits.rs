@@ -368,7 +368,8 @@ fn shift_a_opens_the_menu_that_adds_and_letters_do_not_fly_over_a_selection() {
     window.key_press_modifiers(Modifiers::SHIFT, Key::A);
     window.run_steps(3);
     assert_eq!(window.state().session.camera, camera, "no key flies");
-    click(&mut window, "Material");
+    window.get_by_role_and_label(Role::Button, "Material").click();
+    window.run_steps(3);
     assert!(description(&window).materials.contains_key("material"));
 }
 
@@ -391,7 +392,9 @@ fn undo_keeps_the_selected_object_though_its_place_in_the_list_is_another_one() 
 fn the_map_of_a_color_can_be_a_new_texture() {
     let mut window = window("cornell_spheres");
     select(&mut window, Subject::Material("amber".to_owned()));
-    click(&mut window, "Map");
+    let map = window.get_all_by_role_and_label(Role::Button, "Albedo ρ").last();
+    map.expect("it is behind the color").click();
+    window.run_steps(3);
     click(&mut window, "New noise");
     assert!(description(&window).textures.contains_key("noise"));
     let albedo = material(&window, "amber");
