@@ -80,6 +80,8 @@ impl Validation {
             seed: self.next_seed(),
             #[cfg(test)]
             fault: self.fault,
+            #[cfg(test)]
+            strategy: None,
         }
     }
 
