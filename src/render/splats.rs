@@ -183,7 +183,7 @@ impl TileSplats {
     pub fn estimates(&self, paths: u64, batches: u64) -> Vec<SplatEstimate> {
         let (paths, batches) = (paths.max(1) as f64, batches.max(1) as f64);
         let estimate = |pixel: usize| {
-            let sum = |plane: usize| self.sums.value(PLANES * pixel + plane);
+            let sum = |plane: usize| self.sums.quick_value(PLANES * pixel + plane);
             let mean = [0, 1, 2].map(|channel| (sum(channel) / paths) as f32);
             let deviations = |channel: usize| (sum(channel + 3) - sum(channel).powi(2) / batches).max(0.0);
             SplatEstimate { mean, variance: [0, 1, 2].map(|channel| (deviations(channel) / (paths * paths)) as f32) }
