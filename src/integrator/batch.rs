@@ -1,7 +1,7 @@
 //! The queues of one thread, which hold the paths of a batch between stages.
 use super::{
-    bidirectional::{paths::LightPaths, splat::Splat},
     first_hits::FirstHits,
+    light_paths::{paths::LightPaths, splat::Splat},
     queues::{HitQueues, PathQueues, ShadowQueues},
     shared::Shared,
     slots::SLOTS,

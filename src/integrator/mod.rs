@@ -12,7 +12,9 @@ mod fault;
 mod features;
 mod first_hits;
 mod interaction;
+mod interrupted;
 mod intersect;
+mod light_paths;
 mod light_sample;
 mod media;
 mod meet;
@@ -46,15 +48,16 @@ pub use self::fault::trace;
 pub use self::trace::trace;
 pub use self::{
     batch::Batch,
-    bidirectional::Splat,
     collision::{clear_fraction, is_blind},
     features::{Features, features},
+    interrupted::Interrupted,
+    light_paths::splat::Splat,
     replay::{
         EmitterHit, End, Outcome, Reflection, Replay, SampledLight, SharedLight, Surface, Vertex, pixel_samples, replay,
         seen_by_camera,
     },
     series::{SHARES, TERMS, Terms, trace_series},
     slots::{BLOCK, BLOCKS, TILE},
-    trace::{Interrupted, Segments, trace_counting},
+    trace::{Segments, trace_counting},
     work::{Blocks, Work},
 };

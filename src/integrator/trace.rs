@@ -4,6 +4,7 @@ use fearless_simd_macros::simd;
 use super::{
     batch::Batch,
     bidirectional::trace_both_ends,
+    interrupted::Interrupted,
     intersect::intersect,
     passage::Decisions,
     queues::HitQueues,
@@ -34,10 +35,6 @@ pub trait Observer {
 }
 
 impl Observer for () {}
-
-/// The batch was interrupted before it finished; discard its radiance.
-#[derive(Debug, PartialEq, Eq)]
-pub struct Interrupted;
 
 /// Traces one sample of every pixel of a tile; the result is [`Batch::radiance`]. Calls `interrupted` before every bounce, and in
 /// the reuse stage.

@@ -1,16 +1,16 @@
 //! Paths from either end arrive at surfaces. Those from the camera add what these emit.
 use fearless_simd_macros::simd;
 
-use super::{
-    partial::{Partial, finite},
-    paths::LightPaths,
-    strategy::weight_of,
-};
+use super::strategy::weight_of;
 use crate::{
     geometry::{MISS, PrimitiveRef},
     integrator::{
         batch::{Batch, add},
         interaction::{SurfaceInteraction, emitted, interact},
+        light_paths::{
+            partial::{Partial, finite},
+            paths::LightPaths,
+        },
         queues::HitQueues,
         records::Path,
         surface::{Arrival, queue_hits},

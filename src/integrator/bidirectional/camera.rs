@@ -4,15 +4,12 @@ use fearless_simd_macros::simd;
 
 use super::{
     connect::{Connector, finish_connections},
-    partial::cosine,
-    path_state::PathVertex,
-    paths::LightPaths,
-    records::DirectSample,
     scatter::{Evaluated, depth, evaluate, scatter},
 };
 use crate::{
     integrator::{
         batch::Batch,
+        light_paths::{partial::cosine, path_state::PathVertex, paths::LightPaths, records::DirectSample},
         light_sample::call_sample_light,
         queue::{Queue, Register},
         queues::HitQueues,

@@ -2,16 +2,18 @@
 use fearless_simd_macros::simd;
 
 use super::{
-    partial::cosine,
-    path_state::PathVertex,
-    paths::LightPaths,
-    records::Connection,
     scatter::{Evaluated, depth, evaluate},
     strategy::weight_of,
-    vertices::LightVertex,
 };
 use crate::{
-    integrator::{batch::add, queue::Register, queues::HitQueues, slots::SLOTS, work::Work},
+    integrator::{
+        batch::add,
+        light_paths::{partial::cosine, path_state::PathVertex, paths::LightPaths, records::Connection, vertices::LightVertex},
+        queue::Register,
+        queues::HitQueues,
+        slots::SLOTS,
+        work::Work,
+    },
     material::Stage,
     math::{Lanes, MAX_LANES, Pick},
     scene::surface,

@@ -1,12 +1,13 @@
 //! Tests which light samples are visible, and weights them.
 use fearless_simd_macros::simd;
 
-use super::{paths::LightPaths, records::DirectSample, strategy::weight_of};
+use super::strategy::weight_of;
 use crate::{
     geometry::{MISS, Nearest, PrimitiveRef},
     integrator::{
         batch::{Batch, add},
         interaction::emission_texture,
+        light_paths::{paths::LightPaths, records::DirectSample},
         work::Work,
     },
     light::LightRays,

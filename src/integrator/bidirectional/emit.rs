@@ -1,9 +1,15 @@
 //! First stage of paths from lights: samples a light, a point and a direction for every slot.
 use fearless_simd_macros::simd;
 
-use super::{partial::Partial, paths::LightPaths};
 use crate::{
-    integrator::{batch::Batch, interaction::emission_texture, records::Path, shared::put, work::Work},
+    integrator::{
+        batch::Batch,
+        interaction::emission_texture,
+        light_paths::{partial::Partial, paths::LightPaths},
+        records::Path,
+        shared::put,
+        work::Work,
+    },
     light::{LightRays, RayCoordinates},
     math::{Lanes, U, V},
     sampling::Dimension,

@@ -1,9 +1,12 @@
 //! Tests which vertices of paths from lights the camera sees.
 use fearless_simd_macros::simd;
 
-use super::{paths::LightPaths, records::CameraRay, splat::Splat};
 use crate::{
-    integrator::{batch::Batch, work::Work},
+    integrator::{
+        batch::Batch,
+        light_paths::{paths::LightPaths, records::CameraRay, splat::Splat},
+        work::Work,
+    },
     math::{F, Lanes, MAX_LANES},
 };
 

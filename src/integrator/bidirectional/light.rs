@@ -2,10 +2,6 @@
 use fearless_simd_macros::simd;
 
 use super::{
-    partial::{Partial, cosine},
-    path_state::PathVertex,
-    paths::LightPaths,
-    records::CameraRay,
     scatter::{Evaluated, depth, evaluate, scatter},
     strategy::weight_of,
 };
@@ -13,6 +9,12 @@ use crate::{
     geometry::{MISS, PrimitiveRef},
     integrator::{
         batch::Batch,
+        light_paths::{
+            partial::{Partial, cosine},
+            path_state::PathVertex,
+            paths::LightPaths,
+            records::CameraRay,
+        },
         queue::{Queue, Register},
         queues::HitQueues,
         records::Path,

@@ -12,7 +12,7 @@
 //!
 //! `bidirectional` weights all of them by the balance heuristic (Veach 1997, section 10.2). The weights are computed from two numbers of
 //! each path, which follow it from vertex to vertex (D. van Antwerpen, "Recursive MIS Computation for Streaming BDPT on the GPU", 2011;
-//! I. Georgiev, "Implementing Vertex Connection and Merging", 2012): see [`partial`]. `forward` takes t = 1 alone wherever that can be, that
+//! I. Georgiev, "Implementing Vertex Connection and Merging", 2012): see [`super::light_paths::partial`]. `forward` takes t = 1 alone wherever that can be, that
 //! is unless the first surface reflects the light in a single direction. There it works like `mis`, with the balance heuristic.
 //!
 //! A path contributes the same whichever end it is traced from: both evaluate f(ω_o, ω_i) |cos θ_i| with ω_i towards the light. That
@@ -26,15 +26,8 @@ mod direct;
 mod emit;
 mod join;
 mod light;
-mod partial;
-mod path_state;
-pub(super) mod paths;
-mod records;
 mod scatter;
-pub(super) mod splat;
 mod strategy;
 mod trace;
-mod vertices;
 
-pub use self::splat::Splat;
 pub(super) use self::trace::trace_both_ends;

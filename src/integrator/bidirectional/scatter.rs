@@ -1,10 +1,10 @@
 //! What depends on the type of BSDF: its values for two directions, and samples of it.
 use fearless_simd_macros::simd;
 
-use super::partial::cosine;
 use crate::{
     integrator::{
         coordinates::ReflectionCoordinates,
+        light_paths::partial::cosine,
         queue::Register,
         queues::HitQueues,
         records::{Chart, Detail, Hit},

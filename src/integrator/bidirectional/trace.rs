@@ -8,11 +8,11 @@ use super::{
     emit::emit,
     join::join,
     light::shade_light_paths,
-    paths::LightPaths,
 };
 use crate::{
     integrator::{
-        batch::Batch, intersect::intersect, passage::Decisions, queues::HitQueues, spawn::spawn, trace::Interrupted, work::Work,
+        batch::Batch, interrupted::Interrupted, intersect::intersect, light_paths::paths::LightPaths, passage::Decisions,
+        queues::HitQueues, spawn::spawn, work::Work,
     },
     light::LightRays,
     math::Lanes,

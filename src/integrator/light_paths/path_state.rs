@@ -6,7 +6,7 @@ use crate::{
 };
 
 /// Paths from one end, by slot.
-pub(super) struct PathState {
+pub struct PathState {
     /// [`Partial`], and the time.
     partials: Vec<[f32; 4]>,
     /// Unit direction to the vertex before.
@@ -25,7 +25,7 @@ impl Default for PathState {
 }
 
 /// Vertices of paths in a register of hits.
-pub(super) struct PathVertex<L: Lanes> {
+pub struct PathVertex<L: Lanes> {
     pub live: M<L>,
     pub hit: Hit<L>,
     /// Unit direction to the vertex before.
@@ -86,6 +86,6 @@ impl PathState {
 
 /// Slots of lanes past the end may say anything.
 #[inline(always)]
-pub(super) fn inside<L: Lanes>(slot: U<L>) -> U<L> {
+pub fn inside<L: Lanes>(slot: U<L>) -> U<L> {
     slot & (SLOTS as u32 - 1)
 }

@@ -29,7 +29,7 @@ use crate::{
 const ROWS: u32 = 9;
 
 /// The vertices, each with the place of the one before it in its path.
-pub(super) struct LightVertices {
+pub struct LightVertices {
     rows: Vec<[f32; 4]>,
     /// The last vertex of the path of each slot plus 1, or 0.
     last: Vec<[f32; 4]>,
@@ -42,7 +42,7 @@ impl Default for LightVertices {
 }
 
 /// Vertices of lights that are connected.
-pub(super) struct LightVertex<L: Lanes> {
+pub struct LightVertex<L: Lanes> {
     pub p: V<L>,
     pub n: V<L>,
     pub bounce: U<L>,
@@ -53,7 +53,7 @@ pub(super) struct LightVertex<L: Lanes> {
 }
 
 /// The rest of them.
-pub(super) struct LightVertexEnd<L: Lanes> {
+pub struct LightVertexEnd<L: Lanes> {
     /// Light that arrives.
     pub light: V<L>,
     /// Unit direction to the vertex before.

@@ -15,19 +15,19 @@ const MOST: f32 = 1e30;
 
 /// The cosine of the angle between a unit direction and a normal on either side, of which reciprocals are finite.
 #[inline(always)]
-pub(super) fn cosine<L: Lanes>(d: V<L>, n: V<L>) -> F<L> {
+pub fn cosine<L: Lanes>(d: V<L>, n: V<L>) -> F<L> {
     finite(d.dot(n))
 }
 
 /// A cosine as [`cosine`] returns it.
 #[inline(always)]
-pub(super) fn finite<L: Lanes>(cos: F<L>) -> F<L> {
+pub fn finite<L: Lanes>(cos: F<L>) -> F<L> {
     cos.abs().max(cos.splat(1e-9))
 }
 
 /// The two numbers of a path.
 #[derive(Clone, Copy)]
-pub(super) struct Partial<L: Lanes> {
+pub struct Partial<L: Lanes> {
     pub v: F<L>,
     pub c: F<L>,
 }

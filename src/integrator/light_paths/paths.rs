@@ -13,16 +13,16 @@ use crate::{
 /// The numbers and queues of paths from both ends. Allocated when the first batch of them is traced.
 pub struct LightPaths {
     /// Of the paths from the lights, then of those from the camera.
-    pub(super) ends: [PathState; 2],
+    pub ends: [PathState; 2],
     /// Flux of the paths from the lights where they start, and the reciprocal of the light density there.
-    pub(super) fluxes: Vec<[f32; 4]>,
+    pub fluxes: Vec<[f32; 4]>,
     /// Their lights, and the places there: primitives and triangles.
-    pub(super) sources: Vec<[f32; 4]>,
-    pub(super) vertices: LightVertices,
-    pub(super) direct: Queue,
-    pub(super) joins: Queue,
+    pub sources: Vec<[f32; 4]>,
+    pub vertices: LightVertices,
+    pub direct: Queue,
+    pub joins: Queue,
     /// Connections and the hits at their vertices of lights, by stage of shading there.
-    pub(super) connections: Vec<(Queue, HitQueues)>,
+    pub connections: Vec<(Queue, HitQueues)>,
 }
 
 impl Default for LightPaths {
@@ -41,7 +41,7 @@ impl Default for LightPaths {
 
 impl LightPaths {
     /// Empties the queues, which an interrupted batch may have left filled.
-    pub(super) fn clear(&mut self) {
+    pub fn clear(&mut self) {
         self.direct.clear();
         self.joins.clear();
         self.connections.iter_mut().for_each(|(queue, hits)| {
