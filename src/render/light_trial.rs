@@ -3,7 +3,13 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use rayon::prelude::*;
 
-use super::{area::Area, estimate::Estimate, splats::SplatFilm, tile::Tile, trial::relative_variances};
+use super::{
+    area::Area,
+    estimate::Estimate,
+    splats::SplatFilm,
+    tile::Tile,
+    trial::{relative_difference, relative_variances},
+};
 use crate::{
     integrator::{Batch, Interrupted, Work, trace},
     math::SimdLevel,
@@ -54,7 +60,10 @@ fn pays(scene: &Scene, interrupted: &(dyn Fn() -> bool + Sync)) -> Result<bool, 
     };
     let (of_mis, rays_of_mis) = with(Estimator::Mis)?;
     let (of_both, rays_of_both) = with(Estimator::Bidirectional)?;
+    let difference = relative_difference(&of_mis, &of_both);
     let [of_mis, of_both] = relative_variances(&[[of_mis, of_both]]);
+    // Light that one of them has not found yet is missing in its variance, but not in the difference.
+    let [of_mis, of_both] = [of_mis.max(difference - of_both), of_both.max(difference - of_mis)];
     Ok(of_mis * rays_of_mis as f64 > of_both * rays_of_both as f64 * COST)
 }
 

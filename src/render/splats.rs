@@ -70,13 +70,16 @@ impl SplatFilm {
                 self.invalid.fetch_add(1, Ordering::Relaxed);
             }
         }
-        // A stable sort, so that the light of a pixel is added in the order of the batch.
-        shares.sort_by_key(|share| (share.tile, share.pixel));
-        for of_tile in shares.chunk_by(|a, b| a.tile == b.tile) {
-            let mut tile = self.lock(of_tile[0].tile);
-            for of_pixel in of_tile.chunk_by(|a, b| a.pixel == b.pixel) {
-                let [r, g, b] = of_pixel.iter().fold([0.0; 3], |sum, share| [0, 1, 2].map(|i| sum[i] + share.light[i]));
-                tile.add(of_pixel[0].pixel, [r, g, b]);
+        // By tile and pixel, and the light of a pixel in the order of the batch.
+        let mut order: Vec<u64> =
+            shares.iter().zip(0..).map(|(share, place): (&Share, u64)| u64::from(share.key) << 32 | place).collect();
+        order.sort_unstable();
+        let share = |key: &u64| &shares[*key as u32 as usize];
+        for of_tile in order.chunk_by(|a, b| share(a).tile() == share(b).tile()) {
+            let mut tile = self.lock(share(&of_tile[0]).tile());
+            for of_pixel in of_tile.chunk_by(|a, b| share(a).key == share(b).key) {
+                let light = of_pixel.iter().fold([0.0; 3], |sum, key| [0, 1, 2].map(|i| sum[i] + share(key).light[i]));
+                tile.add(share(&of_pixel[0]).pixel(), light);
             }
         }
     }
@@ -91,11 +94,9 @@ impl SplatFilm {
                 let weight = f64::from(by_row * filter.density(*x - 0.5 - column as f32));
                 if weight > 0.0 {
                     let tile_width = TILE.min(width - column / TILE * TILE);
-                    shares.push(Share {
-                        tile: (row / TILE * columns + column / TILE) as usize,
-                        pixel: (row % TILE * tile_width + column % TILE) as usize,
-                        light: light.map(|light| f64::from(light) * weight),
-                    });
+                    let tile = row / TILE * columns + column / TILE;
+                    let pixel = row % TILE * tile_width + column % TILE;
+                    shares.push(Share { key: tile * TILE * TILE + pixel, light: light.map(|light| f64::from(light) * weight) });
                 }
             }
         }
@@ -144,10 +145,19 @@ impl SplatFilm {
 
 /// The light of a splat in one pixel.
 struct Share {
-    tile: usize,
-    /// Its index within the tile.
-    pixel: usize,
+    /// The tile times the most pixels of a tile, plus the index of the pixel within the tile.
+    key: u32,
     light: [f64; 3],
+}
+
+impl Share {
+    fn tile(&self) -> usize {
+        (self.key / (TILE * TILE)) as usize
+    }
+
+    fn pixel(&self) -> usize {
+        (self.key % (TILE * TILE)) as usize
+    }
 }
 
 /// The pixels whose middle is no farther than `reach` from `x`, in a row of `count`.
