@@ -65,7 +65,7 @@ impl SplatFilm {
         let mut shares = Vec::with_capacity(splats.len());
         for splat in splats {
             if splat.light.iter().all(|light| (0.0..=f32::MAX).contains(light)) {
-                self.spread(filter, splat, &mut shares);
+                shares.extend(self.share(filter, splat));
             } else {
                 self.invalid.fetch_add(1, Ordering::Relaxed);
             }
@@ -84,22 +84,19 @@ impl SplatFilm {
         }
     }
 
-    /// Splits a splat among the pixels whose filter is not 0 where it arrives.
-    fn spread(&self, filter: Filter, Splat { place: [x, y], light }: &Splat, shares: &mut Vec<Share>) {
+    /// The pixel to which a splat goes: one of those whose filter reaches it, in proportion to the filters there. `None` if it lies
+    /// outside of the image.
+    fn share(&self, filter: Filter, Splat { place: [x, y], u: [u, v], light }: &Splat) -> Option<Share> {
+        let [(column, by_column), (row, by_row)] = [choose(filter, *x, *u)?, choose(filter, *y, *v)?];
         let [width, height] = self.resolution;
-        let columns = width.div_ceil(TILE);
-        for row in pixels_around(*y, filter.reach(), height) {
-            let by_row = filter.density(*y - 0.5 - row as f32);
-            for column in pixels_around(*x, filter.reach(), width) {
-                let weight = f64::from(by_row * filter.density(*x - 0.5 - column as f32));
-                if weight > 0.0 {
-                    let tile_width = TILE.min(width - column / TILE * TILE);
-                    let tile = row / TILE * columns + column / TILE;
-                    let pixel = row % TILE * tile_width + column % TILE;
-                    shares.push(Share { key: tile * TILE * TILE + pixel, light: light.map(|light| f64::from(light) * weight) });
-                }
-            }
+        let (column, row) = (u32::try_from(column).ok()?, u32::try_from(row).ok()?);
+        if column >= width || row >= height {
+            return None;
         }
+        let tile = row / TILE * width.div_ceil(TILE) + column / TILE;
+        let pixel = row % TILE * TILE.min(width - column / TILE * TILE) + column % TILE;
+        let weight = f64::from(by_column * by_row);
+        Some(Share { key: tile * TILE * TILE + pixel, light: light.map(|light| f64::from(light) * weight) })
     }
 
     /// The estimates of the pixels of a tile after `paths` paths from lights.
@@ -160,12 +157,27 @@ impl Share {
     }
 }
 
-/// The pixels whose middle is no farther than `reach` from `x`, in a row of `count`.
-fn pixels_around(x: f32, reach: f32, count: u32) -> std::ops::Range<u32> {
-    // Casts saturate: what lies left of the image becomes 0.
-    let first = (x - 0.5 - reach).ceil().max(0.0) as u32;
-    let end = (x + 0.5 + reach).floor().max(0.0) as u32;
-    first..end.min(count)
+/// Chooses among the pixels in a row whose filter reaches `x`, in proportion to their filters there. Returns it with the sum of these
+/// filters.
+fn choose(filter: Filter, x: f32, u: f32) -> Option<(i32, f32)> {
+    let (from_middle, reach) = (x - 0.5, filter.reach());
+    // Casts saturate: no pixel lies there.
+    let pixels = (from_middle - reach).ceil() as i32..=(from_middle + reach).floor() as i32;
+    let density = |pixel: i32| filter.density(from_middle - pixel as f32);
+    let sum: f32 = pixels.clone().map(density).sum();
+    let mut rest = u * sum;
+    let mut chosen = None;
+    for pixel in pixels {
+        let density = density(pixel);
+        if density > 0.0 {
+            chosen = Some((pixel, sum));
+            if rest < density {
+                break;
+            }
+            rest -= density;
+        }
+    }
+    chosen
 }
 
 impl TileSplats {
@@ -207,19 +219,25 @@ mod tests {
     use super::*;
 
     fn splat(x: f32, y: f32, light: f32) -> Splat {
-        Splat { place: [x, y], light: [light, 2.0 * light, 0.0] }
+        Splat { place: [x, y], u: [0.4, 0.7], light: [light, 2.0 * light, 0.0] }
     }
 
     #[test]
-    fn a_splat_is_spread_over_the_pixels_whose_filter_reaches_it() {
+    fn a_splat_goes_to_the_pixels_whose_filter_reaches_it_by_their_filters() {
+        const STEPS: u16 = 16;
+        let steps = || (0..STEPS).map(|i| (f32::from(i) + 0.5) / f32::from(STEPS));
         for (filter, pixels) in [(Filter::default(), 1), (Filter::TENT, 4)] {
             let film = SplatFilm::new([40, 40]);
-            film.add(filter, &[splat(32.25, 31.75, 3.0)]);
-            let all: Vec<SplatEstimate> = (0..4).flat_map(|tile| film.estimates(tile, 2)).collect();
-            let lit = all.iter().filter(|estimate| estimate.mean[0] > 0.0);
+            let at = |u: [f32; 2]| Splat { u, ..splat(32.25, 31.75, 3.0) };
+            let all: Vec<Splat> = steps().flat_map(|u| steps().map(move |v| at([u, v]))).collect();
+            film.add(filter, &all);
+            let estimates: Vec<SplatEstimate> = (0..4).flat_map(|tile| film.estimates(tile, 256)).collect();
+            let lit = estimates.iter().map(|estimate| estimate.mean[1]).filter(|mean| *mean > 0.0);
             assert_eq!(lit.clone().count(), pixels, "{filter:?}");
-            let sum: f32 = lit.map(|estimate| estimate.mean[1]).sum();
-            assert!((sum - 3.0).abs() < 1e-5, "filters of neighbours add up to 1: {sum}");
+            assert!((lit.clone().sum::<f32>() - 6.0).abs() < 1e-5, "filters of neighbours add up to 1");
+            // A quarter of a pixel from the middle of one, three quarters from that of the other, in both directions.
+            let most = lit.fold(0.0, f32::max);
+            assert!(pixels == 1 || (most - 6.0 * 0.75 * 0.75).abs() < 1e-5, "{most}");
         }
     }
 
