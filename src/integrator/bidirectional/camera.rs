@@ -35,8 +35,8 @@ pub(super) fn shade_camera_paths<L: Lanes>(l: L, work: &Work, batch: &mut Batch,
     let next = &mut paths[(reflection & 1) as usize];
     next.clear();
     let connects = work.settings.estimator.connects();
-    // What paths from lights bring to the first surface alone is joined with the camera.
     let only_caustics = work.settings.estimator.traces_only_caustics();
+    // What paths from lights bring to the first surface is found by them alone.
     let is_joined = !connects && !only_caustics && *bounce == 0;
     let others = match *bounce {
         _ if connects => Others::All,

@@ -27,7 +27,7 @@ use crate::{
     sampling::Dimension,
 };
 
-/// Runs the stage. The paths are cut after `last` bounces.
+/// Runs the stage.
 #[simd]
 pub(super) fn shade_light_paths<L: Lanes>(l: L, work: &Work, rays: &LightRays, batch: &mut Batch, state: &mut LightPaths) {
     let Batch { paths, hits, bounce, .. } = batch;
