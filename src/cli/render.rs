@@ -15,7 +15,7 @@ use noisefall::{
     math::SimdLevel,
     render::{Budget, Display, RenderRequest, image_file::Format, sharing::resolved, threads::Threads, truth::Reference},
     render_file::Target,
-    scene::Scene,
+    scene::{Estimator, Scene},
 };
 
 pub use self::arguments::Arguments;

@@ -3,7 +3,13 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use rayon::prelude::*;
 
-use super::{area::Area, estimate::Estimate, splats::SplatFilm, tile::Tile, trial::relative_variances};
+use super::{
+    area::Area,
+    estimate::Estimate,
+    splats::SplatFilm,
+    tile::Tile,
+    trial::{relative_difference, relative_variances},
+};
 use crate::{
     integrator::{Batch, Interrupted, Work, trace},
     math::SimdLevel,
@@ -15,7 +21,7 @@ use crate::{
 const SIZE: u32 = 96;
 const SPP: u32 = 16;
 /// Time of a ray of paths from both ends, relative to one of `mis`.
-const COST: f64 = 1.3;
+const COST: f64 = 2.0;
 /// A seed that images are unlikely to have.
 const SEED: u32 = 0x2c1b_3c6d;
 
@@ -28,21 +34,20 @@ pub(super) fn estimator_unless(
     if settings.estimator != Estimator::Auto {
         return Ok(settings.estimator);
     }
-    let known = &scene.light_paths_pay;
-    let can_pay = scene.traces_light_paths(&RenderSettings { estimator: Estimator::Bidirectional, ..*settings });
-    let pays = match known.get() {
-        _ if !can_pay => false,
-        Some(pays) => *pays,
-        None => {
-            // A scene that fails will fail again in the pass, which reports the place.
-            let pays = catch_unwind(AssertUnwindSafe(|| pays(scene, interrupted))).unwrap_or(Ok(false))?;
-            *known.get_or_init(|| pays)
-        }
-    };
-    Ok(if pays { Estimator::Bidirectional } else { Estimator::Mis })
+    if !scene.traces_light_paths(&RenderSettings { estimator: Estimator::Bidirectional, ..*settings }) {
+        return Ok(Estimator::Mis);
+    }
+    let known = &scene.estimator_by_trial;
+    if let Some(best) = known.get() {
+        return Ok(*best);
+    }
+    // A scene that fails will fail again in the pass, which reports the place.
+    let best = catch_unwind(AssertUnwindSafe(|| best(scene, interrupted))).unwrap_or(Ok(Estimator::Mis))?;
+    Ok(*known.get_or_init(|| best))
 }
 
-fn pays(scene: &Scene, interrupted: &(dyn Fn() -> bool + Sync)) -> Result<bool, Interrupted> {
+/// The estimator with the least error at equal cost.
+fn best(scene: &Scene, interrupted: &(dyn Fn() -> bool + Sync)) -> Result<Estimator, Interrupted> {
     let [width, height] = scene.camera.resolution;
     let longest = width.max(height);
     let resolution = [width, height].map(|side| (SIZE * side).div_ceil(longest).max(1));
@@ -52,10 +57,20 @@ fn pays(scene: &Scene, interrupted: &(dyn Fn() -> bool + Sync)) -> Result<bool, 
             RenderSettings { estimator, sampler: Sampler::Independent, reuse: Reuse::Off, seed: SEED, ..Default::default() };
         small_image(scene, &camera, &settings, interrupted)
     };
-    let (of_mis, rays_of_mis) = with(Estimator::Mis)?;
+    // All light has been found by some paths of this one, at least.
     let (of_both, rays_of_both) = with(Estimator::Bidirectional)?;
-    let [of_mis, of_both] = relative_variances(&[[of_mis, of_both]]);
-    Ok(of_mis * rays_of_mis as f64 > of_both * rays_of_both as f64 * COST)
+    let (mut costs, mut cost_of_both) = (Vec::new(), 0.0f64);
+    for estimator in [Estimator::Mis, Estimator::Caustics] {
+        let (found, rays) = with(estimator)?;
+        let difference = relative_difference(&found, &of_both);
+        let [variance, variance_of_both] = relative_variances(&[[found, of_both.clone()]]);
+        // Light that one of them has not found yet is missing in its variance, but not in the difference.
+        costs.push((estimator, variance.max(difference - variance_of_both) * rays as f64));
+        let error_of_both = variance_of_both.max(difference - variance);
+        cost_of_both = cost_of_both.max(error_of_both * rays_of_both as f64 * COST);
+    }
+    costs.push((Estimator::Bidirectional, cost_of_both));
+    Ok(costs.into_iter().min_by(|a, b| a.1.total_cmp(&b.1)).map_or(Estimator::Mis, |(estimator, _)| estimator))
 }
 
 /// Estimates of a small image, and the number of rays that it took.

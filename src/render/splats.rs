@@ -65,40 +65,32 @@ impl SplatFilm {
         let mut shares = Vec::with_capacity(splats.len());
         for splat in splats {
             if splat.light.iter().all(|light| (0.0..=f32::MAX).contains(light)) {
-                self.spread(filter, splat, &mut shares);
+                shares.extend(self.share(filter, splat));
             } else {
                 self.invalid.fetch_add(1, Ordering::Relaxed);
             }
         }
-        // A stable sort, so that the light of a pixel is added in the order of the batch.
-        shares.sort_by_key(|share| (share.tile, share.pixel));
-        for of_tile in shares.chunk_by(|a, b| a.tile == b.tile) {
-            let mut tile = self.lock(of_tile[0].tile);
-            for of_pixel in of_tile.chunk_by(|a, b| a.pixel == b.pixel) {
-                let [r, g, b] = of_pixel.iter().fold([0.0; 3], |sum, share| [0, 1, 2].map(|i| sum[i] + share.light[i]));
-                tile.add(of_pixel[0].pixel, [r, g, b]);
+        // By tile and pixel, and the light of a pixel in the order of the batch.
+        let mut order: Vec<u64> =
+            shares.iter().zip(0..).map(|(share, place): (&Share, u64)| u64::from(share.key) << 32 | place).collect();
+        order.sort_unstable();
+        let share = |key: &u64| &shares[*key as u32 as usize];
+        for of_tile in order.chunk_by(|a, b| share(a).tile() == share(b).tile()) {
+            let mut tile = self.lock(share(&of_tile[0]).tile());
+            for of_pixel in of_tile.chunk_by(|a, b| share(a).key == share(b).key) {
+                let light = of_pixel.iter().fold([0.0; 3], |sum, key| [0, 1, 2].map(|i| sum[i] + share(key).light[i]));
+                tile.add(share(&of_pixel[0]).pixel(), light);
             }
         }
     }
 
-    /// Splits a splat among the pixels whose filter is not 0 where it arrives.
-    fn spread(&self, filter: Filter, Splat { place: [x, y], light }: &Splat, shares: &mut Vec<Share>) {
-        let [width, height] = self.resolution;
-        let columns = width.div_ceil(TILE);
-        for row in pixels_around(*y, filter.reach(), height) {
-            let by_row = filter.density(*y - 0.5 - row as f32);
-            for column in pixels_around(*x, filter.reach(), width) {
-                let weight = f64::from(by_row * filter.density(*x - 0.5 - column as f32));
-                if weight > 0.0 {
-                    let tile_width = TILE.min(width - column / TILE * TILE);
-                    shares.push(Share {
-                        tile: (row / TILE * columns + column / TILE) as usize,
-                        pixel: (row % TILE * tile_width + column % TILE) as usize,
-                        light: light.map(|light| f64::from(light) * weight),
-                    });
-                }
-            }
-        }
+    /// What a splat adds to its pixel.
+    fn share(&self, filter: Filter, splat: &Splat) -> Option<Share> {
+        let ([column, row], light) = splat.land(filter, self.resolution)?;
+        let [width, _] = self.resolution;
+        let tile = row / TILE * width.div_ceil(TILE) + column / TILE;
+        let pixel = row % TILE * TILE.min(width - column / TILE * TILE) + column % TILE;
+        Some(Share { key: tile * TILE * TILE + pixel, light })
     }
 
     /// The estimates of the pixels of a tile after `paths` paths from lights.
@@ -144,18 +136,19 @@ impl SplatFilm {
 
 /// The light of a splat in one pixel.
 struct Share {
-    tile: usize,
-    /// Its index within the tile.
-    pixel: usize,
+    /// The tile times the most pixels of a tile, plus the index of the pixel within the tile.
+    key: u32,
     light: [f64; 3],
 }
 
-/// The pixels whose middle is no farther than `reach` from `x`, in a row of `count`.
-fn pixels_around(x: f32, reach: f32, count: u32) -> std::ops::Range<u32> {
-    // Casts saturate: what lies left of the image becomes 0.
-    let first = (x - 0.5 - reach).ceil().max(0.0) as u32;
-    let end = (x + 0.5 + reach).floor().max(0.0) as u32;
-    first..end.min(count)
+impl Share {
+    fn tile(&self) -> usize {
+        (self.key / (TILE * TILE)) as usize
+    }
+
+    fn pixel(&self) -> usize {
+        (self.key % (TILE * TILE)) as usize
+    }
 }
 
 impl TileSplats {
@@ -197,19 +190,25 @@ mod tests {
     use super::*;
 
     fn splat(x: f32, y: f32, light: f32) -> Splat {
-        Splat { place: [x, y], light: [light, 2.0 * light, 0.0] }
+        Splat { place: [x, y], u: [0.4, 0.7], light: [light, 2.0 * light, 0.0] }
     }
 
     #[test]
-    fn a_splat_is_spread_over_the_pixels_whose_filter_reaches_it() {
+    fn a_splat_goes_to_the_pixels_whose_filter_reaches_it_by_their_filters() {
+        const STEPS: u16 = 16;
+        let steps = || (0..STEPS).map(|i| (f32::from(i) + 0.5) / f32::from(STEPS));
         for (filter, pixels) in [(Filter::default(), 1), (Filter::TENT, 4)] {
             let film = SplatFilm::new([40, 40]);
-            film.add(filter, &[splat(32.25, 31.75, 3.0)]);
-            let all: Vec<SplatEstimate> = (0..4).flat_map(|tile| film.estimates(tile, 2)).collect();
-            let lit = all.iter().filter(|estimate| estimate.mean[0] > 0.0);
+            let at = |u: [f32; 2]| Splat { u, ..splat(32.25, 31.75, 3.0) };
+            let all: Vec<Splat> = steps().flat_map(|u| steps().map(move |v| at([u, v]))).collect();
+            film.add(filter, &all);
+            let estimates: Vec<SplatEstimate> = (0..4).flat_map(|tile| film.estimates(tile, 256)).collect();
+            let lit = estimates.iter().map(|estimate| estimate.mean[1]).filter(|mean| *mean > 0.0);
             assert_eq!(lit.clone().count(), pixels, "{filter:?}");
-            let sum: f32 = lit.map(|estimate| estimate.mean[1]).sum();
-            assert!((sum - 3.0).abs() < 1e-5, "filters of neighbours add up to 1: {sum}");
+            assert!((lit.clone().sum::<f32>() - 6.0).abs() < 1e-5, "filters of neighbours add up to 1");
+            // A quarter of a pixel from the middle of one, three quarters from that of the other, in both directions.
+            let most = lit.fold(0.0, f32::max);
+            assert!(pixels == 1 || (most - 6.0 * 0.75 * 0.75).abs() < 1e-5, "{most}");
         }
     }
 

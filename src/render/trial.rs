@@ -19,6 +19,18 @@ pub(super) fn relative_variances(tiles: &[[Vec<Estimate>; 2]]) -> [f64; 2] {
     sums
 }
 
+/// The sum of the squared differences of two images, relative to the squared common means with the floor of relMSE.
+pub(super) fn relative_difference(a: &[Estimate], b: &[Estimate]) -> f64 {
+    // A difference d of the means is a variance of d² of an image with the mean of both.
+    let with = |of: &Estimate, other: &Estimate| {
+        let square = |channel: usize| (of.mean[channel] - other.mean[channel]).powi(2);
+        Estimate { variance_of_mean: Some([square(0), square(1), square(2)]), ..*of }
+    };
+    let squares: Vec<Estimate> = a.iter().zip(b).map(|(a, b)| with(a, b)).collect();
+    let [difference, _] = relative_variances(&[[squares, b.to_vec()]]);
+    difference
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

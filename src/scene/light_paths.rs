@@ -16,7 +16,9 @@ const ENDLESS: &str = "with so little roulette and no low bounce cap, there woul
 
 /// Whether paths may have so many vertices that the connections between them would take for ever.
 fn goes_on_for_ever(settings: &RenderSettings) -> bool {
-    settings.roulette.survival() > MOST_SURVIVORS && settings.max_bounces.is_none_or(|cap| cap > MOST_BOUNCES)
+    settings.estimator.connects()
+        && settings.roulette.survival() > MOST_SURVIVORS
+        && settings.max_bounces.is_none_or(|cap| cap > MOST_BOUNCES)
 }
 
 impl Scene {
@@ -62,9 +64,9 @@ impl Scene {
             return Some(format!("MIS: {ENDLESS}"));
         }
         let obstacle = self.light_paths.get().and_then(|made| made.as_ref().err());
-        match (settings.estimator, self.light_paths_pay.get()) {
-            (Estimator::Auto, Some(true)) => Some("bidirectional: less noise at equal cost in a trial".to_owned()),
-            (Estimator::Auto, Some(false)) => Some("MIS: paths from lights did not pay in a trial".to_owned()),
+        match (settings.estimator, self.estimator_by_trial.get()) {
+            (Estimator::Auto, Some(Estimator::Mis)) => Some("MIS: paths from lights did not pay in a trial".to_owned()),
+            (Estimator::Auto, Some(best)) => Some(format!("{}: less noise at equal cost in a trial", best.name())),
             _ => obstacle.filter(|_| traces).map(|reason| format!("MIS: the scene has {reason}")),
         }
     }

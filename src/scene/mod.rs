@@ -122,8 +122,8 @@ pub struct Scene {
     pub sharing_pays: OnceLock<bool>,
     /// The rays with which paths from lights start, or what keeps them from it: see [`Scene::light_rays`].
     pub light_paths: OnceLock<Result<LightRays, &'static str>>,
-    /// Whether paths from lights pay, once it has been tried.
-    pub light_paths_pay: OnceLock<bool>,
+    /// The estimator that [`Estimator::Auto`] stands for, once it has been tried.
+    pub estimator_by_trial: OnceLock<Estimator>,
     /// Samples per pixel to stop at.
     pub spp: Option<u32>,
     /// Exposure that the scene is displayed with, stops.

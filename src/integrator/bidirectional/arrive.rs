@@ -69,7 +69,12 @@ pub(super) fn arrive_from_camera<L: Lanes>(
         let path = &arrival.path;
         let partial = end.partial(l, path.slot);
         let (n, transmits) = end.before(l, path.slot);
-        let weigher = HitWeigher { first, partial, at: ReferencePoint { p: path.o, n, transmits, lobe: None } };
+        let mut others = partial;
+        if work.settings.estimator.traces_only_caustics() {
+            // Only behind a surface with a single direction, where `v` is 0, there is another strategy than a light sample.
+            others.c = partial.v.above(0.0).pick(l.f(0.0), partial.c);
+        }
+        let weigher = HitWeigher { first, partial: others, at: ReferencePoint { p: path.o, n, transmits, lobe: None } };
         let miss = nearest.primitive.is(MISS);
         if let Some(background) = &work.scene.lights.background
             && (at.live & miss).any()

@@ -9,7 +9,12 @@ use super::{
 use crate::{
     integrator::{
         batch::Batch,
-        light_paths::{partial::cosine, path_state::PathVertex, paths::LightPaths, records::DirectSample},
+        light_paths::{
+            partial::{Others, cosine},
+            path_state::PathVertex,
+            paths::LightPaths,
+            records::DirectSample,
+        },
         light_sample::call_sample_light,
         queue::{Queue, Register},
         queues::HitQueues,
@@ -30,8 +35,15 @@ pub(super) fn shade_camera_paths<L: Lanes>(l: L, work: &Work, batch: &mut Batch,
     let next = &mut paths[(reflection & 1) as usize];
     next.clear();
     let connects = work.settings.estimator.connects();
-    // What paths from lights bring to the first surface alone is joined with the camera.
-    let is_joined = !connects && *bounce == 0;
+    let only_caustics = work.settings.estimator.traces_only_caustics();
+    // What paths from lights bring to the first surface is found by them alone.
+    let is_joined = !connects && !only_caustics && *bounce == 0;
+    let others = match *bounce {
+        _ if connects => Others::All,
+        0 if only_caustics => Others::All,
+        _ if only_caustics => Others::AfterDelta,
+        _ => Others::None,
+    };
     let is_connected = connects && reflection < work.settings.last_bounce();
     for stage in &work.scene.surfaces.stages {
         let hits = &hits[*stage as usize];
@@ -53,7 +65,7 @@ pub(super) fn shade_camera_paths<L: Lanes>(l: L, work: &Work, batch: &mut Batch,
             }
             let cos = cosine(scattered.d, vertex.hit.n);
             let pdfs = [scattered.pdf, scattered.reverse];
-            let partial = vertex.partial.scatter(scattered.delta, pdfs, cos, connects);
+            let partial = vertex.partial.scatter(scattered.delta, pdfs, cos, others);
             let slot = vertex.hit.slot;
             let end = &mut state.ends[1];
             end.put_partial(keep, slot, partial);

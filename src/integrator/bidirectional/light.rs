@@ -10,7 +10,7 @@ use crate::{
     integrator::{
         batch::Batch,
         light_paths::{
-            partial::{Partial, cosine},
+            partial::{Others, Partial, cosine},
             path_state::PathVertex,
             paths::LightPaths,
             records::CameraRay,
@@ -27,24 +27,27 @@ use crate::{
     sampling::Dimension,
 };
 
-/// Runs the stage. The paths are cut after `last` bounces.
+/// Runs the stage.
 #[simd]
 pub(super) fn shade_light_paths<L: Lanes>(l: L, work: &Work, rays: &LightRays, batch: &mut Batch, state: &mut LightPaths) {
     let Batch { paths, hits, bounce, .. } = batch;
     let next = &mut paths[((*bounce + 1) & 1) as usize];
     next.clear();
-    let connects = work.settings.estimator.connects();
+    let (connects, only_caustics) = (work.settings.estimator.connects(), work.settings.estimator.traces_only_caustics());
     let is_connected = connects && *bounce + 2 <= work.settings.last_bounce();
+    // Without a surface between, camera paths find the light by light samples.
+    let is_joined = !only_caustics || *bounce > 0;
+    let others = if connects || only_caustics { Others::All } else { Others::None };
     for stage in &work.scene.surfaces.stages {
         let hits = &hits[*stage as usize];
         for at in hits.registers(l) {
             let mut vertex = state.ends[0].read(l, hits, at);
-            if *bounce == 0 && connects {
+            if *bounce == 0 && others == Others::All {
                 vertex.partial = at_first_surface(l, work, rays, state, *stage, &vertex);
             }
             let [r, g, b, _] = l.rows(&state.fluxes, vertex.hit.slot);
             let light = vertex.hit.throughput * V { x: r, y: g, z: b };
-            if stage.sees_lights() {
+            if stage.sees_lights() && is_joined {
                 queue_join(l, work, *stage, hits, at, &vertex, light, *bounce, &mut state.joins);
                 if is_connected {
                     let place = state.ends[0].place(l, vertex.hit.slot);
@@ -55,10 +58,13 @@ pub(super) fn shade_light_paths<L: Lanes>(l: L, work: &Work, rays: &LightRays, b
             let scattered = scatter(l, work, *stage, hits, at, vertex.back, reflection);
             let throughput = vertex.hit.throughput * scattered.adjoint_weight;
             let survival = survive(l, work.settings.roulette, *bounce + 1, scattered.roulette, throughput, l.f(1.0));
-            let keep = at.live & survival.alive & scattered.consistent & survival.throughput.max_component().above(0.0);
+            let mut keep = at.live & survival.alive & scattered.consistent & survival.throughput.max_component().above(0.0);
+            if only_caustics {
+                keep = keep & scattered.delta;
+            }
             let cos = cosine(scattered.d, vertex.hit.n);
             let pdfs = [scattered.pdf, scattered.reverse];
-            let partial = vertex.partial.scatter(scattered.delta, pdfs, cos, connects);
+            let partial = vertex.partial.scatter(scattered.delta, pdfs, cos, others);
             let slot = vertex.hit.slot;
             state.ends[0].put_partial(keep, slot, partial);
             Path { o: scattered.o, d: scattered.d, throughput: survival.throughput, slot }.push(keep, &mut next.paths);
@@ -140,7 +146,8 @@ fn queue_join<L: Lanes>(
     let (height, cos_in) = (d.dot(hit.n), cosine(*back, hit.n));
     let density = join.density * height.abs();
     let mut light = light * f_cos * (density / cos_in);
-    if work.settings.estimator.connects() {
+    let estimator = work.settings.estimator;
+    if estimator.connects() || estimator.traces_only_caustics() {
         let found = density * (1.0 / work.light_paths_of_image());
         let weight = 1.0 / (1.0 + partial.sum(found, pdf));
         light = light * weight_of(work, l.u(bounce + 2), 1, weight);

@@ -13,7 +13,8 @@
 //! `bidirectional` weights all of them by the balance heuristic (Veach 1997, section 10.2). The weights are computed from two numbers of
 //! each path, which follow it from vertex to vertex (D. van Antwerpen, "Recursive MIS Computation for Streaming BDPT on the GPU", 2011;
 //! I. Georgiev, "Implementing Vertex Connection and Merging", 2012): see [`super::light_paths::partial`]. `forward` takes t = 1 alone wherever that can be, that
-//! is unless the first surface reflects the light in a single direction. There it works like `mis`, with the balance heuristic.
+//! is unless the first surface reflects the light in a single direction. There it works like `mis`, with the balance heuristic. `caustics`
+//! takes t = 1 only for paths whose light has come to the first surface by mirrors and clear glass alone.
 //!
 //! A path contributes the same whichever end it is traced from: both evaluate f(ω_o, ω_i) |cos θ_i| with ω_i towards the light. That
 //! contains the factor η² by which refraction scales radiance but not flux (Veach 1997, section 5.2).

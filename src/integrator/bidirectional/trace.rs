@@ -44,6 +44,10 @@ fn trace_light_paths<L: Lanes>(
     interrupted: &dyn Fn() -> bool,
 ) -> Result<(), Interrupted> {
     state.clear();
+    let stages = &work.scene.surfaces.stages;
+    if work.settings.estimator.traces_only_caustics() && stages.iter().all(|stage| stage.is_diffuse()) {
+        return Ok(());
+    }
     emit(l, work, rays, batch, state);
     while !batch.current().is_empty() && batch.bounce < work.settings.last_bounce() {
         if interrupted() {

@@ -25,6 +25,17 @@ pub fn finite<L: Lanes>(cos: F<L>) -> F<L> {
     cos.abs().max(cos.splat(1e-9))
 }
 
+/// Strategies with more vertices from the other end than a light sample has.
+#[derive(Clone, Copy, PartialEq)]
+pub enum Others {
+    /// There are all of them.
+    All,
+    /// Those of earlier vertices remain only behind surfaces with a single direction.
+    AfterDelta,
+    /// There are none.
+    None,
+}
+
 /// The two numbers of a path.
 #[derive(Clone, Copy)]
 pub struct Partial<L: Lanes> {
@@ -41,12 +52,17 @@ impl<L: Lanes> Partial<L> {
     }
 
     /// After a direction with the pdf `pdf` has been sampled at an angle with the cosine `cos`; `reverse` is the pdf of the direction back
-    /// to the vertex before. Without connections there are no strategies with more vertices from the other end than a light sample has.
+    /// to the vertex before.
     #[inline(always)]
-    pub fn scatter(self, delta: M<L>, [pdf, reverse]: [F<L>; 2], cos: F<L>, connects: bool) -> Self {
+    pub fn scatter(self, delta: M<L>, [pdf, reverse]: [F<L>; 2], cos: F<L>, others: Others) -> Self {
         let zero = pdf.splat(0.0);
-        let c = delta.pick(self.c * cos, (self.c * reverse + self.v) * (cos / pdf));
-        Partial { v: delta.pick(zero, 1.0 / pdf), c: if connects { c } else { zero } }.bounded()
+        let of_delta = self.c * cos;
+        let c = match others {
+            Others::All => delta.pick(of_delta, (self.c * reverse + self.v) * (cos / pdf)),
+            Others::AfterDelta => delta.pick(of_delta, zero),
+            Others::None => zero,
+        };
+        Partial { v: delta.pick(zero, 1.0 / pdf), c }.bounded()
     }
 
     #[inline(always)]

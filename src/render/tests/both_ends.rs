@@ -22,6 +22,8 @@ const PANELS: &str = "
     white.lambertian = { albedo = 0.8 }
     red.lambertian = { albedo = [0.8, 0.3, 0.3] }
     gloss.conductor = { reflectance = 0.9, roughness = 0.6 }
+    clear.dielectric = { ior = 1.5 }
+    lacquered.plastic = { albedo = 0.5, ior = 1.5 }
     coated.plastic = { albedo = 0.5, ior = 1.5, roughness = 0.5 }
     [[objects]]
     shape.rectangle = { origin = [-2.0, 0.0, -2.0], edge_u = [0.0, 0.0, 4.0], edge_v = [4.0, 0.0, 0.0] }
@@ -89,7 +91,7 @@ fn every_strategy_alone_finds_the_light_of_its_number_of_reflections() {
                 let z = (found - light_samples) / (variance + of_found).sqrt();
                 worst = worst.max(z.abs());
                 assert!(z.abs() < 4.0, "{ball} ({s}, {}): {found} and {light_samples}, {z} σ", reflections + 2 - s);
-                let is_known = of_found.sqrt() < 0.6 * found;
+                let is_known = of_found.sqrt() < 0.7 * found;
                 assert!(is_known, "{ball} ({s}, {}): {found} ± {}", reflections + 2 - s, of_found.sqrt());
             }
         }
@@ -100,14 +102,15 @@ fn every_strategy_alone_finds_the_light_of_its_number_of_reflections() {
 #[test]
 fn all_strategies_together_find_the_light_of_mis() {
     const SETTINGS: RenderSettings = RenderSettings { roulette: Roulette::BY_THROUGHPUT, ..self::SETTINGS };
-    for ball in ["white", "gloss", "coated"] {
+    for ball in ["white", "gloss", "lacquered", "clear"] {
         let scene = scene(&PANELS.replace("BALL", ball));
-        for cap in [Some(2), Some(3), None] {
+        for cap in [Some(3), None] {
             let with = |estimator, spp| mean(&scene, &RenderSettings { estimator, max_bounces: cap, ..SETTINGS }, spp);
-            let [of_mis, variance] = with(Estimator::Mis, 4000);
-            for estimator in [Estimator::Forward, Estimator::Bidirectional] {
-                let [found, of_found] = with(estimator, 2000);
+            let [of_mis, variance] = with(Estimator::Mis, 2000);
+            for estimator in [Estimator::Caustics, Estimator::Forward, Estimator::Bidirectional] {
+                let [found, of_found] = with(estimator, 1000);
                 let z = (found - of_mis) / (variance + of_found).sqrt();
+                println!("{ball}, {}, cap {cap:?}: {found} and {of_mis}, {z} σ", estimator.name());
                 assert!(z.abs() < 4.0, "{ball}, {}, cap {cap:?}: {found} and {of_mis}, {z} σ", estimator.name());
             }
         }

@@ -173,7 +173,7 @@ impl Parts {
             settings,
             sharing_pays: Default::default(),
             light_paths: OnceLock::new(),
-            light_paths_pay: OnceLock::new(),
+            estimator_by_trial: OnceLock::new(),
             spp,
             exposure,
             truth,

@@ -3,6 +3,7 @@
 //! An estimator is one file and one line of the catalogue below.
 mod auto;
 mod bidirectional;
+mod caustics;
 mod forward;
 mod light;
 mod mis;
@@ -22,6 +23,7 @@ crate::declare::word_kinds! {
         path::Path,
         light::Light,
         mis::Mis,
+        caustics::Caustics,
         forward::Forward,
         bidirectional::Bidirectional,
         auto::Auto,
@@ -50,6 +52,11 @@ impl Estimator {
     /// Whether these are connected with all vertices of camera paths, and not only with the camera.
     pub fn connects(self) -> bool {
         in_estimator!(self, E => E::CONNECTS)
+    }
+
+    /// Whether paths from lights end at the first surface that scatters light in more than one direction.
+    pub fn traces_only_caustics(self) -> bool {
+        in_estimator!(self, E => E::ONLY_CAUSTICS)
     }
 
     /// The weight of an emitter hit that light sampling could have found, with the pdf of its direction and the pdf of light sampling,
@@ -89,6 +96,9 @@ trait Strategy {
 
     /// See [`Estimator::connects`].
     const CONNECTS: bool = false;
+
+    /// See [`Estimator::traces_only_caustics`].
+    const ONLY_CAUSTICS: bool = false;
 
     /// See [`Estimator::hit_weight`].
     fn hit_weight<L: Lanes>(l: L, pdf: F<L>, of_light: F<L>) -> F<L>;
