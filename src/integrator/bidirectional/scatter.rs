@@ -111,7 +111,8 @@ fn scatter_kind<L: Lanes, K: Shade>(
     let judged = K::roulette_scale(&bsdf, front, sample.wi.z);
     let unscaled = judged / K::roulette_scale(&bsdf, front, l.f(1.0));
     let adjoint_weight = sample.delta.pick(sample.weight * unscaled, f_cos * (cosines / sample.pdf));
-    let exists = sample.delta | sample.pdf.above(0.0);
+    // A direction on the wrong side of the surface has no weight, and maybe the pdf of another lobe.
+    let exists = sample.weight.max_component().above(0.0);
     Scattered {
         o,
         d,
