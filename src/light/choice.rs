@@ -111,13 +111,17 @@ impl Lights {
     /// The number of the light at a triangle of a primitive, [`MISS`] for the background.
     #[inline(always)]
     pub fn light_at<L: Lanes>(&self, l: L, primitive: U<L>, element: U<L>) -> U<L> {
-        let emits = self.emitters.emits(primitive);
-        if self.firsts.is_empty() || !emits.any() {
+        if self.firsts.is_empty() {
             return primitive;
         }
-        let [first, ..] = l.rows(&self.firsts, emits.pick(primitive, l.u(0)));
         // What does not emit has a number that no light has.
-        emits.pick(first.bits() + element, primitive.is(MISS).pick(primitive, l.u(MISS - 1)))
+        let dark = primitive.is(MISS).pick(primitive, l.u(MISS - 1));
+        let emits = self.emitters.emits(primitive);
+        if !emits.any() {
+            return dark;
+        }
+        let [first, ..] = l.rows(&self.firsts, emits.pick(primitive, l.u(0)));
+        emits.pick(first.bits() + element, dark)
     }
 
     /// Looks up the primitive and triangle of lights.

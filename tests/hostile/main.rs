@@ -17,7 +17,7 @@ use std::{
     panic::{AssertUnwindSafe, catch_unwind},
     path::{Path, PathBuf},
     sync::{
-        Arc, Mutex,
+        Arc, Mutex, Weak,
         atomic::{AtomicU64, Ordering},
     },
     thread,
@@ -200,7 +200,7 @@ fn do_no_harm(bases: &[Base], inputs: u64) {
     let [whole, broken] = [("a", true), ("b", false)].map(|(name, are_whole)| World::new(folder.join(name), bases, are_whole));
     tell(&format!("inputs {first} to {} of seed {seed} in {}", first + inputs, folder.display()));
     let current = Arc::new(AtomicU64::new(first));
-    watch(current.clone());
+    watch(Arc::downgrade(&current));
     let before = MEMORY.allocated();
     let mut largest = 0;
     for number in first..first + inputs {
@@ -231,13 +231,13 @@ fn tell(text: &str) {
     let _ = writeln!(std::io::stdout(), "{text}");
 }
 
-/// Ends the process if an input takes much longer than it may.
-fn watch(current: Arc<AtomicU64>) {
+/// Ends the process if an input takes much longer than it may, as long as there are inputs.
+fn watch(current: Weak<AtomicU64>) {
     thread::spawn(move || {
         let (mut last, mut since) = (u64::MAX, Instant::now());
         loop {
             thread::sleep(Duration::from_secs(1));
-            let number = current.load(Ordering::Relaxed);
+            let Some(number) = current.upgrade().map(|current| current.load(Ordering::Relaxed)) else { return };
             if number != last {
                 (last, since) = (number, Instant::now());
             } else if since.elapsed() > 6 * LONGEST {
