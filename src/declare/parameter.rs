@@ -62,7 +62,8 @@ impl Parameter {
         if !self.title.is_empty() {
             return self.title.to_owned();
         }
-        let words = self.key.replace('_', " ");
+        let words: Vec<_> = self.key.split('_').map(|word| if word == "ior" { "IOR" } else { word }).collect();
+        let words = words.join(" ");
         let first = words.chars().next().into_iter().flat_map(char::to_uppercase);
         first.chain(words.chars().skip(1)).collect()
     }

@@ -13,13 +13,14 @@ use crate::{
     texture::{TextureKind, noise::Noise},
 };
 
-/// The radiance of new lamps, W/(m² sr), and the irradiance of those without surface where they are added, W/m², for an image of
-/// exposure 0.
-const BRIGHTNESS: f64 = 20.0;
+/// The radiance of new lamps, W/(m² sr), for an image of exposure 0.
+const RADIANCE: f64 = 20.0;
+/// The irradiance of those without surface below them, W/m²: white surfaces are white there and not beyond.
+const IRRADIANCE: f64 = 4.0;
 
-/// The brightness of new lamps that lights an image of this exposure as well as one of exposure 0. It has few digits.
-fn brightness(exposure: f64) -> f64 {
-    let wanted = BRIGHTNESS * (-exposure).exp2();
+/// What lights an image of this exposure as well as `brightness` one of exposure 0. It has few digits.
+fn brightness(brightness: f64, exposure: f64) -> f64 {
+    let wanted = brightness * (-exposure).exp2();
     format!("{wanted:.1e}").parse().unwrap_or(wanted)
 }
 
@@ -54,18 +55,24 @@ impl Document {
     /// The edit that adds a lamp with the shape of a kind, and the path of the new object. Flat ones emit away from the surface. It is
     /// as bright as an image of this exposure, in stops, needs.
     pub fn add_lamp(&self, kind: &str, placement: &Placement, exposure: f64) -> Option<(Edit, Path)> {
-        let emission = EmissionDescription::radiance([brightness(exposure); 3]);
+        let emission = EmissionDescription::radiance([brightness(RADIANCE, exposure); 3]);
         let object = ObjectDescription { name: "lamp".to_owned(), emission: Some(emission), ..ObjectDescription::default() };
         self.add(kind, placement, object)
     }
 
-    /// The edit that adds a lamp without surface of a kind above the surface, and the path of the new lamp. It is as bright as an image
-    /// of this exposure, in stops, needs.
-    pub fn add_lamp_without_surface(&self, kind: &str, placement: &Placement, exposure: f64) -> Option<(Edit, Path)> {
+    /// The edit that adds a lamp without surface of a kind at a height over the surface, in metres, and the path of the new lamp. It is
+    /// as bright as an image of this exposure, in stops, needs.
+    pub fn add_lamp_without_surface(
+        &self,
+        kind: &str,
+        placement: &Placement,
+        height: f64,
+        exposure: f64,
+    ) -> Option<(Edit, Path)> {
         let kind = LampKind::alternatives().into_iter().find(|lamp| lamp.name() == kind)?;
-        let (position, target) = (placement.reached(2.0 * placement.size()), placement.rounded(placement.at));
+        let (position, target) = (placement.reached(height), placement.rounded(placement.at));
         let name = self.free_name("lamps", &kind.name().replace('_', " "));
-        let kind = kind.kind().placed(position, target, brightness(exposure));
+        let kind = kind.kind().placed(position, target, brightness(IRRADIANCE, exposure));
         let mut lamp = LampDescription { name, kind, ..LampDescription::default() };
         let path = Path::of("lamps").item(self.description().lamps.len());
         Some((Edit::insert_tree(path.clone(), Tree::of(&mut lamp)), path))

@@ -64,7 +64,7 @@
 //! | `check.rs`, `references.rs` | the reader's checks; names in use |
 //! | `history.rs` | undo and redo |
 //! | `origin.rs`, `save/` | the part of the file that each object comes from; writing the file |
-//! | `kind.rs` | changes of kind that change other parameters too |
+//! | `kind.rs`, `meaning.rs` | changes of kind that change other parameters too; what materials keep under another key |
 //! | `names.rs`, `add.rs`, `pose.rs`, `rest.rs` | free names; new shapes and lamps; moving objects; dropping them to the floor |
 //! | `import.rs` | meshes and skies from files |
 //! | `view.rs` | the camera and the settings of a view |
@@ -82,6 +82,7 @@ mod document;
 mod history;
 mod import;
 mod kind;
+mod meaning;
 mod names;
 mod origin;
 mod outside;

@@ -17,6 +17,12 @@ const PLACES: [f64; 5] = [0.01, 0.25, 0.5, 0.75, 0.99];
 const MOST_PASSED: usize = 64;
 /// Distance behind a surface of the object at which a ray continues, as a fraction of the object's size.
 const STEP: f64 = 1e-5;
+/// Smallest −y of the unit normal of a ceiling.
+const STEEPEST_CEILING: f64 = 0.7;
+/// The height of new lamps over the floor, in sizes of new objects.
+const SIZES_OF_LAMP_HEIGHT: f64 = 2.0;
+/// The largest height of new lamps, as a fraction of what is free above the floor.
+const PART_OF_ROOM: f64 = 0.6;
 
 impl Document {
     /// The edit that lets the bounding box of an object rest on the highest surface below its middle. `scene` is the compiled scene of
@@ -38,13 +44,30 @@ impl Document {
 impl Placement {
     /// The place on the floor below this one. One on a wall or a ceiling is moved away from it by `clearance`, metres, before; one
     /// without a floor below stays there.
-    pub(super) fn on_floor(self, scene: &Scene, clearance: f64) -> Placement {
+    pub fn on_floor(self, scene: &Scene, clearance: f64) -> Placement {
         if self.is_on_floor() {
             return self;
         }
         let start = self.at + self.normal * clearance;
         let floor = surface_below(scene, start, STEP * self.scene_size, &(0..0));
         Placement { at: DVec3 { y: floor.unwrap_or(start.y), ..start }, normal: DVec3::Y, ..self }
+    }
+
+    /// The place over the floor where a lamp hangs, facing down. On a ceiling it is that of the ceiling.
+    pub fn hung(self, scene: &Scene) -> Placement {
+        if self.normal.y < -STEEPEST_CEILING {
+            return self;
+        }
+        let floor = self.on_floor(scene, self.size());
+        Placement { at: floor.at + DVec3::Y * floor.lamp_height(scene), normal: DVec3::NEG_Y, ..floor }
+    }
+
+    /// The height over this floor at which a lamp has room, metres.
+    pub fn lamp_height(&self, scene: &Scene) -> f64 {
+        let wanted = SIZES_OF_LAMP_HEIGHT * self.size();
+        let [o, d] = [self.at + DVec3::Y * (STEP * self.scene_size), DVec3::Y].map(|v| V::splat(One, v.as_vec3().to_array()));
+        let above = scene.shapes.closest(One, M(true), o, d, F(0.0));
+        if above.primitive.0 == MISS { wanted } else { wanted.min(PART_OF_ROOM * f64::from(above.t.0)) }
     }
 }
 

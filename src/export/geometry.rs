@@ -57,7 +57,10 @@ pub fn triangles(shape: &Shape, origin: DVec3) -> Option<Model> {
     let mut made = Triangles { origin, model: empty() };
     for piece in shape.pieces() {
         match piece {
-            Shape::Sphere { center, radius } => made.ellipsoid(center, &|d| d * radius, &|d| d),
+            Shape::Sphere { center, radius, turn } => {
+                let turned = |d| turn.map_or(d, |turn| turn * d);
+                made.ellipsoid(center, &|d| turned(d) * radius, &turned);
+            }
             Shape::Ellipsoid { center, axes } => {
                 let covector = axes.inverse().transpose();
                 made.ellipsoid(center, &|d| axes * d, &|d| (covector * d).normalize());
@@ -179,7 +182,7 @@ mod tests {
     #[test]
     fn triangles_face_outwards_and_enclose_the_volume() {
         let shapes = [
-            (Shape::Sphere { center: DVec3::new(5.0, 1.0, 2.0), radius: 2.0 }, 4.0 / 3.0 * PI * 8.0),
+            (Shape::sphere(DVec3::new(5.0, 1.0, 2.0), 2.0), 4.0 / 3.0 * PI * 8.0),
             (
                 Shape::Ellipsoid { center: DVec3::ONE, axes: DMat3::from_diagonal(DVec3::new(1.0, -2.0, 3.0)) },
                 4.0 / 3.0 * PI * 6.0,

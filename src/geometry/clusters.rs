@@ -50,7 +50,7 @@ type Ball = (u32, DVec3, f64);
 
 fn sphere(object: &Object) -> Option<Ball> {
     match object.kind {
-        Kind::Analytic { first, shape: Shape::Sphere { center, radius } } => Some((first, *center, *radius)),
+        Kind::Analytic { first, shape: Shape::Sphere { center, radius, .. } } => Some((first, *center, *radius)),
         _ => None,
     }
 }
@@ -76,7 +76,7 @@ mod tests {
         // Groups of as many as a cluster holds, far apart.
         let sphere = |i: usize| {
             let center = DVec3::new((i / SIZE * 100) as f64, (i % SIZE / 4) as f64, (i % 4) as f64);
-            Shape::Sphere { center, radius: 0.4 }
+            Shape::sphere(center, 0.4)
         };
         let spheres: Vec<Shape> = (0..MANY).map(sphere).collect();
         let sizes = |count: usize| {

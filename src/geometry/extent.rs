@@ -91,7 +91,7 @@ impl Shape {
 
     fn extent(&self) -> Extent {
         match self {
-            Shape::Sphere { center, radius } => Extent::around(*center, DVec3::splat(*radius)),
+            Shape::Sphere { center, radius, .. } => Extent::around(*center, DVec3::splat(*radius)),
             Shape::Ellipsoid { center, axes } => Extent::around(*center, ellipse_reach(axes)),
             Shape::Flat { outline: Outline::Ellipse, origin, edges: [a, b], .. } => {
                 Extent::around(*origin, ellipse_reach(&DMat3::from_cols(*a, *b, DVec3::ZERO)))
@@ -119,7 +119,7 @@ impl Shape {
     /// Centre and radius of a bounding sphere.
     pub fn bounding_sphere(&self) -> (DVec3, f64) {
         match self {
-            Shape::Sphere { center, radius } => (*center, *radius),
+            Shape::Sphere { center, radius, .. } => (*center, *radius),
             Shape::Ellipsoid { center, axes } => (*center, longest(axes)),
             Shape::Flat { outline: Outline::Ellipse, origin, edges, .. } => {
                 (*origin, longest(&DMat3::from_cols(edges[0], edges[1], DVec3::ZERO)))

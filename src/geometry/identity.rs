@@ -23,8 +23,13 @@ impl Shape {
     /// Whether both are the same, bit for bit, and share their data.
     pub fn is_same(&self, other: &Shape) -> bool {
         match (self, other) {
-            (Shape::Sphere { center: a, radius: r }, Shape::Sphere { center: b, radius: s }) => {
-                same_point(a, b) && r.to_bits() == s.to_bits()
+            (Shape::Sphere { center: a, radius: r, turn: x }, Shape::Sphere { center: b, radius: s, turn: y }) => {
+                let turn_alike = match (x, y) {
+                    (Some(x), Some(y)) => same_matrix(x, y),
+                    (None, None) => true,
+                    _ => false,
+                };
+                same_point(a, b) && r.to_bits() == s.to_bits() && turn_alike
             }
             (Shape::Ellipsoid { center: a, axes: x }, Shape::Ellipsoid { center: b, axes: y })
             | (Shape::Cuboid { origin: a, edges: x }, Shape::Cuboid { origin: b, edges: y }) => {
@@ -71,9 +76,13 @@ mod tests {
 
     #[test]
     fn shapes_are_the_same_by_their_bits_and_by_the_data_that_they_share() {
-        let sphere = |x: f64| Shape::Sphere { center: DVec3::new(x, 0.0, 0.0), radius: 1.0 };
+        let sphere = |x: f64| Shape::sphere(DVec3::new(x, 0.0, 0.0), 1.0);
         assert!(sphere(0.5).is_same(&sphere(0.5)) && !sphere(0.5).is_same(&sphere(0.25)));
         assert!(!sphere(0.0).is_same(&sphere(-0.0)), "they can differ by the sign of a normal");
+        let turned = |axis| sphere(0.5).transformed(&DAffine3::from_axis_angle(axis, 0.3));
+        assert!(turned(DVec3::Y).is_same(&turned(DVec3::Y)) && !turned(DVec3::Y).is_same(&sphere(0.5)));
+        let about_center = DAffine3::from_mat3(DMat3::from_rotation_x(1.0));
+        assert!(!sphere(0.0).is_same(&sphere(0.0).transformed(&about_center)), "its texture turns");
         let mesh =
             || Shape::mesh(Arc::new(MeshData { vertices: vec![[0.0; 3]; 3], triangles: vec![[0, 1, 2]], ..MeshData::default() }));
         let (a, b) = (mesh(), mesh());

@@ -31,7 +31,7 @@ impl Lists {
     /// Adds an analytic shape, whose first piece is primitive `first`. `near` is a point in the middle of the scene.
     pub fn push(&mut self, first: u32, shape: &Shape, near: DVec3) -> Listed {
         match shape {
-            Shape::Sphere { center, radius } => {
+            Shape::Sphere { center, radius, .. } => {
                 Listed::Sphere(append(&mut self.spheres, first, Sphere::new(*center, *radius, near)))
             }
             Shape::Flat { outline, origin, edges, mirrored } => {

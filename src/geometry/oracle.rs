@@ -45,7 +45,7 @@ pub fn pieces(shape: &Shape) -> Vec<Shape> {
 /// The distance of a point from a piece, in metres; to first order for quadrics and disks.
 pub fn distance(piece: &Shape, p: DVec3) -> f64 {
     match piece {
-        Shape::Sphere { center, radius } => (p.distance(*center) - radius).abs(),
+        Shape::Sphere { center, radius, .. } => (p.distance(*center) - radius).abs(),
         Shape::Ellipsoid { center, axes } => from_quadric(*center, axes, false, p),
         Shape::Cylinder { base, axes, .. } => from_quadric(*base, axes, true, p),
         Shape::Flat { outline: Outline::Ellipse, origin, edges: [e, f], .. } => {
@@ -73,7 +73,7 @@ pub fn point_at(piece: &Shape, [a, b]: [f64; 2]) -> DVec3 {
         DVec3::new(r * phi.cos(), r * phi.sin(), z)
     };
     match piece {
-        Shape::Sphere { center, radius } => *center + on_sphere() * *radius,
+        Shape::Sphere { center, radius, .. } => *center + on_sphere() * *radius,
         Shape::Ellipsoid { center, axes } => *center + *axes * on_sphere(),
         Shape::Flat { outline, origin, edges: [e, f], .. } => {
             let (s, t) = match outline {
@@ -95,7 +95,7 @@ fn from_segment(a: DVec3, b: DVec3, p: DVec3) -> f64 {
 
 fn intersections_of(piece: &Shape, o: DVec3, d: DVec3) -> Vec<Intersection> {
     match piece {
-        Shape::Sphere { center, radius } => quadric(*center, DMat3::from_diagonal(DVec3::splat(*radius)), false, o, d),
+        Shape::Sphere { center, radius, .. } => quadric(*center, DMat3::from_diagonal(DVec3::splat(*radius)), false, o, d),
         Shape::Ellipsoid { center, axes } => quadric(*center, *axes, false, o, d),
         Shape::Cylinder { base, axes, .. } => quadric(*base, *axes, true, o, d),
         Shape::Flat { outline, origin, edges: [e, f], .. } => {

@@ -15,6 +15,8 @@ pub enum Shape {
         center: DVec3,
         /// Radius, metres.
         radius: f64,
+        /// The orthogonal map of its surface coordinates, which are those about the y axis of the world otherwise.
+        turn: Option<DMat3>,
     },
     /// The image of the unit sphere: center + `axes` x, |x| = 1.
     Ellipsoid {
@@ -80,6 +82,11 @@ pub enum Outline {
 }
 
 impl Shape {
+    /// A sphere with its surface coordinates about the y axis.
+    pub fn sphere(center: DVec3, radius: f64) -> Shape {
+        Shape::Sphere { center, radius, turn: None }
+    }
+
     /// A disk with this unit normal.
     pub fn disk(center: DVec3, normal: DVec3, radius: f64) -> Shape {
         let (a, b) = normal.any_orthonormal_pair();
@@ -103,9 +110,11 @@ impl Shape {
         let point = |p: &DVec3| map.transform_point3(*p);
         let linear = map.matrix3;
         match self {
-            Shape::Sphere { center, radius } => match similarity(&linear) {
-                Some(scale) => Shape::Sphere { center: point(center), radius: radius * scale },
-                None => Shape::Ellipsoid { center: point(center), axes: linear * *radius },
+            Shape::Sphere { center, radius, turn } => match similarity(&linear) {
+                Some(scale) => {
+                    Shape::Sphere { center: point(center), radius: radius * scale, turn: turned(*turn, &linear, scale) }
+                }
+                None => Shape::Ellipsoid { center: point(center), axes: turn.map_or(linear, |turn| linear * turn) * *radius },
             },
             Shape::Ellipsoid { center, axes } => Shape::Ellipsoid { center: point(center), axes: linear * *axes },
             Shape::Flat { outline, origin, edges, mirrored } => Shape::Flat {
@@ -174,7 +183,7 @@ impl Shape {
     /// Whether a point lies inside; always false for an open surface.
     pub fn contains(&self, p: DVec3) -> bool {
         match self {
-            Shape::Sphere { center, radius } => p.distance(*center) < *radius,
+            Shape::Sphere { center, radius, .. } => p.distance(*center) < *radius,
             Shape::Ellipsoid { center, axes } => (axes.inverse() * (p - *center)).length() < 1.0,
             Shape::Flat { .. } => false,
             Shape::Cuboid { origin, edges } => {
@@ -208,6 +217,13 @@ impl Outline {
             Outline::Ellipse => std::f64::consts::PI,
         }
     }
+}
+
+/// The turn of a sphere after a similarity with this scale factor. Spheres that are not rotated have none.
+fn turned(turn: Option<DMat3>, linear: &DMat3, scale: f64) -> Option<DMat3> {
+    let diagonal = DVec3::new(linear.x_axis.x, linear.y_axis.y, linear.z_axis.z);
+    let only_scales = *linear == DMat3::from_diagonal(diagonal) && diagonal.min_element() > 0.0;
+    if only_scales { turn } else { Some(*linear * (1.0 / scale) * turn.unwrap_or(DMat3::IDENTITY)) }
 }
 
 /// The scale factor of a similarity; `None` for other maps.

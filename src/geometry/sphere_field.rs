@@ -30,7 +30,7 @@ pub fn sphere_field(count: u32, min: DVec3, size: DVec3, seed: u32) -> Vec<Shape
         let corner = min + cell * DVec3::new(column as f64, row as f64, layer as f64);
         let radius = cell.min_element() / 2.0 * (LEAST_RADIUS + (MOST_RADIUS - LEAST_RADIUS) * uniform());
         let room = cell - 2.0 * radius;
-        Shape::Sphere { center: corner + radius + room * DVec3::new(uniform(), uniform(), uniform()), radius }
+        Shape::sphere(corner + radius + room * DVec3::new(uniform(), uniform(), uniform()), radius)
     };
     (0..count).map(sphere).collect()
 }

@@ -1,6 +1,6 @@
 //! Surface data of analytic shapes: rows by primitive. [`super::lists`] has the intersection tests.
 use fearless_simd_macros::simd;
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 use super::{
     flat::{Flat, is_ellipse, within_outline},
@@ -11,7 +11,8 @@ use super::{
 };
 use crate::math::{F, Lanes, M, Pick, U, V, trig::turns_of};
 
-/// The type of a primitive, in the last two bits of its tag; the rest is its index in the table of the type.
+/// The type of a primitive, in the last two bits of its tag; the rest is its index in the table of the type. Of a sphere it is 0, or the
+/// number of its turn, from 1 on.
 pub(super) const SPHERE: u32 = 0;
 pub(super) const FLAT: u32 = 1;
 pub(super) const QUADRIC: u32 = 2;
@@ -27,6 +28,8 @@ pub(super) struct Tables {
     /// Four rows per primitive: see [`Flat::rows`] and [`Quadric::rows`].
     pub(super) flat_rows: Vec<[f32; 4]>,
     quadric_rows: Vec<[f32; 4]>,
+    /// Where the turns of spheres take the axes, four rows each, of which the last is empty. The first is that of no sphere.
+    turns: Vec<[f32; 4]>,
     /// For flat pieces, see [`Flat::roundings`]; 0 if they do not belong to a closed shape.
     roundings: Vec<[f32; 4]>,
     /// Whether any shape has several pieces that enclose a volume.
@@ -57,8 +60,15 @@ impl Tables {
         self.have_closed |= closed;
         for piece in shape.pieces() {
             match &piece {
-                Shape::Sphere { center, radius } => {
-                    let [anchor, normal] = Sphere::new(*center, *radius, near).rows();
+                Shape::Sphere { center, radius, turn } => {
+                    let [anchor, mut normal] = Sphere::new(*center, *radius, near).rows();
+                    if let Some(turn) = turn {
+                        if self.turns.is_empty() {
+                            self.turns.extend(turn_rows(&DMat3::IDENTITY));
+                        }
+                        normal[3] = tag(SPHERE, self.turns.len() / 4);
+                        self.turns.extend(turn_rows(turn));
+                    }
                     self.anchors.push(anchor);
                     self.normals.push(normal);
                 }
@@ -117,8 +127,9 @@ impl Tables {
     /// Surface coordinates of a point of the given primitives.
     #[simd]
     pub fn coordinates<L: Lanes>(&self, l: L, primitive: U<L>, point: &SurfacePoint<L>) -> Coordinates<L> {
-        let (mut u, mut v) = sphere_uv(point.n_geometric);
         let tag = self.tag(l, primitive);
+        let turn = self.turn(l, tag);
+        let (mut u, mut v) = sphere_uv(turn.as_ref().map_or(point.n_geometric, |turn| turn.to_local(point.n_geometric)));
         if let Some(AtFlat { here, rows: [to_u, to_v, edge, _], from_anchor }) = self.flat(l, tag, primitive, point.p) {
             let (across, up) = (coordinate(to_u, from_anchor), coordinate(to_v, from_anchor));
             // Of ellipses they run from −1 to 1.
@@ -141,7 +152,12 @@ impl Tables {
     pub fn tangents<L: Lanes>(&self, l: L, primitive: U<L>, point: &SurfacePoint<L>) -> (V<L>, V<L>) {
         let tag = self.tag(l, primitive);
         let curvature = l.rows(&self.anchors, primitive)[3];
-        let (mut along_u, mut along_v) = sphere_tangents(point.n_geometric, 1.0 / curvature);
+        let turn = self.turn(l, tag);
+        let n = turn.as_ref().map_or(point.n_geometric, |turn| turn.to_local(point.n_geometric));
+        let (mut along_u, mut along_v) = sphere_tangents(n, 1.0 / curvature);
+        if let Some(turn) = turn {
+            (along_u, along_v) = (turn.to_world(along_u), turn.to_world(along_v));
+        }
         if let Some(AtFlat { here, rows: [_, _, a, b], .. }) = self.flat(l, tag, primitive, point.p) {
             let scale = is_ellipse(a[3]).pick(l.f(2.0), l.f(1.0));
             along_u = here.pick(V { x: a[0], y: a[1], z: a[2] } * scale, along_u);
@@ -165,6 +181,17 @@ impl Tables {
         Some(AtFlat { here, rows: four_rows(l, &self.flat_rows, here, tag), from_anchor: p - V { x, y, z } })
     }
 
+    /// The turns of the spheres, if any of them has one.
+    #[inline(always)]
+    fn turn<L: Lanes>(&self, l: L, tag: U<L>) -> Option<Turn<L>> {
+        let here = (tag & 3).is(SPHERE) & !tag.is(SPHERE);
+        if self.turns.is_empty() || !here.any() {
+            return None;
+        }
+        let [x, y, z, _] = four_rows(l, &self.turns, here, tag);
+        Some(Turn { here, axes: [x, y, z].map(|[x, y, z, _]| V { x, y, z }) })
+    }
+
     /// The lanes at quadrics, if there are any.
     #[inline(always)]
     pub(super) fn quadric<L: Lanes>(&self, l: L, tag: U<L>) -> Option<(M<L>, Local<L>)> {
@@ -181,10 +208,36 @@ fn tag(kind: u32, index: usize) -> f32 {
     f32::from_bits(kind | (index as u32) << 2)
 }
 
+/// The rows of a turn.
+fn turn_rows(turn: &DMat3) -> [[f32; 4]; 4] {
+    [turn.x_axis, turn.y_axis, turn.z_axis, DVec3::ZERO].map(|axis| axis.as_vec3().extend(0.0).to_array())
+}
+
 /// One coordinate of a point on a flat shape, in edges.
 #[inline(always)]
 pub(super) fn coordinate<L: Lanes>([x, y, z, at_anchor]: [F<L>; 4], from_anchor: V<L>) -> F<L> {
     V { x, y, z }.dot(from_anchor) + at_anchor
+}
+
+/// Orthogonal maps of surface coordinates, in the lanes of `here`.
+struct Turn<L: Lanes> {
+    here: M<L>,
+    /// Where it takes the axes.
+    axes: [V<L>; 3],
+}
+
+impl<L: Lanes> Turn<L> {
+    #[inline(always)]
+    fn to_local(&self, n: V<L>) -> V<L> {
+        let [x, y, z] = self.axes.map(|axis| axis.dot(n));
+        self.here.pick(V { x, y, z }, n)
+    }
+
+    #[inline(always)]
+    fn to_world(&self, v: V<L>) -> V<L> {
+        let [x, y, z] = self.axes;
+        self.here.pick(x * v.x + y * v.y + z * v.z, v)
+    }
 }
 
 /// Lanes at flat primitives.

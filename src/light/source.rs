@@ -38,7 +38,7 @@ impl Source {
     /// Builds a source from a piece of a [`Shape`] and its bounds. `near` is a point near the middle of the scene.
     pub fn new(piece: &Shape, bound: &Bound, near: DVec3) -> Source {
         let extent = match piece {
-            Shape::Sphere { center, radius } if !bound.moves => Extent::Sphere(Sphere::new(*center, *radius, near)),
+            Shape::Sphere { center, radius, .. } if !bound.moves => Extent::Sphere(Sphere::new(*center, *radius, near)),
             _ => Extent::Within {
                 center: bound.center.as_vec3().to_array(),
                 radius_squared: (bound.radius * bound.radius) as f32,

@@ -19,7 +19,7 @@ fn lights() -> (Lights, Shapes, Vec<Shapes>) {
         (DVec3::new(0.0, 0.5, 0.0), 20.0),
         (DVec3::new(0.0, 2.0, 0.5), 0.5),
     ]
-    .map(|(center, radius)| Shape::Sphere { center, radius });
+    .map(|(center, radius)| Shape::sphere(center, radius));
     let emission =
         |light: f32, side| Emission { radiance: [light; 3], mean: [light; 3], texture: None, side, translucent: false };
     let emissions = [emission(8.0, Side::Front), emission(3.0, Side::Both), emission(0.2, Side::Back), emission(9.0, Side::Back)];
@@ -124,7 +124,7 @@ fn the_luminance_of_a_background_is_that_of_its_colour() {
 
 /// A ball, a point lamp, a directional lamp and a lamp below the horizon.
 fn with_lamps() -> (Lights, Shapes) {
-    let ball = Shape::Sphere { center: DVec3::new(0.0, 3.0, 1.0), radius: 0.5 };
+    let ball = Shape::sphere(DVec3::new(0.0, 3.0, 1.0), 0.5);
     let light = Emission { radiance: [4.0; 3], mean: [4.0; 3], texture: None, side: Side::Front, translucent: false };
     let shapes = shapes(std::slice::from_ref(&ball));
     let lamps = [

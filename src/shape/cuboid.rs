@@ -1,7 +1,11 @@
 //! An axis-aligned box; transforms can rotate and shear it.
 use glam::DMat3;
 
-use super::{Build, Changes, Placement, PointMap, ShapeBuilder, ShapeKind, bounds::Bounds};
+use super::{
+    Build, Changes, Placement, PointMap, ShapeBuilder, ShapeKind,
+    bounds::Bounds,
+    fit::{Fit, corners},
+};
 use crate::{
     declare::{Declare, Kind, Parameter, Parameters, Problem},
     geometry::Shape,
@@ -24,6 +28,10 @@ impl Declare for Cuboid {
 impl Build for Cuboid {
     fn shapes(&self, _: &mut ShapeBuilder) -> Result<Vec<Shape>, Problem> {
         Ok(vec![Shape::Cuboid { origin: self.0.min, edges: DMat3::from_diagonal(self.0.size()?) }])
+    }
+
+    fn fitted(&self, fit: &Fit) -> Option<Changes> {
+        Some(corners(["min", "max"], [self.0.min, self.0.max], fit))
     }
 
     fn placed(&self, placement: &Placement) -> Option<ShapeKind> {

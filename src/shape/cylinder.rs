@@ -1,7 +1,10 @@
 //! A cylinder, closed by disks or open.
 use glam::DVec3;
 
-use super::{Build, Changes, Placement, PointMap, RADII, RADIUS, ShapeBuilder, ShapeKind};
+use super::{
+    Build, Changes, Placement, PointMap, RADII, RADIUS, ShapeBuilder, ShapeKind,
+    fit::{Fit, number, vector},
+};
 use crate::{
     declare::{Declare, Kind, Parameter, Parameters, Problem},
     geometry::Shape,
@@ -49,6 +52,11 @@ impl Build for Cylinder {
             return Err(Problem::at("top", "the cylinder has no height", "`top` must differ from `base`"));
         }
         Ok(vec![Shape::cylinder(self.base, self.top, self.radius, self.capped)])
+    }
+
+    fn fitted(&self, fit: &Fit) -> Option<Changes> {
+        let ([base, top], radius) = fit.cylinder();
+        Some(vec![vector("base", self.base, base), vector("top", self.top, top), number("radius", self.radius, radius)])
     }
 
     fn placed(&self, placement: &Placement) -> Option<ShapeKind> {

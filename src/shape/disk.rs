@@ -1,7 +1,10 @@
 //! A flat disk.
 use glam::DVec3;
 
-use super::{Build, CENTER, Changes, Placement, PointMap, RADII, RADIUS, ShapeBuilder, ShapeKind};
+use super::{
+    Build, CENTER, Changes, Placement, PointMap, RADII, RADIUS, ShapeBuilder, ShapeKind,
+    fit::{Fit, number, vector},
+};
 use crate::{
     declare::{Declare, Kind, Parameter, Parameters, Problem},
     geometry::Shape,
@@ -42,6 +45,11 @@ impl Build for Disk {
         let normal = self.normal.try_normalize();
         let normal = normal.ok_or_else(|| Problem::at("normal", "the normal has no direction", "it must not be zero"))?;
         Ok(vec![Shape::disk(self.center, normal, self.radius)])
+    }
+
+    fn fitted(&self, fit: &Fit) -> Option<Changes> {
+        let normal = vector("normal", self.normal, fit.normal());
+        Some(vec![vector("center", self.center, fit.center()), normal, number("radius", self.radius, fit.radius())])
     }
 
     fn placed(&self, placement: &Placement) -> Option<ShapeKind> {

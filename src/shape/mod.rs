@@ -6,6 +6,7 @@ mod bounds;
 pub mod cuboid;
 pub mod cylinder;
 pub mod disk;
+mod fit;
 pub mod isosurface;
 pub mod mesh;
 mod placement;
@@ -20,6 +21,7 @@ use std::collections::HashMap;
 
 pub use self::{
     bounds::Bounds,
+    fit::Fit,
     mesh::Mesh,
     placement::Placement,
     point_map::{Changes, PointMap, tidied},
@@ -59,6 +61,12 @@ pub trait Build {
 
     /// The parameters after a transform of all points. `None` if the shape needs a list of transforms for that.
     fn transformed(&self, _by: &PointMap) -> Option<Changes> {
+        None
+    }
+
+    /// The parameters that give it the place and the size of another shape. `None` if only transforms can do that; the shape is then
+    /// about as large as the cube from −1 to 1.
+    fn fitted(&self, _fit: &Fit) -> Option<Changes> {
         None
     }
 

@@ -64,7 +64,7 @@ impl Placement {
     }
 
     /// Half of the size.
-    pub(super) fn half(&self) -> f64 {
+    pub fn half(&self) -> f64 {
         self.size() / 2.0
     }
 

@@ -1,7 +1,10 @@
 //! A rectangle, or any parallelogram.
 use glam::DVec3;
 
-use super::{Build, Changes, Placement, PointMap, ShapeBuilder, ShapeKind, are_parallel};
+use super::{
+    Build, Changes, Placement, PointMap, ShapeBuilder, ShapeKind, are_parallel,
+    fit::{Fit, vector},
+};
 use crate::{
     declare::{Declare, Kind, Parameter, Parameters, Problem},
     geometry::{Outline, Shape},
@@ -54,6 +57,11 @@ impl Build for Rectangle {
             return Err(Problem::at("edge_v", "the rectangle has no area", label));
         }
         Ok(vec![Shape::Flat { outline: Outline::Parallelogram, origin: self.origin, edges, mirrored: false }])
+    }
+
+    fn fitted(&self, fit: &Fit) -> Option<Changes> {
+        let (origin, [u, v]) = fit.square();
+        Some(vec![vector("origin", self.origin, origin), vector("edge_u", self.edge_u, u), vector("edge_v", self.edge_v, v)])
     }
 
     fn placed(&self, placement: &Placement) -> Option<ShapeKind> {

@@ -1,7 +1,10 @@
 //! A sphere.
 use glam::DVec3;
 
-use super::{Build, CENTER, Changes, Placement, PointMap, RADII, RADIUS, ShapeBuilder, ShapeKind};
+use super::{
+    Build, CENTER, Changes, Placement, PointMap, RADII, RADIUS, ShapeBuilder, ShapeKind,
+    fit::{Fit, number, vector},
+};
 use crate::{
     declare::{Declare, Kind, Parameter, Parameters, Problem},
     geometry::Shape,
@@ -37,7 +40,11 @@ impl Declare for Sphere {
 
 impl Build for Sphere {
     fn shapes(&self, _: &mut ShapeBuilder) -> Result<Vec<Shape>, Problem> {
-        Ok(vec![Shape::Sphere { center: self.center, radius: self.radius }])
+        Ok(vec![Shape::sphere(self.center, self.radius)])
+    }
+
+    fn fitted(&self, fit: &Fit) -> Option<Changes> {
+        Some(vec![vector("center", self.center, fit.center()), number("radius", self.radius, fit.half())])
     }
 
     fn placed(&self, placement: &Placement) -> Option<ShapeKind> {

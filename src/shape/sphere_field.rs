@@ -2,6 +2,7 @@
 use super::{
     Build, Changes, Placement, PointMap, ShapeBuilder, ShapeKind,
     bounds::{BOUNDS, Bounds},
+    fit::{Fit, corners},
 };
 use crate::{
     declare::{CountRange, Declare, Kind, Parameter, Parameters, Path, Problem},
@@ -48,6 +49,10 @@ impl Build for SphereField {
         let (count, bytes) = (self.count, SPHERE * u64::from(self.count));
         builder.resources.reserve("count", format_args!("{count} spheres"), bytes)?;
         Ok(sphere_field(count, self.bounds.min, size, self.seed))
+    }
+
+    fn fitted(&self, fit: &Fit) -> Option<Changes> {
+        Some(corners(["bounds.min", "bounds.max"], [self.bounds.min, self.bounds.max], fit))
     }
 
     fn placed(&self, placement: &Placement) -> Option<ShapeKind> {

@@ -1,7 +1,10 @@
 //! A triangle.
 use glam::DVec3;
 
-use super::{Build, Changes, Placement, PointMap, ShapeBuilder, ShapeKind, are_parallel};
+use super::{
+    Build, Changes, Placement, PointMap, ShapeBuilder, ShapeKind, are_parallel,
+    fit::{Fit, vector},
+};
 use crate::{
     declare::{Declare, Kind, Parameter, Parameters, Problem},
     geometry::{Outline, Shape},
@@ -46,6 +49,11 @@ impl Build for Triangle {
             return Err(Problem::at("c", "the triangle has no area", "its corners must not lie on a line"));
         }
         Ok(vec![Shape::Flat { outline: Outline::Triangle, origin: self.a, edges, mirrored: false }])
+    }
+
+    fn fitted(&self, fit: &Fit) -> Option<Changes> {
+        let (a, [u, v]) = fit.square();
+        Some(vec![vector("a", self.a, a), vector("b", self.b, a + u), vector("c", self.c, a + u / 2.0 + v)])
     }
 
     fn placed(&self, placement: &Placement) -> Option<ShapeKind> {

@@ -116,7 +116,8 @@ fn blends_follow_the_names_of_their_parts() {
     does(&mut document, &blend);
     does(&mut document, &Edit::Rename { path: path("materials.white"), to: "paper".to_owned() });
     let Material::Blend(blend) = &document.description().materials["gold"].kind else { panic!("it is a blend") };
-    assert_eq!([&blend.first, &blend.second], ["floor", "paper"]);
+    assert_eq!([&blend.first, &blend.second], ["gold 2", "floor"]);
+    does(&mut document, &text("materials.gold.blend.second", "paper"));
     let problem = refuses(&mut document, &Edit::remove(path("materials.paper")));
     assert_eq!(problem.message, "the material `paper` is in use");
     assert_eq!(problem.help, "use another material for `gold` first");
@@ -164,7 +165,9 @@ fn a_change_of_kind_takes_along_what_depends_on_it() {
     });
     there_and_back(&change("materials.gold", "material", "blend"), |scene| {
         let Material::Blend(blend) = &scene.materials["gold"].kind else { panic!("it is a blend") };
-        assert_eq!([&blend.first, &blend.second], ["floor", "white"]);
+        assert_eq!([&blend.first, &blend.second], ["gold 2", "floor"]);
+        let gold = describe("room", ROOM.to_owned()).expect("it is valid").materials["gold"].clone();
+        assert_eq!(scene.materials["gold 2"], gold, "the material is its first part");
     });
     assert_eq!(change("objects.1.shape", "shape", "disk"), Edit::choose(path("objects.1.shape"), "shape", "disk"));
 }
@@ -182,6 +185,21 @@ fn a_material_keeps_its_colour_under_the_key_of_its_new_kind() {
     does(&mut document, &change);
     let tiles = Some(OwnedValue::Textured(Textured::Texture("tiles".to_owned())));
     assert_eq!(document.value(&path("materials.floor.mirror.reflectance")), tiles);
+}
+
+#[test]
+fn a_material_keeps_its_roughness_and_its_index_under_the_keys_of_its_new_kind() {
+    let mut document = room();
+    let constant = |x| Some(OwnedValue::TexturedNumber(Textured::Constant(x)));
+    let change = document.change_kind(&path("materials.gold"), "material", "principled");
+    does(&mut document, &change);
+    assert_eq!(document.value(&path("materials.gold.principled.specular_roughness")), constant(0.3));
+    does(&mut document, &number("materials.gold.principled.specular_ior", 1.7));
+    let change = document.change_kind(&path("materials.gold"), "material", "plastic");
+    does(&mut document, &change);
+    let plastic = document.description().materials["gold"].kind.clone();
+    let Material::Plastic(plastic) = plastic else { panic!("it is plastic") };
+    assert_eq!(plastic.ior, 1.7);
 }
 
 #[test]

@@ -90,7 +90,7 @@ fn lamps_without_surface_are_added_duplicated_renamed_and_deleted() {
     for kind in LampKind::alternatives() {
         let mut document = room();
         let before = document.text();
-        let (edit, added) = document.add_lamp_without_surface(kind.name(), &placement, 0.0).expect("there is such a kind");
+        let (edit, added) = document.add_lamp_without_surface(kind.name(), &placement, 1.0, 0.0).expect("there is such a kind");
         let inverse = does(&mut document, &edit);
         assert_eq!(added, path("lamps.0"));
         assert!(document.text().contains("[[lamps]]"), "{}", document.text());
@@ -108,14 +108,14 @@ fn lamps_without_surface_are_added_duplicated_renamed_and_deleted() {
         does(&mut document, &inverse);
         assert_eq!(document.text(), before);
     }
-    assert!(room().add_lamp_without_surface("candle", &placement, 0.0).is_none());
+    assert!(room().add_lamp_without_surface("candle", &placement, 1.0, 0.0).is_none());
 }
 
 #[test]
 fn the_kind_and_the_parameters_of_a_lamp_change_by_their_paths() {
     let placement = Placement { at: DVec3::ZERO, normal: DVec3::Y, scene_size: 5.0 };
     let mut document = room();
-    let (edit, added) = document.add_lamp_without_surface("point", &placement, 0.0).expect("there is such a kind");
+    let (edit, added) = document.add_lamp_without_surface("point", &placement, 1.0, 0.0).expect("there is such a kind");
     does(&mut document, &edit);
     does(&mut document, &Edit::set(path("lamps.0.point.intensity"), OwnedValue::Colour([3.0, 2.0, 1.0])));
     let spot = document.change_kind(&added, LampKind::WHAT, "spot");
@@ -138,7 +138,7 @@ fn lamps_are_transformed_as_their_points_are() {
     let pivot = DVec3::new(0.2, 0.3, -0.1);
     for kind in LampKind::alternatives() {
         let mut document = room();
-        let (edit, _) = document.add_lamp_without_surface(kind.name(), &placement, 0.0).expect("there is such a kind");
+        let (edit, _) = document.add_lamp_without_surface(kind.name(), &placement, 1.0, 0.0).expect("there is such a kind");
         does(&mut document, &edit);
         let mut position = lamp(&document, 0).position();
         for change in &changes {
@@ -256,4 +256,76 @@ fn objects_are_dropped_to_what_is_below() {
     assert!((min.y - 1.0).abs() < 0.01, "{min}");
     // Below the floor is nothing.
     assert!(document.drop_to_floor(&compiled(&document), 0).is_none());
+}
+
+/// A room of 2.5 m with a ball on its floor, closed above.
+fn closed_room() -> Document {
+    let mut document = room();
+    let ceiling = ShapeKind::from(crate::shape::rectangle::Rectangle {
+        origin: DVec3::new(-2.0, 2.6, -2.0),
+        edge_u: DVec3::X * 4.0,
+        edge_v: DVec3::Z * 4.0,
+    });
+    let mut ceiling = crate::scene::description::ObjectDescription { shape: ceiling, ..Default::default() };
+    does(&mut document, &Edit::insert_tree(path("objects.3"), Tree::of(&mut ceiling)));
+    document
+}
+
+#[test]
+fn objects_that_are_added_at_a_wall_stand_on_the_floor_and_lamps_hang_over_it_facing_down() {
+    let scene = compiled(&closed_room());
+    let wall = Placement { at: DVec3::new(-1.5, 1.2, -1.0), normal: DVec3::X, scene_size: 5.0 };
+    let floor = wall.on_floor(&scene, 0.5);
+    assert!(floor.at.distance(DVec3::new(-1.0, 0.0, -1.0)) < 1e-5 && floor.normal == DVec3::Y, "{floor:?}");
+    for placement in [wall, floor] {
+        let hung = placement.hung(&scene);
+        assert!((0.9..=1.1).contains(&hung.at.y) && hung.normal == DVec3::NEG_Y, "{hung:?}");
+        let mut document = closed_room();
+        let (edit, at) = document.add_lamp("rectangle", &hung, 0.0).expect("there is such a kind");
+        does(&mut document, &edit);
+        let ShapeKind::Rectangle(lamp) = &document.description().objects[4].shape else { panic!("it is a rectangle") };
+        assert!(lamp.edge_u.cross(lamp.edge_v).normalize().distance(DVec3::NEG_Y) < 1e-9, "{at}");
+    }
+    let ceiling = Placement { at: DVec3::new(0.5, 2.6, 0.5), normal: DVec3::NEG_Y, scene_size: 5.0 };
+    assert_eq!(ceiling.hung(&scene).at, ceiling.at, "lamps hang on it");
+    // Where there is little room above, a lamp is lower.
+    let low = Placement { at: DVec3::new(0.0, 2.1, 0.0), normal: DVec3::Y, scene_size: 5.0 };
+    assert!((low.lamp_height(&scene) - 0.6 * 0.4).abs() < 1e-3, "{}", low.lamp_height(&scene));
+}
+
+#[test]
+fn a_shape_of_another_kind_keeps_place_and_size() {
+    let ball = [DVec3::new(-0.5, 0.0, -0.5), DVec3::new(0.5, 1.0, 0.5)];
+    let near = |a: [DVec3; 2], b: [DVec3; 2]| a[0].distance(b[0]) < 1e-9 && a[1].distance(b[1]) < 1e-9;
+    for kind in ["cuboid", "cylinder", "sphere_field"] {
+        let mut document = room();
+        let change = document.change_kind(&path("objects.1.shape"), ShapeKind::WHAT, kind);
+        let back = does(&mut document, &change);
+        let found = extent(&document, "ball");
+        assert!(
+            near(found, ball) || kind == "sphere_field" && found[0].cmpge(ball[0]).all() && found[1].cmple(ball[1]).all(),
+            "{kind} {found:?}"
+        );
+        does(&mut document, &back);
+        assert_eq!(document.text(), ROOM);
+    }
+    let mut document = room();
+    for kind in ["cuboid", "sphere", "rectangle", "cylinder", "triangle", "sphere", "disk", "cuboid"] {
+        let change = document.change_kind(&path("objects.1.shape"), ShapeKind::WHAT, kind);
+        does(&mut document, &change);
+        let [min, max] = extent(&document, "ball");
+        assert!(((min + max) / 2.0).distance(DVec3::new(0.0, 0.5, 0.0)) < 0.01, "{kind} {min} {max}");
+        assert!(((max - min).max_element() - 1.0).abs() < 0.02, "{kind} {min} {max}");
+    }
+    // A lamp goes on facing down.
+    let mut document = room();
+    let change = document.change_kind(&path("objects.2.shape"), ShapeKind::WHAT, "rectangle");
+    does(&mut document, &change);
+    let ShapeKind::Rectangle(lamp) = &document.description().objects[2].shape else { panic!("it is a rectangle") };
+    assert!(lamp.edge_u.cross(lamp.edge_v).distance(DVec3::NEG_Y * 0.64) < 1e-9, "{lamp:?}");
+    // What fills a cube is placed by transforms.
+    let mut document = room();
+    let change = document.change_kind(&path("objects.1.shape"), ShapeKind::WHAT, "isosurface");
+    does(&mut document, &change);
+    assert!(near(extent(&document, "ball"), ball), "{:?}", extent(&document, "ball"));
 }

@@ -5,10 +5,11 @@ use crate::geometry::{Outline, Shape};
 
 /// The same shape of unit size, and the map from there; `None` for meshes and isosurfaces. A map that mirrors keeps the front.
 pub fn unit(shape: &Shape) -> Option<(Shape, DAffine3)> {
-    let sphere = Shape::Sphere { center: DVec3::ZERO, radius: 1.0 };
+    let sphere = Shape::sphere(DVec3::ZERO, 1.0);
     Some(match shape {
-        Shape::Sphere { center, radius } => {
-            (sphere, DAffine3 { matrix3: DMat3::from_diagonal(DVec3::splat(*radius)), translation: *center })
+        Shape::Sphere { center, radius, turn } => {
+            let matrix3 = turn.unwrap_or(DMat3::IDENTITY) * *radius;
+            (sphere, DAffine3 { matrix3, translation: *center })
         }
         Shape::Ellipsoid { center, axes } => (sphere, DAffine3 { matrix3: *axes, translation: *center }),
         Shape::Flat { outline, origin, edges: [a, b], mirrored } => {

@@ -98,7 +98,9 @@ impl Export<'_> {
     /// The shapes of Mitsuba for a shape of ours; several for a closed cylinder.
     fn geometry(&mut self, shape: &Shape, name: &str, uses_coordinates: bool) -> Result<Vec<Geometry>, ExportError> {
         Ok(match shape {
-            Shape::Sphere { center, radius } => vec![sphere(*center, *radius, uses_coordinates)],
+            Shape::Sphere { center, radius, turn } => {
+                vec![sphere(*center, *radius, uses_coordinates.then(|| turn.unwrap_or(DMat3::IDENTITY)))]
+            }
             Shape::Flat { outline: Outline::Parallelogram, origin, edges, mirrored } => {
                 vec![rectangle(*origin, *edges, *mirrored, uses_coordinates)]
             }
@@ -176,13 +178,13 @@ fn ply(path: &str, face_normals: bool) -> Element {
     if face_normals { element.flag("face_normals", true) } else { element }
 }
 
-/// Mitsuba's coordinates turn about z, and ours about y.
-fn sphere(center: DVec3, radius: f64, uses_coordinates: bool) -> Geometry {
+/// Mitsuba's coordinates turn about z, and ours about y, or as `coordinates` turns them.
+fn sphere(center: DVec3, radius: f64, coordinates: Option<DMat3>) -> Geometry {
     let element = Element::plugin("shape", "sphere");
-    if !uses_coordinates {
+    let Some(turn) = coordinates else {
         return Geometry::new(element.point("center", center).float("radius", radius));
-    }
-    let turned = DMat3::from_cols(DVec3::X, DVec3::NEG_Z, DVec3::Y);
+    };
+    let turned = turn * DMat3::from_cols(DVec3::X, DVec3::NEG_Z, DVec3::Y);
     Geometry::new(element.transform("to_world", &DAffine3 { matrix3: turned * radius, translation: center }))
 }
 

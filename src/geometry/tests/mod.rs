@@ -33,7 +33,7 @@ impl Case {
 fn kinds() -> Vec<Shape> {
     let flat = |outline, origin, edges| Shape::Flat { outline, origin, edges, mirrored: false };
     vec![
-        Shape::Sphere { center: DVec3::ZERO, radius: 0.8 },
+        Shape::sphere(DVec3::ZERO, 0.8),
         flat(Outline::Parallelogram, DVec3::new(-0.7, -0.4, 0.1), [DVec3::new(1.5, 0.1, 0.0), DVec3::new(-0.2, 0.9, 0.3)]),
         flat(Outline::Parallelogram, DVec3::new(-0.5, 0.0, -0.5), [DVec3::new(0.0, 0.0, 1.2), DVec3::new(0.8, 0.0, 0.0)]),
         flat(Outline::Triangle, DVec3::new(-0.5, -0.5, 0.2), [DVec3::new(1.2, 0.1, -0.1), DVec3::new(0.3, 1.0, 0.2)]),

@@ -117,7 +117,7 @@ fn of_surfaces_that_coincide_the_first_one_is_met_with_a_tree_and_without() {
 fn a_sun_does_not_widen_the_boxes_of_a_crowd() {
     let still = Motion::default();
     let mut shapes = sphere_field(500, DVec3::splat(-2.0), DVec3::splat(4.0), 1);
-    shapes.insert(0, Shape::Sphere { center: DVec3::new(0.0, 1.5e11, 0.0), radius: 7e8 });
+    shapes.insert(0, Shape::sphere(DVec3::new(0.0, 1.5e11, 0.0), 7e8));
     let all = Shapes::new(shapes.iter().map(|shape| (shape, &still)), DVec3::ZERO);
     assert!(all.tree_reach() < 10.0, "{}", all.tree_reach());
     assert_eq!(all.closest(One, M(true), v(DVec3::new(0.0, 3.0, 0.0)), v(DVec3::Y), F(0.0)).primitive.0, 0);
@@ -129,7 +129,7 @@ fn touching() -> Vec<Shape> {
     for i in 0..60 {
         let center = DVec3::new(f64::from(i % 4), f64::from(i / 4 % 4), f64::from(i / 16)) - 1.5;
         let times = if i == 21 { 10 } else { 1 + i % 3 / 2 };
-        spheres.extend((0..times).map(|_| Shape::Sphere { center, radius: 0.5 }));
+        spheres.extend((0..times).map(|_| Shape::sphere(center, 0.5)));
     }
     spheres
 }

@@ -23,7 +23,7 @@ fn points_of_the_oracle_lie_at_their_angles() {
     let axes = DMat3::from_diagonal(DVec3::new(2.0, 3.0, 5.0));
     let quarter = |piece: &Shape| point_at(piece, [0.5, 0.25]);
     let near = |a: DVec3, b: DVec3| assert!(a.distance(b) < 1e-12, "{a} {b}");
-    near(quarter(&Shape::Sphere { center: DVec3::X, radius: 3.0 }), DVec3::new(1.0, 3.0, 0.0));
+    near(quarter(&Shape::sphere(DVec3::X, 3.0)), DVec3::new(1.0, 3.0, 0.0));
     near(quarter(&Shape::Ellipsoid { center: DVec3::X, axes }), DVec3::new(1.0, 3.0, 0.0));
     near(quarter(&Shape::Cylinder { base: DVec3::X, axes, capped: false }), DVec3::new(1.0, 3.0, 2.5));
     let edges = [axes.x_axis, axes.y_axis];

@@ -71,7 +71,7 @@ impl Set {
 }
 
 fn ball(center: DVec3, radius: f64) -> Shape {
-    Shape::Sphere { center, radius }
+    Shape::sphere(center, radius)
 }
 
 /// Any shape, of about the given size.

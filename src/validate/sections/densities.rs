@@ -168,7 +168,7 @@ fn lamps(validation: &Validation) -> Vec<Statement> {
     let flat = |outline, origin, edges| Shape::Flat { outline, origin, edges, mirrored: false };
     use crate::geometry::Outline::{Parallelogram, Triangle};
     let shapes = [
-        ("sphere", Shape::Sphere { center: DVec3::new(0.5, 0.2, 2.0), radius: 0.7 }),
+        ("sphere", Shape::sphere(DVec3::new(0.5, 0.2, 2.0), 0.7)),
         ("large rectangle, near", flat(Parallelogram, DVec3::new(-0.8, -0.7, 0.5), [x * 1.6, y * 1.2])),
         ("small rectangle", flat(Parallelogram, DVec3::new(0.3, 0.2, 2.0), [x * 0.3 + z * 0.1, y * 0.3])),
         ("triangle", flat(Triangle, DVec3::new(-0.4, -0.2, 1.0), [x * 1.1, y * 0.9 + z * 0.3])),

@@ -72,11 +72,11 @@ fn kinds() -> Vec<Kind> {
     let flat = |outline, origin, edges| Shape::Flat { outline, origin, edges, mirrored: false };
     let sphere = |radius: f64| {
         let center = DVec3::new(0.0, -radius, 0.0);
-        simple(&format!("sphere of {radius:e} m"), Shape::Sphere { center, radius })
+        simple(&format!("sphere of {radius:e} m"), Shape::sphere(center, radius))
     };
     let turn = DAffine3::from_axis_angle(DVec3::new(1.0, 2.0, 3.0).normalize(), 1.1);
     let stretch = turn * DAffine3::from_scale(DVec3::new(0.5, 1.6, 1.0));
-    let ball = Shape::Sphere { center: DVec3::ZERO, radius: 1.0 };
+    let ball = Shape::sphere(DVec3::ZERO, 1.0);
     let cuboid = Shape::Cuboid { origin: DVec3::new(-0.5, -0.7, -0.3), edges: DMat3::from_diagonal(DVec3::new(1.1, 1.3, 0.7)) };
     let cylinder =
         |capped| Shape::cylinder(DVec3::new(0.0, -0.6, 0.1), DVec3::new(0.2, 0.7, 0.0), 0.4, capped).transformed(&turn);
@@ -170,7 +170,7 @@ impl Kind {
     /// Origin and direction of the `i`-th ray, rounded to f32.
     fn ray(&self, i: u32, random: Random) -> (DVec3, DVec3) {
         let at = |dimension: u32| f64::from(random.at(i, dimension).0);
-        let unit = |a: f64, b: f64| point_at(&Shape::Sphere { center: DVec3::ZERO, radius: 1.0 }, [a, b]);
+        let unit = |a: f64, b: f64| point_at(&Shape::sphere(DVec3::ZERO, 1.0), [a, b]);
         let piece = &self.pieces[((at(0) * self.pieces.len() as f64) as usize).min(self.pieces.len() - 1)];
         let (center, radius) = self.shapes[0].bounding_sphere();
         // Targets lie in the whole field if there are many shapes, and near the surface of a very large one.
@@ -278,7 +278,7 @@ mod tests {
 
     #[test]
     fn a_surface_that_is_not_where_f64_has_it_is_noticed() {
-        let ball = |radius: f64| Shape::Sphere { center: DVec3::ZERO, radius };
+        let ball = |radius: f64| Shape::sphere(DVec3::ZERO, radius);
         let tally = |found: f64, exact: f64| {
             let kind = Kind { name: String::new(), shapes: vec![ball(found)], pieces: vec![ball(exact)], divisor: 1 };
             kind.tally(2000, Validation::new(Effort::Quick, None, 0).random())
@@ -299,7 +299,7 @@ mod tests {
         }
         // A miss where there is a surface, and a hit where there is none.
         let judged = |found: [f64; 3], exact: [f64; 3]| {
-            let at = |center: [f64; 3]| Shape::Sphere { center: center.into(), radius: 1.0 };
+            let at = |center: [f64; 3]| Shape::sphere(center.into(), 1.0);
             let kind = Kind { name: String::new(), shapes: vec![at(found)], pieces: vec![at(exact)], divisor: 1 };
             let (shapes, mut tally) =
                 (Shapes::new(kind.shapes.iter().map(|shape| (shape, &STILL)), DVec3::ZERO), Tally::default());

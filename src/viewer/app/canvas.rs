@@ -6,6 +6,7 @@ use crate::viewer::canvas::{
     drawing::Pictures, drawing::Split, interaction, interaction::Tool, overlay, picture_area::PictureArea,
 };
 use crate::viewer::instruments::{path::drawing, tabs::InstrumentTab};
+use crate::viewer::panels::panel_tabs::PanelTab;
 
 impl App {
     pub fn canvas(&mut self, ui: &mut Ui) {
@@ -13,7 +14,13 @@ impl App {
         let scene = session.opened.as_ref().map(|opened| opened.scene.as_ref());
         // In an open list, arrows are the list's.
         let has_window = self.dialogs.wait() || self.dialogs.help || self.dialogs.gallery.open;
-        let keys = !has_window && !egui::Popup::is_any_open(ui.ctx()) && !self.selection.gizmo.is_active() && !window.holds_chord;
+        // On the page of the scene, letters are for what is selected.
+        let is_editing = window.panel == PanelTab::Edit && self.selection.subject.is_some();
+        let keys = !has_window
+            && !is_editing
+            && !egui::Popup::is_any_open(ui.ctx())
+            && !self.selection.gizmo.is_active()
+            && !window.holds_chord;
         let output = interaction::show(ui, pictures, window.tool, &mut window.view, &session.camera, scene, keys);
         (window.hovered, window.over_second) = (output.hovered, output.over_second);
         if let Some(camera) = output.camera.filter(|camera| camera.check().is_ok()) {
@@ -25,11 +32,13 @@ impl App {
             window.marking = None;
         }
         if let Some(pixel) = output.clicked {
-            self.click(pixel);
+            let lamp = output.area.and_then(|area| self.lamp_under(ui, &area));
+            match lamp {
+                Some(lamp) => self.selection.select(Some(lamp)),
+                None => self.click(pixel),
+            }
         }
-        if let Some((material, pixel)) = output.dropped {
-            self.assign_at(pixel, material);
-        }
+        self.show_dragged(ui);
         if let Some(area) = &output.area {
             self.overlays(ui, area, output.second_area.as_ref());
         }
@@ -60,6 +69,7 @@ impl App {
     /// Draws what lies over the picture. `second` is where B lies, if that is elsewhere.
     pub fn overlays(&mut self, ui: &mut Ui, area: &PictureArea, second: Option<&PictureArea>) {
         self.outline_selection(ui, area);
+        self.show_lamp_icons(ui, area);
         self.show_gizmo(ui, area);
         let (session, results) = (&self.session, &self.results);
         let region = self.window.marking.or(session.budget.region);

@@ -10,6 +10,7 @@ use crate::viewer::dialogs::save_target::SaveTarget;
 use crate::viewer::instruments::tabs::InstrumentTab;
 use crate::viewer::panels::{
     outliner::{Action, can_rename},
+    panel_tabs::PanelTab,
     toolbar::{Command, Toolbar},
     views,
 };
@@ -96,7 +97,8 @@ impl App {
         let can_duplicate = self.selection.subject.as_ref().is_some_and(can_rename);
         let holds = |input: &InputState| {
             let saves = input.key_down(Key::S) && (self.window.holds_chord || input.modifiers.command);
-            saves || (input.key_down(Key::D) && (self.window.holds_chord || (can_duplicate && duplicates(input))))
+            let adds = input.key_down(Key::A) && (self.window.holds_chord || self.adds(input));
+            saves || adds || (input.key_down(Key::D) && (self.window.holds_chord || (can_duplicate && duplicates(input))))
         };
         self.window.holds_chord = ctx.input(holds);
         for (shortcut, command) in FILE_KEYS {
@@ -151,6 +153,9 @@ impl App {
                 self.perform(command);
             }
         }
+        if !has_dialog && ctx.input(|input| self.adds(input)) {
+            self.window.opens_add = true;
+        }
         if pressed(Key::L) {
             self.look_at_selection();
         }
@@ -175,6 +180,11 @@ impl App {
         if change != 0.0 {
             look.display.exposure = (look.display.exposure + change).clamp(-100.0, 100.0);
         }
+    }
+
+    /// Whether Shift+A asks for the menu that adds parts, on the page of the scene.
+    fn adds(&self, input: &InputState) -> bool {
+        self.window.panel == PanelTab::Edit && is_pressed(input, Key::A, Modifiers::SHIFT)
     }
 
     /// Closes what lies over the picture: of several things all dialogs first, then messages, then the selection, then the region.

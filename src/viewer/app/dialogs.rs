@@ -6,13 +6,17 @@ use crate::viewer::background::adviser::Adviser;
 use crate::viewer::dialogs::{
     advice, choose_file, help, open, remarks, save,
     save::SaveAnswer,
-    scene_error,
+    save_target::SaveTarget,
+    scene_error, shield,
     tour::{self, TourRequest},
     unsaved::Leaving,
 };
 
 impl App {
     pub fn show_dialogs(&mut self, ctx: &egui::Context) {
+        if self.dialogs.wait() {
+            shield::show(ctx);
+        }
         let answer = save::show(ctx, &mut self.dialogs.save);
         if answer.is_none() && self.dialogs.save.is_none() {
             // The question where to save had no answer.
@@ -20,6 +24,10 @@ impl App {
         }
         match answer {
             Some(SaveAnswer::File(target, path)) => self.save_target(target, path),
+            Some(SaveAnswer::SceneWithView(path)) => {
+                self.keep_view();
+                self.save_target(SaveTarget::Scene, path);
+            }
             Some(SaveAnswer::Other(export)) => self.open_export(export),
             None => {}
         }

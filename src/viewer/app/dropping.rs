@@ -2,11 +2,15 @@
 use std::path::Path as FilePath;
 
 use glam::DVec3;
-use noisefall::edit::Placement;
+use noisefall::{
+    declare::{OwnedValue, Path, Textured},
+    edit::{Edit, Placement},
+};
 
 use super::state::App;
 use crate::viewer::background::dropped::DroppedFile;
 use crate::viewer::dialogs::{choose_file::FilePurpose, unsaved::Leaving};
+use crate::viewer::panels::subject::Subject;
 
 impl App {
     /// Reads what was dropped on the window, and uses what has been read.
@@ -58,18 +62,34 @@ impl App {
     /// Makes an image the colour of the object that it was dropped on, or else of the selected one.
     fn use_as_texture(&mut self, file: &FilePath, pixel: Option<[u32; 2]>) {
         let under = pixel.and_then(|pixel| self.object_at(pixel));
-        let Some(editor) = &self.editor else { return };
-        let object = under.or(self.selection.object()).and_then(|place| editor.document.description().objects.get(place));
-        let Some(object) = object else {
+        let Some(object) = under.or(self.selection.object()) else {
             return self.tell("Drop the texture on an object, or select the object first.".to_owned(), true);
         };
-        let Some(material) = &object.material else {
-            return self.tell("This object has no material. Assign one first.".to_owned(), true);
-        };
-        match editor.document.colour_of_material(material) {
-            Some(colour) => self.use_file(&FilePurpose::Texture(colour), file),
-            None => self.tell(format!("The material {material} has no colour that a texture could replace."), true),
+        if let Some(color) = self.color_of_object(object) {
+            self.use_file(&FilePurpose::Texture(color), file);
+            self.selection.select(Some(Subject::Object(object)));
         }
+    }
+
+    /// Makes a texture of the scene the colour of the material of an object.
+    pub fn assign_texture(&mut self, object: usize, texture: String) {
+        if let Some(color) = self.color_of_object(object) {
+            self.edit(&Edit::set(color, OwnedValue::Textured(Textured::Texture(texture))));
+        }
+    }
+
+    /// Where the material of an object has its colour; says so if it has none.
+    fn color_of_object(&mut self, object: usize) -> Option<Path> {
+        let document = &self.editor.as_ref()?.document;
+        let Some(material) = &document.description().objects.get(object)?.material else {
+            self.tell("This object has no material. Assign one first.".to_owned(), true);
+            return None;
+        };
+        let color = document.colour_of_material(material);
+        if color.is_none() {
+            self.tell(format!("The material {material} has no color that a texture could replace."), true);
+        }
+        color
     }
 
     fn use_as_sky(&mut self, file: &FilePath) {

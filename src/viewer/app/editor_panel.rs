@@ -1,21 +1,24 @@
 //! Joins the outliner and the inspector with the document.
 use egui::{RichText, ScrollArea, Ui};
 use noisefall::{
-    declare::{Declare, Family, Path},
+    declare::{Declare, Family, OneOf, Path},
     edit::Edit,
+    scene::Camera,
+    texture::TextureKind,
 };
 
 use super::{scene_editor::SceneEditor, state::App};
 use crate::viewer::background::loader::OpenedScene;
 use crate::viewer::dialogs::{
-    choose_file::{FileDialog, FilePurpose},
+    choose_file::{FileDialog, FilePurpose, texture_in_place},
     unsaved::Leaving,
 };
 use crate::viewer::panels::{
     inspector::{Asked, Drag, Request, Surroundings},
-    objects, scene_commands,
+    modes, objects, scene_commands,
     scene_commands::SceneCommand,
     subject::Subject,
+    users,
 };
 use crate::viewer::widgets::split;
 
@@ -27,7 +30,7 @@ impl App {
         let (mut asked, mut command) = (Default::default(), None);
         split::show(ui, |ui| {
             ui.label(RichText::new("Parts").strong());
-            command = scene_commands::show(ui);
+            command = scene_commands::show(ui, std::mem::take(&mut self.window.opens_add));
             asked = editor.outliner.show(ui, description, editor.revision, self.selection.subject.as_ref());
         });
         if let Some(subject) = asked.selected {
@@ -51,7 +54,19 @@ impl App {
         let edit = |editor: &SceneEditor| editor.document.use_view(&self.session.camera, &self.session.settings);
         match self.editor.as_ref().and_then(edit) {
             Some(edit) => _ = self.edit(&edit),
-            None => self.tell("The scene has this camera and these settings".to_owned(), false),
+            None => self.tell("The scene already has this view and these settings.".to_owned(), false),
+        }
+    }
+
+    /// Gives the scene the camera of the window at its own resolution.
+    pub fn keep_view(&mut self) {
+        let edit = |editor: &SceneEditor| {
+            let scene = editor.document.description();
+            let camera = Camera { resolution: scene.camera.resolution, ..self.session.camera };
+            editor.document.use_view(&camera, &scene.render.settings)
+        };
+        if let Some(edit) = self.editor.as_ref().and_then(edit) {
+            self.edit(&edit);
         }
     }
 
@@ -63,12 +78,21 @@ impl App {
         };
         let Some(mut part) = subject.of(editor.document.description()) else { return };
         let (path, size, object) = (subject.path(), opened.scene.size, self.selection.object());
-        ui.label(RichText::new("Parameters").strong());
+        let user = ui.horizontal_wrapped(|ui| {
+            ui.label(RichText::new("Parameters").strong());
+            if matches!(subject, Subject::Object(_) | Subject::Lamp(_)) {
+                modes::show(ui, &mut self.selection.gizmo.mode);
+            }
+            users::show(ui, editor.document.description(), subject)
+        });
         if let Some(object) = object {
             objects::show(ui, &opened.scene, opened.scene.objects_of(object));
         }
         let asked = inspected(editor, ui, &mut *part, &path, size);
         self.follow_inspector(asked);
+        if user.inner.is_some() {
+            self.selection.select(user.inner);
+        }
     }
 
     /// Makes the edits that the inspector asks for.
@@ -102,6 +126,12 @@ impl App {
                 Request::BrowseTexture { path } => {
                     self.ask_for_file(FilePurpose::Texture(path));
                     continue;
+                }
+                Request::NewTexture { path, kind } => {
+                    let Some(editor) = &mut self.editor else { return };
+                    let new = TextureKind::alternatives().into_iter().find(|texture| texture.name() == kind);
+                    let Some(texture) = new else { continue };
+                    texture_in_place(&mut editor.document, &path, kind, texture)
                 }
                 Request::Show { family, name } => {
                     let subject = match family {

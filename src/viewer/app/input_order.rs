@@ -1,7 +1,8 @@
 //! Keeps the order of what is typed and where it is typed.
 //!
 //! egui moves the keyboard before widgets read the text of a frame, so letters would be lost if Tab or a click elsewhere came in the
-//! same frame: such a frame is divided.
+//! same frame: such a frame is divided. So is one in which a button is pressed and the pointer goes on: a drag begins where it was
+//! pressed.
 use egui::{Event, Key};
 
 /// Leaves the events of one frame, and returns those of later frames.
@@ -13,16 +14,21 @@ pub fn split_frame(events: &mut Vec<Event>) -> Vec<Event> {
     let is_later = |(place, event): &(usize, &Event)| {
         let before = &events[..*place];
         let leaves = moves_keyboard(event);
-        (leaves && before.iter().any(is_typed)) || (is_typed(event) && before.iter().any(moves_keyboard))
+        let is_drag = matches!(event, Event::PointerMoved(_)) && before.iter().any(is_button_press);
+        is_drag || (leaves && before.iter().any(is_typed)) || (is_typed(event) && before.iter().any(moves_keyboard))
     };
     let end = events.iter().enumerate().find(is_later);
     let end = end.map_or(events.len(), |(place, _)| place);
     events.split_off(end)
 }
 
+fn is_button_press(event: &Event) -> bool {
+    matches!(event, Event::PointerButton { pressed: true, .. })
+}
+
 /// Whether an event moves the keyboard to another widget, or lets a field complete its text.
 fn moves_keyboard(event: &Event) -> bool {
-    matches!(event, Event::Key { key: Key::Tab, pressed: true, .. } | Event::PointerButton { pressed: true, .. })
+    is_button_press(event) || matches!(event, Event::Key { key: Key::Tab, pressed: true, .. })
 }
 
 #[cfg(test)]
@@ -58,6 +64,18 @@ mod tests {
             let [before, after, later] = &frames(events.clone())[..] else { panic!("{:?}", frames(events)) };
             assert_eq!((&before[..], &after[..], &later[..]), (&events[..4], &events[4..5], &events[5..]));
         }
+    }
+
+    #[test]
+    fn a_drag_begins_where_the_button_was_pressed() {
+        let moved = |x: f32| Event::PointerMoved(Pos2::new(x, 0.0));
+        let button = |pressed| {
+            let (pos, modifiers) = (Pos2::new(1.0, 0.0), Modifiers::NONE);
+            Event::PointerButton { pos, button: PointerButton::Primary, pressed, modifiers }
+        };
+        let events = vec![moved(1.0), button(true), moved(2.0), moved(9.0), button(false)];
+        let [pressed, dragged] = &frames(events.clone())[..] else { panic!("{:?}", frames(events)) };
+        assert_eq!((&pressed[..], &dragged[..]), (&events[..2], &events[2..]));
     }
 
     #[test]

@@ -53,6 +53,10 @@ impl App {
                 let edit = document.assign(&[place], material.as_deref());
                 self.edit(&edit);
             }
+            Action::AssignTexture(texture) => {
+                let Subject::Object(place) = subject else { return };
+                self.assign_texture(place, texture);
+            }
             Action::AddBackground => _ = self.edit(&Edit::insert(subject.path())),
         }
     }
@@ -60,12 +64,16 @@ impl App {
     /// Adds an object or a lamp where the picture was clicked last, or a material or a texture.
     pub fn add(&mut self, new: New) {
         let (placement, exposure) = (self.placement(), self.session.look.display.exposure.into());
-        let Some(editor) = &self.editor else { return };
+        let (Some(editor), Some(opened)) = (&self.editor, &self.session.opened) else { return };
+        let (scene, clearance) = (&opened.scene, placement.half());
         let document = &editor.document;
         let added = match new {
-            New::Shape(kind) => document.add_shape(kind, &placement, None),
-            New::Lamp(kind) => document.add_lamp(kind, &placement, exposure),
-            New::LampWithoutSurface(kind) => document.add_lamp_without_surface(kind, &placement, exposure),
+            New::Shape(kind) => document.add_shape(kind, &placement.on_floor(scene, clearance), None),
+            New::Lamp(kind) => document.add_lamp(kind, &placement.hung(scene), exposure),
+            New::LampWithoutSurface(kind) => {
+                let floor = placement.on_floor(scene, 2.0 * clearance);
+                document.add_lamp_without_surface(kind, &floor, floor.lamp_height(scene), exposure)
+            }
             New::Material => Some(added(document, "materials", "material", &mut MaterialDescription::default())),
             New::Texture => Some(added(document, "textures", "texture", &mut TextureKind::from(Checker::default()))),
         };

@@ -101,7 +101,9 @@ impl App {
         let kept = self.window.kept_view.take().filter(|(path, ..)| opened.path.as_ref() == Some(path));
         (session.camera, session.settings) =
             kept.map_or((scene.camera, scene.settings), |(_, camera, settings)| (camera, settings));
-        session.budget = Budget { max_spp: scene.spp, steps: session.budget.steps, ..Budget::default() };
+        // A new scene has no file, and goes on being edited as the one before.
+        let paused = session.budget.paused && opened.path.is_none() && session.opened.is_some();
+        session.budget = Budget { max_spp: scene.spp, steps: session.budget.steps, paused, ..Budget::default() };
         (session.comparison, session.pinned, session.dropped_reference) = (None, None, None);
         self.background.adviser = None;
         self.background.loader.forget_reference();

@@ -29,7 +29,9 @@ impl App {
         if self.dialogs.save.is_none() {
             let last = self.window.last_saved.as_deref().filter(|_| target != SaveTarget::Scene);
             let title = self.session.opened.as_ref().map_or("", |opened| opened.name.as_str());
-            self.dialogs.save = Some(SaveDialog::new(target, self.session.path(), title, last));
+            let dialog = SaveDialog::new(target, self.session.path(), title, last);
+            let has_other_view = target == SaveTarget::Scene && self.session.view_differs();
+            self.dialogs.save = Some(if has_other_view { dialog.with_view() } else { dialog });
         }
     }
 

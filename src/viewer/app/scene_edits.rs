@@ -1,7 +1,12 @@
 //! Edits of the open scene, undo and redo included: the document changes at once, and its picture follows.
-use noisefall::{declare::Problem, edit::Edit, scene::description::SceneDescription};
+use noisefall::{
+    declare::Problem,
+    edit::Edit,
+    scene::description::{ObjectDescription, SceneDescription},
+};
 
 use super::{scene_editor::SceneEditor, state::App};
+use crate::viewer::{panels::subject::Subject, widgets::wording::capitalised};
 
 impl App {
     /// Makes an edit, as a step of its own. What the reader of scene files would refuse is refused, with its message.
@@ -27,7 +32,7 @@ impl App {
             }
             Err(problem) => {
                 let help = if problem.help.is_empty() { String::new() } else { format!(": {}", problem.help) };
-                self.tell(format!("{}{help}", problem.message), true);
+                self.tell(format!("{}{help}", capitalised(&problem.message)), true);
             }
         }
         made.is_ok()
@@ -46,12 +51,14 @@ impl App {
     /// Changes the whole scene by `step`, and renders it if it `is_new`.
     pub fn step_in_scene<T>(&mut self, step: impl FnOnce(&mut SceneEditor) -> T, is_new: impl FnOnce(&SceneDescription) -> bool) {
         let Some(editor) = &mut self.editor else { return };
-        let objects = editor.document.description().objects.len();
+        let before = editor.description();
         step(editor);
         self.selection.end_operation();
         // Places in the list may be those of other objects now.
-        if editor.document.description().objects.len() != objects {
-            self.selection.clear_object();
+        let objects = &editor.document.description().objects;
+        if let Some(selected) = self.selection.object().filter(|_| objects.len() != before.objects.len()) {
+            let same = before.objects.get(selected).and_then(|object| nearest_equal(objects, object, selected));
+            self.selection.select(same.map(Subject::Object));
         }
         if is_new(editor.document.description()) {
             self.follow_document();
@@ -67,4 +74,10 @@ impl App {
         }
         self.edit_scene(description);
     }
+}
+
+/// The place of the object that equals another one, the nearest of several to a place.
+fn nearest_equal(objects: &[ObjectDescription], object: &ObjectDescription, place: usize) -> Option<usize> {
+    let equal = objects.iter().enumerate().filter(|(_, other)| *other == object).map(|(at, _)| at);
+    equal.min_by_key(|at| at.abs_diff(place))
 }

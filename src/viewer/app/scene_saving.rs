@@ -114,6 +114,7 @@ impl App {
             opened.path = Some(path.to_owned());
             self.preferences.change(|saved| recent::note(&mut saved.recent, path));
         }
-        self.tell(format!("Saved {}", path.display()), false);
+        let left_out = if self.session.view_differs() { ". The view is not the scene's camera, and is not saved." } else { "" };
+        self.tell(format!("Saved {}{left_out}", path.display()), false);
     }
 }

@@ -6,27 +6,15 @@ use glam::DVec3;
 use noisefall::render::RenderRequest;
 
 use super::state::App;
-use crate::viewer::canvas::{framing, interaction::Tool, picking, picture_area::PictureArea, selection};
-use crate::viewer::panels::{outliner::Action, panel_tabs::PanelTab, subject::Subject};
+use crate::viewer::canvas::{framing, picking, picture_area::PictureArea, selection};
+use crate::viewer::panels::subject::Subject;
 
 impl App {
-    /// Selects the object at a pixel of the picture, or nothing. The tool Picture shows its parameters; with the tool Camera the panel
-    /// stays as it is, because its page may be that of the camera.
+    /// Selects the object at a pixel of the picture, or nothing. The page of the panel stays.
     pub fn select_at(&mut self, pixel: [u32; 2]) {
         let object = self.object_at(pixel);
         self.selection.clicked = Some(pixel);
         self.selection.select(object.map(Subject::Object));
-        if object.is_some() && self.window.tool == Tool::Picture {
-            self.window.panel = PanelTab::Edit;
-        }
-    }
-
-    /// Gives the object at a pixel of the picture a material.
-    pub fn assign_at(&mut self, pixel: [u32; 2], material: String) {
-        match self.object_at(pixel) {
-            Some(object) => self.act_on(Subject::Object(object), Action::AssignMaterial(Some(material))),
-            None => self.tell("There is no object here. Drop the material on one".to_owned(), false),
-        }
     }
 
     /// The place in the description of the object at a pixel of the picture.
@@ -44,10 +32,13 @@ impl App {
         picking::surface_at(scene, camera, pixel.unwrap_or([width / 2, height / 2]))
     }
 
-    /// Draws the outline of the selected object. Without one, no pixel is looked at.
+    /// Draws the outline of the object that would receive what is dragged, or else of the selected one. Without one, no pixel is looked
+    /// at.
     pub fn outline_selection(&mut self, ui: &Ui, area: &PictureArea) {
         let request = self.request_of_open_scene().cloned();
-        let Some((request, object)) = request.zip(self.selection.object()) else { return self.selection.outline.clear() };
+        let Some((request, object)) = request.zip(self.drop_target().or(self.selection.object())) else {
+            return self.selection.outline.clear();
+        };
         let (finder, RenderRequest { scene, camera, .. }) = (&mut self.background.features, &request);
         let features = finder.of(scene, camera, self.session.threads).filter(|_| finder.has(scene, camera));
         let objects = scene.objects_of(object);

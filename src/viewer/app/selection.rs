@@ -34,13 +34,6 @@ impl Selection {
         self.change = None;
     }
 
-    /// Selects nothing in place of an object.
-    pub fn clear_object(&mut self) {
-        if self.object().is_some() {
-            self.select(None);
-        }
-    }
-
     /// The selected part that the gizmo may move: an object or a lamp.
     pub fn movable(&self) -> Option<&Subject> {
         self.subject.as_ref().filter(|subject| matches!(subject, Subject::Object(_) | Subject::Lamp(_)))

@@ -81,6 +81,12 @@ impl Session {
         }
     }
 
+    /// Whether the view is another one than the camera of the scene. The resolution is no part of it.
+    pub fn view_differs(&self) -> bool {
+        let of_scene = |opened: &OpenedScene| Camera { resolution: self.camera.resolution, ..opened.scene.camera };
+        self.opened.as_ref().is_some_and(|opened| of_scene(opened) != self.camera)
+    }
+
     /// The file of the open scene.
     pub fn path(&self) -> Option<&Path> {
         self.opened.as_ref().and_then(|opened| opened.path.as_deref())

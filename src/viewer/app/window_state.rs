@@ -33,6 +33,8 @@ pub struct WindowState {
     pub hidden: bool,
     /// The key is still down after Ctrl+S or Shift+D: it does not move the camera.
     pub holds_chord: bool,
+    /// The menu that adds parts opens in this frame.
+    pub opens_add: bool,
     /// Input of the next frames: what came in one frame is in order only in several.
     pub later_events: Vec<egui::Event>,
     /// How often a button of the mouse was pressed.

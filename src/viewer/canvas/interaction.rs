@@ -1,6 +1,4 @@
 //! The canvas: zooms and pans the picture, moves the camera, marks regions, and reports the pixel under the pointer.
-use std::sync::Arc;
-
 use egui::{Color32, CursorIcon, PointerButton, Pos2, Rect, Response, Sense};
 use noisefall::{
     render::Region,
@@ -35,8 +33,6 @@ pub struct CanvasOutput {
     pub over_second: bool,
     /// The pixel that was clicked.
     pub clicked: Option<[u32; 2]>,
-    /// The material that was dropped on the picture, and the pixel there.
-    pub dropped: Option<(String, [u32; 2])>,
     /// The corner where a drag began and the one where it is, and whether it has ended.
     pub marked: Option<(Region, bool)>,
     /// The camera, if it was moved.
@@ -94,7 +90,6 @@ pub fn show(
         hovered,
         over_second,
         clicked: hovered.filter(|_| response.clicked()),
-        dropped: response.dnd_release_payload::<String>().map(Arc::unwrap_or_clone).zip(hovered),
         marked: if tool == Tool::Region && is_free { marked(ui, &response, &under, view) } else { None },
         camera: scene.and_then(|scene| flight::moved(ui, &response, moves, camera, under.rect, scene)),
         area: Some(areas[0]),

@@ -16,6 +16,7 @@ pub mod save;
 pub mod save_target;
 pub mod scene_error;
 pub mod sequence;
+pub mod shield;
 pub mod tour;
 pub mod unfinished;
 pub mod unsaved;

@@ -13,17 +13,17 @@ use crate::viewer::{
 const EXTENSIONS: [&str; 11] = ["toml", "nf", "gltf", "glb", "xml", "pbrt", "obj", "ply", "stl", "png", "exr"];
 
 /// Height of the list of the folder, points.
-const LIST: f32 = 130.0;
+pub const LIST: f32 = 130.0;
 /// Height of the window without the recent files, and their least height, points.
 const AROUND_RECENT: f32 = 400.0;
 const LEAST_RECENT: f32 = 60.0;
 
 /// A field with the folder of the open scene in it.
-pub fn path_field(scene: Option<&Path>) -> PathField {
+pub fn path_field(scene: Option<&Path>, hint: &'static str) -> PathField {
     let path = scene.map(in_full);
     let folder = path.as_ref().and_then(|path| path.parent());
     let start = folder.map_or_else(String::new, |folder| folder.join("").display().to_string());
-    PathField::new(start, "path/to/scene.toml")
+    PathField::new(start, hint)
 }
 
 /// Asks for the file to open.
@@ -46,7 +46,7 @@ struct Asked {
 impl OpenDialog {
     /// A dialog that begins in the folder of the open scene.
     pub fn new(scene: Option<&Path>, recent: Vec<RecentFile>) -> OpenDialog {
-        OpenDialog { field: path_field(scene).with_completion(), completion: Completion::default(), recent }
+        OpenDialog { field: path_field(scene, "path/to/scene.toml").with_completion(), completion: Completion::default(), recent }
     }
 
     /// Whether the folder in the field has been read, and has this many entries to go on with.

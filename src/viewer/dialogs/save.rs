@@ -10,13 +10,20 @@ use crate::viewer::widgets::path_field::PathField;
 pub struct SaveDialog {
     target: SaveTarget,
     field: PathField,
+    /// Whether the view becomes the camera of the scene; absent if it is.
+    keeps_view: Option<bool>,
 }
 
 impl SaveDialog {
     /// A dialog that suggests a path after the last file or after the scene, which has this name.
     pub fn new(target: SaveTarget, scene: Option<&Path>, title: &str, last_saved: Option<&Path>) -> SaveDialog {
         let path = suggested_path(target, scene, title, last_saved).display().to_string();
-        SaveDialog { target, field: PathField::of_new_file(path, "path/to/file") }
+        SaveDialog { target, field: PathField::of_new_file(path, "path/to/file"), keeps_view: None }
+    }
+
+    /// The same, with the choice whether a view that is not the camera of the scene becomes it.
+    pub fn with_view(self) -> SaveDialog {
+        SaveDialog { keeps_view: Some(false), ..self }
     }
 
     /// The text of the field.
@@ -30,6 +37,8 @@ impl SaveDialog {
 pub enum SaveAnswer {
     /// Saves this to a file.
     File(SaveTarget, PathBuf),
+    /// Makes the view the camera of the scene, and saves the scene.
+    SceneWithView(PathBuf),
     /// Exports the image in another way.
     Other(OtherExport),
 }
@@ -47,7 +56,7 @@ pub enum OtherExport {
 
 /// Shows the dialog until it is answered.
 pub fn show(ctx: &egui::Context, dialog: &mut Option<SaveDialog>) -> Option<SaveAnswer> {
-    let SaveDialog { mut target, mut field } = dialog.take()?;
+    let SaveDialog { mut target, mut field, mut keeps_view } = dialog.take()?;
     let (mut open, mut save, mut cancelled, mut other) = (true, false, false, None);
     egui::Window::new(target.title())
         .open(&mut open)
@@ -55,7 +64,7 @@ pub fn show(ctx: &egui::Context, dialog: &mut Option<SaveDialog>) -> Option<Save
         .resizable(false)
         .anchor(Align2::CENTER_CENTER, [0.0, 0.0])
         .show(ctx, |ui| {
-            (save, cancelled) = dialog_body(ui, &mut target, &mut field);
+            (save, cancelled) = dialog_body(ui, &mut target, &mut field, &mut keeps_view);
             other = other_exports(ui, target);
         });
     if let Some(other) = other {
@@ -63,12 +72,13 @@ pub fn show(ctx: &egui::Context, dialog: &mut Option<SaveDialog>) -> Option<Save
     }
     if let Some(path) = field.path().filter(|_| save).map(|path| target.completed(path)) {
         match target.check(&path) {
+            Ok(()) if keeps_view == Some(true) => return Some(SaveAnswer::SceneWithView(path)),
             Ok(()) => return Some(SaveAnswer::File(target, path)),
             Err(error) => field.refusal = Some(error),
         }
     }
     if open && !cancelled {
-        *dialog = Some(SaveDialog { target, field });
+        *dialog = Some(SaveDialog { target, field, keeps_view });
     }
     None
 }
@@ -106,10 +116,14 @@ fn other_exports(ui: &mut egui::Ui, target: SaveTarget) -> Option<OtherExport> {
 }
 
 /// Returns whether to save, and whether to close. A file is replaced by the button that says so, never by Enter.
-fn dialog_body(ui: &mut egui::Ui, target: &mut SaveTarget, field: &mut PathField) -> (bool, bool) {
+fn dialog_body(ui: &mut egui::Ui, target: &mut SaveTarget, field: &mut PathField, keeps_view: &mut Option<bool>) -> (bool, bool) {
     ui.set_width(460.0);
     ui.label(target.explanation());
     layers_choice(ui, target, field);
+    if let Some(keeps_view) = keeps_view {
+        let doc = "The view on the screen is not the camera of the scene. Without this it is not saved.";
+        ui.checkbox(keeps_view, "Save this view as the scene's camera").on_hover_text(doc);
+    }
     let target = *target;
     ui.add_space(4.0);
     let entered = field.show(ui);

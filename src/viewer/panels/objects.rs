@@ -14,15 +14,17 @@ use crate::viewer::widgets::{counted::counted, decimals::fixed, style::elided};
 /// Together, with what is between them, as wide as the panel.
 const PLACE_WIDTH: f32 = 156.0;
 const KIND_WIDTH: f32 = 136.0;
+const GAP: f32 = 12.0;
 /// More rows than these nobody reads.
 const MOST_ROWS: usize = 3;
 
 /// Shows the size and the material of the compiled objects of a part, the first ones of many.
 pub fn show(ui: &mut Ui, scene: &Scene, objects: Range<usize>) {
     let objects = &scene.objects[objects];
-    Grid::new("objects").num_columns(2).spacing([12.0, 4.0]).show(ui, |ui| {
+    let place_width = PLACE_WIDTH.max(ui.available_width() - KIND_WIDTH - GAP);
+    Grid::new("objects").num_columns(2).spacing([GAP, 4.0]).show(ui, |ui| {
         for object in objects.iter().take(MOST_ROWS) {
-            elided(ui, PLACE_WIDTH, RichText::new(place(object)).weak()).on_hover_text(place(object));
+            elided(ui, place_width, RichText::new(place(object)).weak()).on_hover_text(place(object));
             elided(ui, KIND_WIDTH, RichText::new(summary(scene, object)).weak()).on_hover_text(details(scene, object));
             ui.end_row();
         }

@@ -1,5 +1,5 @@
 //! The buttons over the list of parts: they add parts, begin new scenes, and save this one.
-use egui::Ui;
+use egui::{Popup, Ui};
 use noisefall::{
     declare::OneOf,
     edit::{TEMPLATES, Template},
@@ -19,23 +19,25 @@ pub enum SceneCommand {
     SaveAs,
 }
 
-/// Shows the buttons.
-pub fn show(ui: &mut Ui) -> Option<SceneCommand> {
+/// Shows the buttons. `opens_add` opens the menu that adds parts.
+pub fn show(ui: &mut Ui, opens_add: bool) -> Option<SceneCommand> {
     let parts = ui.horizontal(|ui| {
-        let add = add_menu(ui).map(SceneCommand::Add);
+        let add = add_menu(ui, opens_add).map(SceneCommand::Add);
         let begin = template_menu(ui).map(SceneCommand::Begin);
         add.or(begin)
     });
-    let file = ui.horizontal(|ui| {
-        let doc = "Gives the scene the camera and the settings of the window. Ctrl+S then saves them.";
-        let uses_view = ui.button("Use this view").on_hover_text(doc).clicked().then_some(SceneCommand::UseView);
+    let file = ui.horizontal_wrapped(|ui| {
+        let doc =
+            "Makes the camera and the render settings of the window those of the scene. Ctrl+S then writes them to its file.";
+        let uses_view =
+            ui.button("Save view and settings in the scene").on_hover_text(doc).clicked().then_some(SceneCommand::UseView);
         let doc = "Saves the scene to another file. Ctrl+S saves it to its own.";
         uses_view.or(ui.button("Save scene as…").on_hover_text(doc).clicked().then_some(SceneCommand::SaveAs))
     });
     parts.inner.or(file.inner)
 }
 
-fn add_menu(ui: &mut Ui) -> Option<New> {
+fn add_menu(ui: &mut Ui, opens: bool) -> Option<New> {
     let menu = ui.menu_button("Add", |ui| {
         let shape = ui.menu_button("Shape", |ui| kinds::<ShapeKind>(ui).map(New::Shape)).inner.flatten();
         let lamp = ui.menu_button("Lamp", lamps).inner.flatten();
@@ -43,7 +45,11 @@ fn add_menu(ui: &mut Ui) -> Option<New> {
         let texture = ui.button("Texture").clicked().then_some(New::Texture);
         shape.or(lamp).or(material).or(texture)
     });
-    menu.response.on_hover_text("Adds an object or a lamp where you clicked last in the image, or a material or a texture.");
+    if opens {
+        Popup::open_id(ui.ctx(), Popup::default_response_id(&menu.response));
+    }
+    let doc = "Adds an object or a lamp where you clicked last in the image, or a material or a texture. (Shift+A)";
+    menu.response.on_hover_text(doc);
     menu.inner.flatten()
 }
 

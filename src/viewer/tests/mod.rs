@@ -145,7 +145,7 @@ fn the_objects_of_the_scene_are_listed_with_their_materials() {
     click(&mut window, "Edit");
     let listed =
         |name: &str| window.get_all_by_role(Role::Button).any(|row| row.accesskit_node().label().as_deref() == Some(name));
-    for (name, kind) in [("lamp", "sphere, black"), ("amber ball", "sphere, amber"), ("back wall", "sphere, white")] {
+    for (name, kind) in [("lamp", "sphere, no material"), ("amber ball", "sphere, amber"), ("back wall", "sphere, white")] {
         assert!(listed(&format!("{name}{kind}")), "{name}");
     }
     assert_eq!(window.query_all_by_label_contains("sphere, ").count(), 8);

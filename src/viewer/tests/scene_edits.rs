@@ -10,6 +10,7 @@ use super::{
     selection::{AMBER_BALL, ball, seen},
     *,
 };
+use crate::viewer::canvas::gizmo::Mode;
 use crate::viewer::panels::outliner::{Action, New};
 
 pub fn description(window: &Window) -> &SceneDescription {
@@ -53,7 +54,9 @@ fn an_albedo_that_is_changed_in_the_inspector_is_that_of_the_next_picture() {
     let mut window = window("cornell_spheres");
     let at = seen(&mut window, ball());
     click_at(&mut window, at);
-    assert_eq!(window.state().window.panel, PanelTab::Edit, "the parameters of the object are shown");
+    assert_eq!(window.state().window.panel, PanelTab::Render, "the page stays");
+    assert_eq!(window.state().selection.object(), Some(AMBER_BALL));
+    click(&mut window, "Edit");
     assert!(window.query_by_label("Parts").is_some());
     let row = window.get_all_by_role(Role::Button).find(|row| row.accesskit_node().label().as_deref() == Some("amberlambertian"));
     row.expect("the material has a row").click();
@@ -291,4 +294,130 @@ fn a_material_is_dragged_from_the_list_onto_an_object_in_the_image() {
     let from = row.expect("the material has a row").rect().center();
     edits(&mut window, "the blue ball", |window| drag(window, PointerButton::Primary, from.into(), at.into()));
     assert_eq!(description(&window).objects[AMBER_BALL].material.as_deref(), Some("blue"));
+    assert_eq!(window.state().selection.object(), Some(AMBER_BALL), "what was changed is selected");
+}
+
+#[test]
+fn a_texture_is_dragged_onto_an_object_whose_name_is_at_the_pointer_and_whose_outline_is_shown() {
+    let mut window = window("cornell_spheres");
+    window.state_mut().add(New::Texture);
+    let at = seen(&mut window, ball());
+    select(&mut window, Subject::Texture("texture".to_owned()));
+    let row = window.get_all_by_role(Role::Button).find(|row| row.accesskit_node().label().as_deref() == Some("texturechecker"));
+    let from = row.expect("the texture has a row").rect().center();
+    let press = |window: &Window, pos, pressed| {
+        window.event(egui::Event::PointerButton { pos, button: PointerButton::Primary, pressed, modifiers: Modifiers::NONE });
+    };
+    window.hover_at(from);
+    window.run_steps(2);
+    press(&window, from, true);
+    window.run_steps(1);
+    for part in [0.5, 1.0, 1.0] {
+        window.hover_at(from + (at - from) * part);
+        window.run_steps(2);
+    }
+    assert_eq!(window.state().drop_target(), Some(AMBER_BALL), "it is outlined");
+    edits(&mut window, "the checkered ball", |window| {
+        press(window, at, false);
+        window.run_steps(2);
+    });
+    let color = Path::of("materials.amber.lambertian.albedo");
+    let found = Tree::at(&mut description(&window).clone(), &color).and_then(|tree| tree.value().cloned());
+    assert_eq!(found, Some(OwnedValue::Textured(Textured::Texture("texture".to_owned()))));
+    assert_eq!(window.state().selection.object(), Some(AMBER_BALL));
+}
+
+#[test]
+fn the_icon_of_a_lamp_selects_it_on_the_page_of_the_scene() {
+    let mut window = window("cornell_spheres");
+    window.state_mut().add(New::LampWithoutSurface("point"));
+    let position = description(&window).lamps[0].position().expect("it stands somewhere");
+    let at = seen(&mut window, position);
+    for (page, selected) in [(PanelTab::Render, false), (PanelTab::Edit, true)] {
+        window.state_mut().window.panel = page;
+        window.state_mut().selection.select(None);
+        window.run_steps(2);
+        click_at(&mut window, at);
+        assert_eq!(window.state().selection.subject == Some(Subject::Lamp(0)), selected, "{page:?}");
+    }
+}
+
+#[test]
+fn a_material_names_the_objects_that_use_it_and_they_are_a_click_away() {
+    let mut window = window("cornell_spheres");
+    select(&mut window, Subject::Material("amber".to_owned()));
+    let button = |window: &Window| window.get_all_by_role_and_label(Role::Button, "amber ball").count();
+    assert_eq!(button(&window), 1);
+    window.get_by_role_and_label(Role::Button, "amber ball").click();
+    window.run_steps(3);
+    assert_eq!(window.state().selection.object(), Some(AMBER_BALL));
+    for (name, mode) in [("Rotate", Mode::Rotate), ("Scale", Mode::Scale), ("Move", Mode::Move)] {
+        click(&mut window, name);
+        assert_eq!(window.state().selection.gizmo.mode, mode);
+    }
+}
+
+#[test]
+fn shift_a_opens_the_menu_that_adds_and_letters_do_not_fly_over_a_selection() {
+    let mut window = window("cornell_spheres");
+    select(&mut window, Subject::Object(AMBER_BALL));
+    let camera = window.state().session.camera;
+    window.hover_at(Pos2::new(430.0, 430.0));
+    window.run_steps(2);
+    [Key::A, Key::W, Key::E].into_iter().for_each(|key| press(&mut window, key));
+    window.key_press_modifiers(Modifiers::SHIFT, Key::A);
+    window.run_steps(3);
+    assert_eq!(window.state().session.camera, camera, "no key flies");
+    window.get_by_role_and_label(Role::Button, "Material").click();
+    window.run_steps(3);
+    assert!(description(&window).materials.contains_key("material"));
+}
+
+#[test]
+fn undo_keeps_the_selected_object_though_its_place_in_the_list_is_another_one() {
+    let mut window = window("cornell_spheres");
+    window.state_mut().act_on(Subject::Object(0), Action::Duplicate);
+    window.state_mut().selection.select(Some(Subject::Object(AMBER_BALL + 1)));
+    window.run_steps(3);
+    undo(&mut window);
+    assert_eq!(window.state().selection.object(), Some(AMBER_BALL));
+    redo(&mut window);
+    assert_eq!(window.state().selection.object(), Some(AMBER_BALL + 1));
+    window.state_mut().selection.select(Some(Subject::Object(1)));
+    undo(&mut window);
+    assert_eq!(window.state().selection.object(), None, "it is gone");
+}
+
+#[test]
+fn the_map_of_a_color_can_be_a_new_texture() {
+    let mut window = window("cornell_spheres");
+    select(&mut window, Subject::Material("amber".to_owned()));
+    let map = window.get_all_by_role_and_label(Role::Button, "Albedo ρ").last();
+    map.expect("it is behind the color").click();
+    window.run_steps(3);
+    click(&mut window, "New noise");
+    assert!(description(&window).textures.contains_key("noise"));
+    let albedo = material(&window, "amber");
+    assert_eq!(albedo, OwnedValue::Textured(Textured::Texture("noise".to_owned())));
+}
+
+#[test]
+fn saving_says_that_the_view_is_left_out_and_can_keep_it() {
+    let mut window = window("cornell_spheres");
+    window.state_mut().session.camera.eye.y += 0.1;
+    let eye = window.state().session.camera.eye;
+    window.run_steps(2);
+    let at = seen(&mut window, ball());
+    window.state_mut().ask_where_to_save();
+    window.run_steps(3);
+    // The dialog has the mouse too.
+    click_at(&mut window, at);
+    assert_eq!(window.state().selection.subject, None);
+    check_box(&mut window, "Save this view as the scene's camera");
+    window.state_mut().keep_view();
+    assert_eq!(description(&window).camera.eye, eye);
+    let resolution = description(&window).camera.resolution;
+    assert_ne!(resolution, [96, 64], "the resolution is no part of the view");
+    window.run_steps(2);
+    wait(&mut window, "the scene with this view", |app| !app.session.view_differs());
 }

@@ -102,5 +102,5 @@ fn a_part_that_is_selected_in_the_image_is_scrolled_into_sight() {
     let marked_tabs = rows(&window);
     window.state_mut().selection.select(Some(Subject::Object(count - 1)));
     window.run_steps(30);
-    assert_eq!(rows(&window), marked_tabs + 1, "its row is shown, and marked");
+    assert_eq!(rows(&window), marked_tabs + 2, "its row is shown, and marked, and so is the mode of the handles");
 }

@@ -57,6 +57,8 @@ pub fn set_themes(ctx: &egui::Context, chosen: Option<&str>) {
     ctx.all_styles_mut(|style| {
         // The height of a list is limited by the window only.
         style.spacing.default_area_size.y = 4096.0;
+        // A menu of all kinds needs no scrolling.
+        style.spacing.combo_height = 480.0;
     });
     ctx.style_mut_of(egui::Theme::Dark, |style| {
         let visuals = &mut style.visuals;

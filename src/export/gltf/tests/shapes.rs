@@ -130,7 +130,7 @@ fn volume(data: &MeshData) -> f64 {
 fn unit_shapes_are_moved_to_their_place_and_keep_their_front() {
     let mirror = DMat3::from_cols(DVec3::new(1.0, 0.5, 0.0), DVec3::new(0.0, -2.0, 0.3), DVec3::new(0.1, 0.0, 3.0));
     let closed = [
-        (Shape::Sphere { center: DVec3::ONE, radius: 2.0 }, 4.0 / 3.0 * std::f64::consts::PI * 8.0),
+        (Shape::sphere(DVec3::ONE, 2.0), 4.0 / 3.0 * std::f64::consts::PI * 8.0),
         (Shape::Ellipsoid { center: DVec3::ZERO, axes: mirror }, 4.0 / 3.0 * std::f64::consts::PI * mirror.determinant().abs()),
         (Shape::Cuboid { origin: DVec3::X, edges: mirror }, mirror.determinant().abs()),
         (Shape::Cylinder { base: DVec3::Y, axes: mirror, capped: true }, std::f64::consts::PI * mirror.determinant().abs()),

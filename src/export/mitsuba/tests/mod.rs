@@ -4,6 +4,8 @@ mod remarks;
 
 use std::path::Path;
 
+use glam::DMat3;
+
 use crate::{
     declare::{Assets, Resources},
     export::{
@@ -22,8 +24,9 @@ fn round_trip(description: &SceneDescription, folder: &Path) -> RoundTrip {
 /// Whether two shapes are the same points with the same coordinates.
 fn same(a: &Shape, b: &Shape) -> bool {
     match (a, b) {
-        (Shape::Sphere { center: c, radius: r }, Shape::Sphere { center, radius }) => {
-            near(*c, *center) && (r / radius - 1.0).abs() < 1e-7
+        (Shape::Sphere { center: c, radius: r, turn: s }, Shape::Sphere { center, radius, turn }) => {
+            let [a, b] = [s, turn].map(|turn| turn.unwrap_or(DMat3::IDENTITY));
+            near(*c, *center) && (r / radius - 1.0).abs() < 1e-9 && a.abs_diff_eq(b, 1e-9)
         }
         (Shape::Flat { outline: o, origin: p, edges: [u, v], mirrored: m }, Shape::Flat { outline, origin, edges, mirrored }) => {
             o == outline && near(*p, *origin) && near(*u, edges[0]) && near(*v, edges[1]) && m == mirrored

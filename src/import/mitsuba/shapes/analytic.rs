@@ -10,10 +10,6 @@ use crate::{
     shape::{Sphere, cylinder::Cylinder, rectangle::Rectangle},
 };
 
-/// Ours carry coordinates about the y axis of the world. Those that are stretched carry them about their own axis, and this is far
-/// less than a pixel.
-const STRETCH: f64 = 1.0 + 1e-8;
-
 pub fn sphere(_: &mut Import, element: Element, placed: Placed) -> Result<Geometry, SceneError> {
     let center = element.vector("center")?.unwrap_or(DVec3::ZERO);
     let radius = length(element, element.number("radius", 1.0)?)?;
@@ -23,7 +19,7 @@ pub fn sphere(_: &mut Import, element: Element, placed: Placed) -> Result<Geomet
         return Ok(Geometry { shape: Sphere { center, radius }.into(), map: placed.map, flip });
     }
     // Coordinates of Mitsuba turn about z, and ours about y.
-    let turned = DMat3::from_cols(DVec3::X, DVec3::Z, DVec3::NEG_Y) * DMat3::from_diagonal(DVec3::new(1.0, STRETCH, 1.0));
+    let turned = DMat3::from_cols(DVec3::X, DVec3::Z, DVec3::NEG_Y);
     let local = DAffine3 { matrix3: turned * radius, translation: center };
     Ok(Geometry { shape: Sphere { center: DVec3::ZERO, radius: 1.0 }.into(), map: placed.map * local, flip })
 }

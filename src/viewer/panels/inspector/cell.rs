@@ -131,6 +131,7 @@ impl Cell<'_> {
             Some(references::Source::Constant) => self.set(Some(value(None))),
             Some(references::Source::Texture(name)) => self.set(Some(value(Some(name)))),
             Some(references::Source::Shown(request)) => self.request = Some(request),
+            Some(references::Source::New(kind)) => self.request = Some(Request::NewTexture { path: self.path.clone(), kind }),
             Some(references::Source::File) => self.request = Some(Request::BrowseTexture { path: self.path.clone() }),
             None => {}
         }

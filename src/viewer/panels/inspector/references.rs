@@ -13,7 +13,12 @@ pub enum Source {
     Texture(String),
     /// An image file that the user chooses next.
     File,
+    /// A new texture of a kind.
+    New(&'static str),
 }
+
+/// Kinds of textures that need neither a file nor other textures.
+const NEW: [(&str, &str); 2] = [("New checker", "checker"), ("New noise", "noise")];
 
 const FROM_FILE: &str = "From a file…";
 
@@ -97,6 +102,11 @@ fn entries(ui: &mut Ui, current: Option<&str>, surroundings: &Surroundings) -> O
         let is_current = current == Some(name);
         if ui.add(Button::selectable(is_current, name)).clicked() && !is_current {
             chosen = Some(Source::Texture(name.clone()));
+        }
+    }
+    for (title, kind) in NEW {
+        if ui.button(title).clicked() {
+            chosen = Some(Source::New(kind));
         }
     }
     if ui.button(FROM_FILE).clicked() {

@@ -35,6 +35,8 @@ pub enum Request {
     BrowseFile { path: Path },
     /// Let the user choose an image file, make a texture of it, and set the value to its name.
     BrowseTexture { path: Path },
+    /// Make a texture of this kind, and set the value to its name.
+    NewTexture { path: Path, kind: &'static str },
     /// Show the parameters of the material or texture of this name.
     Show { family: Family, name: String },
 }

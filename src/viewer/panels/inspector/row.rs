@@ -30,7 +30,8 @@ impl Heading {
     pub fn of(parameter: &Parameter, mark: Mark) -> Heading {
         let symbol = if parameter.symbol.is_empty() { String::new() } else { format!(" {}", parameter.symbol) };
         let unit = if parameter.unit.is_empty() { String::new() } else { format!("\nUnit: {}", parameter.unit) };
-        Heading { title: parameter.label() + &symbol, tooltip: format!("{}{unit}", parameter.doc), mark }
+        let degrees = if parameter.unit == "°" { " (°)" } else { "" };
+        Heading { title: parameter.label() + &symbol + degrees, tooltip: format!("{}{unit}", parameter.doc), mark }
     }
 
     /// Shows the label with its mark in a row, with a control behind it. Returns whether the mark was clicked.
@@ -68,7 +69,7 @@ impl Heading {
             let is_clicked = checkbox.clicked();
             return (checkbox, is_clicked);
         }
-        let label = ui.add(Label::new(text).truncate().show_tooltip_when_elided(false));
+        let label = ui.add(Label::new(text).wrap());
         (label.on_hover_text(self.hover_text()), is_removed)
     }
 }

@@ -9,7 +9,7 @@ use noisefall::{
     texture::TextureKind,
 };
 
-use super::{Asked, Drag, Inspector, Request, Surroundings, row::capital};
+use super::{Asked, Drag, Inspector, Request, Surroundings};
 
 struct State<T> {
     part: T,
@@ -79,7 +79,10 @@ fn every_parameter_of_every_kind_has_a_row() {
             alternative.chosen(&mut keys);
             let panel = inspect(Kind(alternative));
             for key in keys.0 {
-                assert!(panel.query_all_by_label_contains(&capital(key)).count() > 0, "{name} has no row for {key}");
+                assert!(
+                    panel.query_all_by_label_contains(&Parameter::new(key, "").label()).count() > 0,
+                    "{name} has no row for {key}"
+                );
             }
             assert!(panel.state().asked.is_empty(), "looking at {name} changes nothing");
         }

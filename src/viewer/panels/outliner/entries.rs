@@ -54,7 +54,7 @@ pub fn groups(description: &SceneDescription, search: &str) -> Vec<Group> {
 
 fn of_object(place: usize, object: &ObjectDescription) -> Entry {
     let name = if object.name.is_empty() { format!("object {}", place + 1) } else { object.name.clone() };
-    let material = object.material.as_deref().unwrap_or("black");
+    let material = object.material.as_deref().unwrap_or("no material");
     let kind = format!("{}, {material}", object.shape.name().replace('_', " "));
     Entry { subject: Subject::Object(place), name, given_name: object.name.clone(), kind }
 }
@@ -132,6 +132,6 @@ mod tests {
     #[test]
     fn an_object_says_its_shape_and_its_material() {
         let kinds: Vec<String> = groups(&room(), "").remove(0).entries.into_iter().map(|entry| entry.kind).collect();
-        assert_eq!(kinds, ["sphere, white", "sphere, black"]);
+        assert_eq!(kinds, ["sphere, white", "sphere, no material"]);
     }
 }

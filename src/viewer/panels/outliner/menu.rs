@@ -27,8 +27,21 @@ pub enum Action {
     ChangeKind(&'static str),
     /// Give it a material; `None` is black.
     AssignMaterial(Option<String>),
+    /// Make a texture the colour of its material.
+    AssignTexture(String),
     /// Give the scene a background.
     AddBackground,
+}
+
+impl Action {
+    /// What a part that is dropped on an object does to it.
+    pub fn assigns(dropped: &Subject) -> Option<Action> {
+        match dropped {
+            Subject::Material(name) => Some(Action::AssignMaterial(Some(name.clone()))),
+            Subject::Texture(name) => Some(Action::AssignTexture(name.clone())),
+            _ => None,
+        }
+    }
 }
 
 /// A part to add to the scene.

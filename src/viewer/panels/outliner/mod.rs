@@ -11,7 +11,7 @@ mod menu;
 #[cfg(test)]
 mod tests;
 
-use std::{ops::Range, sync::Arc};
+use std::ops::Range;
 
 use egui::{CollapsingHeader, Rect, RichText, ScrollArea, Sense, TextEdit, Ui, UiBuilder, pos2, vec2};
 use noisefall::scene::description::SceneDescription;
@@ -116,8 +116,8 @@ impl Outliner {
         if self.renamed.as_ref() == Some(subject) {
             return self.name_field(ui, entry, asked);
         }
-        let is_material = matches!(subject, Subject::Material(_));
-        let advice = if is_material { "\nDrag it onto an object, here or in the image, to assign it." } else { "" };
+        let is_dragged = matches!(subject, Subject::Material(_) | Subject::Texture(_));
+        let advice = if is_dragged { "\nDrag it onto an object, here or in the image, to assign it." } else { "" };
         let text = format!("{}  {}{advice}", entry.name, entry.kind);
         let row = egui::Button::selectable(is_selected, entry.text(ui.visuals()));
         let row = row.sense(Sense::click_and_drag()).truncate().min_size(vec2(ui.available_width(), ROW - GAP));
@@ -128,16 +128,15 @@ impl Outliner {
         if row.double_clicked() && can_rename(subject) {
             self.renamed = Some(subject.clone());
         }
-        // A material is assigned by dragging it onto an object, here or in the image.
-        if let Subject::Material(name) = subject {
-            row.dnd_set_drag_payload(name.clone());
+        // A material or a texture is assigned by dragging it onto an object, here or in the image.
+        if is_dragged {
+            row.dnd_set_drag_payload(subject.clone());
         }
-        if matches!(subject, Subject::Object(_)) && row.dnd_hover_payload::<String>().is_some() {
+        if matches!(subject, Subject::Object(_)) && row.dnd_hover_payload::<Subject>().is_some() {
             ui.painter().rect_stroke(row.rect, 2.0, (1.5, ui.visuals().accent()), egui::StrokeKind::Inside);
-            if let Some(material) = row.dnd_release_payload::<String>() {
-                let material = Some(Arc::unwrap_or_clone(material));
-                asked.action = Some((subject.clone(), Action::AssignMaterial(material)));
-            }
+            let released = row.dnd_release_payload::<Subject>().and_then(|dragged| Action::assigns(&dragged));
+            asked.action = released.map(|action| (subject.clone(), action)).or(asked.action.take());
+            asked.selected = asked.action.as_ref().map(|_| subject.clone()).or(asked.selected.take());
         }
         row.context_menu(|ui| {
             if let Some(action) = menu.show(ui, entry) {
