@@ -72,8 +72,13 @@ pub fn replace_by(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<
 fn failed(path: &Path, error: &io::Error) -> WriteError {
     // Some errors name the temporary file, which says nothing to anybody.
     let reason = error.to_string();
-    let reason = reason.split(" at path ").next().unwrap_or_default().to_owned();
-    WriteError::Failed { path: path.to_owned(), reason }
+    let reason = reason.split(" at path ").next().unwrap_or_default();
+    let remedy = match error.kind() {
+        ErrorKind::StorageFull | ErrorKind::QuotaExceeded => ": free some space there, or choose another disk",
+        ErrorKind::ReadOnlyFilesystem | ErrorKind::PermissionDenied => ": choose another folder",
+        _ => "",
+    };
+    WriteError::Failed { path: path.to_owned(), reason: format!("{reason}{remedy}") }
 }
 
 /// A writer whose bytes survive a loss of power after a sync.

@@ -56,11 +56,21 @@ impl Budget {
     }
 }
 
-/// Whether the estimated noise of an image is reliably at most `goal`.
+/// Minimum number of samples for a noise target. With fewer, pixels that no light has reached yet look free of noise.
+const LEAST_SPP: u32 = 64;
+
+/// Whether the estimated noise of an image is reliably at most `goal`. It is looked at only at some sample counts, so that where a
+/// render stops does not depend on the length of its passes.
 pub(super) fn is_below(goal: f64, spp: u32, rel_mse_estimate: Option<f64>) -> bool {
-    /// Minimum number of samples. With fewer, pixels that no light has reached yet look free of noise.
-    const LEAST_SPP: u32 = 64;
-    spp >= LEAST_SPP && rel_mse_estimate.is_some_and(|rel_mse| rel_mse.sqrt() <= goal)
+    let is_looked_at = spp >= LEAST_SPP && spp == next_look(spp - 1);
+    is_looked_at && rel_mse_estimate.is_some_and(|rel_mse| rel_mse.sqrt() <= goal)
+}
+
+/// The next sample count above `spp` at which a noise target looks at the noise: 16 between one power of two and the next.
+pub(super) fn next_look(spp: u32) -> u32 {
+    let next = spp.saturating_add(1).max(LEAST_SPP);
+    let step = (LEAST_SPP / 16) << (next / LEAST_SPP).ilog2();
+    next.checked_next_multiple_of(step).unwrap_or(u32::MAX)
 }
 
 /// Role of a rendered image.
@@ -175,7 +185,9 @@ mod tests {
         assert_eq!(noise.target(64, second, Some(0.0099)), Some(Target::Noise(0.1)));
         assert_eq!(noise.target(64, second, Some(0.0101)), None);
         assert_eq!(noise.target(63, second, Some(0.0)), None, "too early to be believed");
-        assert_eq!(noise.target(1000, second, None), None);
+        assert_eq!(noise.target(1024, second, None), None);
+        assert_eq!([66, 68, 130, 136].map(|spp| noise.target(spp, second, Some(0.0)).is_some()), [false, true, false, true]);
+        assert_eq!([0, 63, 64, 127, 128, 1000, u32::MAX].map(next_look), [64, 64, 68, 128, 136, 1024, u32::MAX]);
         let all = budget(Some(100), Some(second), Some(0.1));
         assert_eq!(all.target(80, second / 2, Some(0.0)), Some(Target::Noise(0.1)));
         assert_eq!(all.target(80, second, Some(1.0)), Some(Target::Time));

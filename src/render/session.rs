@@ -9,10 +9,11 @@ pub(super) use self::kept::KeptSessions;
 use super::{
     block::UNIFORM,
     coarse::Coarse,
+    error_estimator::rel_mse_estimate,
     film::Film,
     halves::Halves,
     pass::{Failure, PassCount, SampleId},
-    protocol::{Budget, Publish, RenderRequest, State, is_below},
+    protocol::{Budget, Publish, RenderRequest, State, is_below, next_look},
     region::Region,
     sharing::resolved_unless,
     splats::SplatFilm,
@@ -160,13 +161,22 @@ impl Session {
         let spp = self.film.spp();
         if let Some(failure) = &self.count.failure {
             State::Failed(failure.clone())
-        } else if let Some(target) = budget.target(spp, self.elapsed, self.rel_mse_estimate) {
+        } else if let Some(target) = budget.target(spp, self.elapsed, self.noise_to_look_at(budget)) {
             State::Done(target)
         } else if budget.paused && budget.steps <= self.steps_done && (spp > 0 || self.takes_long()) {
             State::Paused
         } else {
             State::Running
         }
+    }
+
+    /// The estimated relMSE of the samples so far, if a target asks for it. That of the last frame may be of fewer.
+    fn noise_to_look_at(&self, budget: &Budget) -> Option<f64> {
+        let spp = self.film.spp();
+        budget
+            .noise
+            .filter(|goal| is_below(*goal, spp, Some(0.0)) && self.coarse.is_none())
+            .and_then(|_| rel_mse_estimate(&self.film))
     }
 
     /// The region to render before the rest, until it reaches the samples or the noise of the budget. Every pixel has its first
@@ -252,7 +262,9 @@ impl Session {
 
     /// The samples of every pixel after the next pass.
     fn target_of_pass(&self, budget: &Budget, publish: Publish) -> u32 {
-        let target = self.spp_in_focus() + self.spp_of_pass(budget, publish);
+        let spp = self.spp_in_focus();
+        let target = spp + self.spp_of_pass(budget, publish);
+        let target = budget.noise.map_or(target, |_| target.min(next_look(spp)));
         // The first doubling of the average ends together for all blocks, so that records of noise do not depend on the passes.
         let first = if self.request.settings.adaptive && target > UNIFORM { target.max(2 * UNIFORM) } else { target };
         budget.max_spp.map_or(first, |most| first.min(most.max(target)))

@@ -101,10 +101,13 @@ impl Export<'_> {
             }
         };
         let [width, height] = camera.resolution.map(i64::from);
+        // Pixels at the border have samples from beyond it, too.
+        let samples_border = camera.filter != Filter::Box;
         Element::plugin("film", "hdrfilm")
             .integer("width", width)
             .integer("height", height)
             .text("pixel_format", "rgb")
+            .flag("sample_border", samples_border)
             .with(filter)
     }
 }

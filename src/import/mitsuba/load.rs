@@ -82,6 +82,11 @@ pub fn load(path: &Path, options: &ImportOptions, folder: &Folder) -> Result<(Tr
         main: path,
     };
     loader.read(path, None, 0, false)?;
+    let unused = options.defines.iter().find(|(name, _)| loader.parameters.is_unused(name));
+    if let Some((name, _)) = unused {
+        let message = format!("the scene has no parameter `${name}`");
+        return Err(SceneError::of_file(path, message, format!("leave out `-D {name}=…`, or check its spelling")));
+    }
     match loader.tree.nodes.first() {
         Some(root) if root.tag == "scene" => Ok((loader.tree, loader.files)),
         _ => Err(SceneError::of_file(path, "the root element is not `<scene>`", "a scene of Mitsuba begins with `<scene>`")),

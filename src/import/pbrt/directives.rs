@@ -172,7 +172,10 @@ impl Interpreter {
             "AreaLightSource" => self.state.area_light = Some(entity),
             "Material" => self.state.material = self.import.declare_material(entity),
             "MakeNamedMaterial" => self.import.declare_named_material(entity),
-            "MakeNamedMedium" => drop(self.import.media.insert(entity.kind.clone(), entity)),
+            "MakeNamedMedium" => {
+                self.import.remark(&entity, "nothing", "surfaces in a medium that scatters or absorbs are refused");
+                self.import.media.insert(entity.kind.clone(), entity);
+            }
             _ => {}
         }
         Ok(())

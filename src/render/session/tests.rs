@@ -207,3 +207,19 @@ fn a_pause_waits_for_the_first_sample_but_not_for_long() {
     session.advance(&threads(), &paused, Publish::Sparse, NEVER);
     assert_eq!(session.film.spp(), 1);
 }
+
+#[test]
+fn a_noise_target_ends_at_the_same_count_however_long_passes_are() {
+    let threads = threads();
+    let ends = [Some(1e4), Some(1e6), None].map(|rate| {
+        let budget = Budget { noise: Some(0.12), ..Budget::default() };
+        let mut session = session([32, 32], Publish::Sparse, rate);
+        while session.state(&budget) == State::Running {
+            session.rate = rate.or(session.rate);
+            session.advance(&threads, &budget, Publish::Sparse, NEVER);
+        }
+        assert_eq!(session.state(&budget), State::Done(Target::Noise(0.12)));
+        session.film.spp()
+    });
+    assert!(ends[0] > 64 && ends == [ends[0]; 3], "{ends:?}");
+}
