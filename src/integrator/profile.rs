@@ -3,9 +3,8 @@ use std::time::{Duration, Instant};
 
 use super::{
     batch::Batch,
-    interrupted::Interrupted,
     records::Path,
-    trace::{Observer, PathStage, trace_in},
+    trace::{Interrupted, Observer, PathStage, trace_in},
     work::Work,
 };
 use crate::{

@@ -2,8 +2,7 @@
 //! Tᵏ Lₑ (J. Kajiya, "The Rendering Equation", SIGGRAPH 1986).
 use super::{
     batch::Batch,
-    interrupted::Interrupted,
-    trace::{Observer, trace_in},
+    trace::{Interrupted, Observer, trace_in},
     work::Work,
 };
 use crate::math::{SimdLevel, colour::luminance, in_lanes};

@@ -16,12 +16,11 @@ use super::{
     protocol::{Budget, Publish, RenderRequest, State, is_below, next_look},
     region::Region,
     sharing::resolved_unless,
-    splats::SplatFilm,
     threads::{PassJob, Threads},
 };
 use crate::{
     memory::{Reservation, TooMuch},
-    scene::{Estimator, RenderSettings, Reuse},
+    scene::{RenderSettings, Reuse},
 };
 
 /// Camera samples per second before the first measurement: those of a slow machine with a simple scene.
@@ -87,10 +86,6 @@ impl Session {
             request,
         };
         session.keep(0, memory);
-        let RenderRequest { scene, camera, settings } = &session.request;
-        if scene.traces_light_paths(settings) || settings.estimator == Estimator::Auto {
-            session.keep(1, SplatFilm::reserve(camera.resolution));
-        }
         session
     }
 

@@ -32,7 +32,7 @@ pub(super) use self::{
 };
 pub use self::{
     compiled::{Lamp, Picture},
-    table::{LampRay, Lamps},
+    table::Lamps,
 };
 use crate::declare::{Declare, Parameters, Problem, Resources};
 
