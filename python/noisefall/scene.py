@@ -14,7 +14,7 @@ from . import _noisefall, description
 from .image import Image
 from .path import Path
 
-Estimator = Literal["path", "light", "mis"]
+Estimator = Literal["path", "light", "mis", "caustics", "forward", "bidirectional", "auto"]
 Directions = Literal["uniform", "cosine", "bsdf"]
 Sampler = Literal["independent", "stratified", "sobol", "bluenoise"]
 Reuse = Literal["auto", "on", "off"]

@@ -13,9 +13,9 @@ use std::{
 
 use noisefall::{
     math::SimdLevel,
-    render::{Budget, Display, RenderRequest, image_file::Format, threads::Threads, truth::Reference},
+    render::{Budget, Display, RenderRequest, image_file::Format, sharing::resolved, threads::Threads, truth::Reference},
     render_file::Target,
-    scene::Scene,
+    scene::{Estimator, Scene},
 };
 
 pub use self::arguments::Arguments;
@@ -70,9 +70,14 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let mismatch = reference.as_ref().and_then(|truth| truth.mismatch(camera.resolution));
     mismatch.iter().for_each(|mismatch| tell(&format!("note: {mismatch}")));
     let infinite = scene.infinite_variance(&settings);
-    scene.warnings().iter().chain(&infinite).for_each(|warning| tell(&format!("note: {warning}")));
+    let missing = scene.lacks_light_paths(&settings);
+    scene.warnings().iter().chain(&infinite).chain(&missing).for_each(|warning| tell(&format!("note: {warning}")));
     let threads = || Threads::new(arguments.threads.into(), SimdLevel::best()).map_err(|error| error.to_string());
     let of_images = threads()?;
+    if settings.estimator == Estimator::Auto {
+        of_images.install(|| resolved(&scene, &scene.rays(&camera), &settings));
+        scene.estimator_in_force(&settings).iter().for_each(|chosen| tell(&format!("note: estimator `auto` is {chosen}")));
+    }
     let request = RenderRequest { scene: scene.clone(), camera, settings };
     let keeping =
         arguments.keep.keeping((&request, description.as_deref(), &path), &arguments.options, &budget, resumed, &of_images)?;

@@ -74,7 +74,9 @@ impl SampleJob {
     /// Renders the samples of each image.
     pub fn run(&self, shots: &[Shot]) -> Result<ExitCode, Failure> {
         let infinite = self.scene.infinite_variance(&self.settings);
-        self.scene.warnings().iter().chain(&infinite).for_each(|warning| tell(&format!("note: {warning}")));
+        let missing = self.scene.lacks_light_paths(&self.settings);
+        let warnings = self.scene.warnings().iter().chain(&infinite).chain(&missing);
+        warnings.for_each(|warning| tell(&format!("note: {warning}")));
         let stop = stop_signal("interrupted: writing the samples so far (interrupt again to stop at once)")?;
         for shot in shots {
             let check = |path: &Path| match is_sample_file(&shot.output) {

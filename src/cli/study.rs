@@ -115,7 +115,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
 impl Arguments {
     fn plan(&self) -> Plan {
         let usual = Lists {
-            estimators: Estimator::ALL.to_vec(),
+            estimators: vec![Estimator::Path, Estimator::Light, Estimator::Mis],
             directions: Directions::ALL.to_vec(),
             samplers: vec![Sampler::Independent, Sampler::Stratified, Sampler::Sobol],
             roulettes: vec![Roulette::Off, Roulette::fixed(0.8), Roulette::BY_THROUGHPUT],

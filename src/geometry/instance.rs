@@ -228,6 +228,33 @@ impl Instance {
         pdf * stretch(&transform, wi)
     }
 
+    /// A point of a primitive; see [`super::Shapes::sample_area`].
+    #[simd]
+    pub fn sample_area<L: Lanes>(&self, l: L, place: &PrimitiveRef<L>, u: (F<L>, F<L>)) -> V<L> {
+        let local = match &self.body {
+            Body::Mesh(mesh) => mesh.sample_area(l, place.element, u),
+            // Light that leaves an isosurface is not sampled.
+            Body::Isosurface(_) => V::splat(l, [0.0; 3]),
+            Body::Shape(tables, _) => tables.sample_area(l, self.piece(place), u),
+        };
+        self.transform(l, place.time).point_to_world(local)
+    }
+
+    /// The pdf of [`Instance::sample_area`] per area. A map of the axes A turns an area with the unit normal n into |det A|/|Aᵀ n| of it.
+    #[simd]
+    pub fn area_pdf<L: Lanes>(&self, l: L, place: &PrimitiveRef<L>, point: &SurfacePoint<L>) -> F<L> {
+        let transform = self.transform(l, place.time);
+        let local = match &self.body {
+            Body::Mesh(mesh) => mesh.area_pdf(l, place.element),
+            Body::Isosurface(_) => l.f(0.0),
+            Body::Shape(tables, _) => tables.area_pdf(l, self.piece(place), transform.point_to_local(point.p)),
+        };
+        let [a, b, c] = transform.axes;
+        let n = point.n_geometric;
+        let along = V { x: a.dot(n), y: b.dot(n), z: c.dot(n) };
+        local * along.length_squared().sqrt() / a.dot(b.cross(c)).abs()
+    }
+
     #[inline(always)]
     fn piece<L: Lanes>(&self, place: &PrimitiveRef<L>) -> U<L> {
         place.primitive + self.first.wrapping_neg()

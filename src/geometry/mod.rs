@@ -17,6 +17,7 @@
 //! near (`clusters.rs`), and descends a tree over the others (`objects.rs`). The surface that it hits is looked up in
 //! `tables.rs`. Meshes, isosurfaces and moving shapes have a local space (`instance.rs`). [`Shapes`] holds all of them. The compile of
 //! a changed scene compares shapes bit for bit (`identity.rs`) and reuses the trees of meshes (`mesh_trees.rs`).
+mod area_sample;
 mod bounding_sphere;
 mod bounds;
 mod bvh;

@@ -24,6 +24,22 @@ impl Motion {
         (transform.point_to_world(o), transform.vector_to_world(d).normalized())
     }
 
+    /// The point at time 0 that is carried to `p`.
+    #[inline(always)]
+    pub fn carry_back<L: Lanes>(&self, l: L, p: V<L>, time: F<L>) -> V<L> {
+        LaneTransform::new(l, &StaticTransform::IDENTITY, &self.0, time).point_to_local(p)
+    }
+
+    /// Transforms a vector to `time`, and returns how many times smaller areas across it become.
+    #[inline(always)]
+    pub fn carry_vector<L: Lanes>(&self, l: L, v: V<L>, time: F<L>) -> (V<L>, F<L>) {
+        let transform = LaneTransform::new(l, &StaticTransform::IDENTITY, &self.0, time);
+        let carried = transform.vector_to_world(v);
+        let [a, b, c] = transform.axes;
+        let longer = (carried.length_squared() / v.length_squared()).sqrt();
+        (carried, longer / a.dot(b.cross(c)).abs())
+    }
+
     /// Whether the transform is invertible at all times; tests many of them.
     pub fn is_invertible(&self) -> bool {
         const TIMES: u32 = 256;

@@ -192,6 +192,14 @@ impl<L: Lanes> Local<L> {
         self.m + self.local(x)
     }
 
+    /// The point in world space at a position on the unit sphere or the unit cylinder.
+    #[inline(always)]
+    pub fn world(&self, place: V<L>) -> V<L> {
+        let [a, b, c] = self.axes();
+        let way = place - self.m;
+        self.anchor + (a * way.x + (b * way.y + c * way.z))
+    }
+
     /// Gᵀ times the position, without the height of cylinders: along the outward normal.
     #[inline(always)]
     pub fn gradient(&self, place: V<L>) -> V<L> {

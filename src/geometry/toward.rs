@@ -110,22 +110,27 @@ impl<L: Lanes> SeenFlat<L> {
     /// The vector to a uniformly sampled point of the area.
     #[inline(always)]
     fn uniform_over_area(&self, u: (F<L>, F<L>)) -> V<L> {
-        let [to_u, to_v, a, b] = self.rows;
-        let outline = a[3];
-        let (mut s, mut t) = u;
-        let is_ellipse = is_ellipse(outline);
-        if is_ellipse.any() {
-            let (disk_u, disk_v, _) = disk(u);
-            (s, t) = (is_ellipse.pick(disk_u, s), is_ellipse.pick(disk_v, t));
-        }
-        let is_triangle = outline.above(Outline::Parallelogram as u32 as f32) & !is_ellipse;
-        if is_triangle.any() {
-            let (triangle_u, triangle_v) = triangle(u);
-            (s, t) = (is_triangle.pick(triangle_u, s), is_triangle.pick(triangle_v, t));
-        }
-        let (s, t) = (s - to_u[3], t - to_v[3]);
-        V { x: a[0], y: a[1], z: a[2] } * s + V { x: b[0], y: b[1], z: b[2] } * t - self.from_anchor
+        uniform_on_flat(&self.rows, u) - self.from_anchor
     }
+}
+
+/// The vector from the anchor of flat shapes with these rows to a uniformly sampled point of the area.
+#[inline(always)]
+pub(super) fn uniform_on_flat<L: Lanes>([to_u, to_v, a, b]: &[[F<L>; 4]; 4], u: (F<L>, F<L>)) -> V<L> {
+    let outline = a[3];
+    let (mut s, mut t) = u;
+    let is_ellipse = is_ellipse(outline);
+    if is_ellipse.any() {
+        let (disk_u, disk_v, _) = disk(u);
+        (s, t) = (is_ellipse.pick(disk_u, s), is_ellipse.pick(disk_v, t));
+    }
+    let is_triangle = outline.above(Outline::Parallelogram as u32 as f32) & !is_ellipse;
+    if is_triangle.any() {
+        let (triangle_u, triangle_v) = triangle(u);
+        (s, t) = (is_triangle.pick(triangle_u, s), is_triangle.pick(triangle_v, t));
+    }
+    let (s, t) = (s - to_u[3], t - to_v[3]);
+    V { x: a[0], y: a[1], z: a[2] } * s + V { x: b[0], y: b[1], z: b[2] } * t
 }
 
 #[inline(always)]

@@ -1,6 +1,7 @@
 //! The queues of one thread, which hold the paths of a batch between stages.
 use super::{
     first_hits::FirstHits,
+    light_paths::{paths::LightPaths, splat::Splat},
     queues::{HitQueues, PathQueues, ShadowQueues},
     shared::Shared,
     slots::SLOTS,
@@ -25,6 +26,10 @@ pub struct Batch {
     pub(super) bounce: u32,
     /// Rays traced: path segments, shadow rays and visibility rays of path reuse.
     pub rays: u64,
+    /// Light that the paths from lights bring to any pixel, after a trace with such paths.
+    pub splats: Vec<Splat>,
+    /// Queues of paths from both ends, after the first trace with such paths.
+    pub(super) light_paths: Option<Box<LightPaths>>,
     /// Paths cut at [`crate::scene::RenderSettings::last_bounce`] in the absence of a cap.
     pub cut_paths: u64,
 }
@@ -40,6 +45,8 @@ impl Default for Batch {
             shared: Shared::default(),
             bounce: 0,
             rays: 0,
+            splats: Vec::new(),
+            light_paths: None,
             cut_paths: 0,
         }
     }

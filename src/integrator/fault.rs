@@ -3,11 +3,12 @@
 //! [`trace`] decorates the path loop: it changes the cap, and the throughput of paths between two bounces.
 use super::{
     batch::Batch,
+    interrupted::Interrupted,
     queue::Queue,
     records::{Hit, Path},
     shading::{Reflected, Shading, shares_first},
     slots::SLOTS,
-    trace::{self, Interrupted, Observer, trace_in},
+    trace::{self, Observer, trace_in},
     work::Work,
 };
 use crate::{

@@ -4,6 +4,7 @@
 //! registers that reads a dense queue and appends to the next. The bounce is the same for a whole batch, so all that depends on
 //! it (the sampler's dimension, the cap, whether roulette has begun) is decided once per stage and not once per path.
 mod batch;
+mod bidirectional;
 mod collision;
 mod coordinates;
 #[cfg(test)]
@@ -11,7 +12,9 @@ mod fault;
 mod features;
 mod first_hits;
 mod interaction;
+mod interrupted;
 mod intersect;
+mod light_paths;
 mod light_sample;
 mod media;
 mod meet;
@@ -48,6 +51,8 @@ pub use self::{
     batch::Batch,
     collision::{clear_fraction, is_blind},
     features::{Features, features},
+    interrupted::Interrupted,
+    light_paths::splat::Splat,
     profile::{CountedRays, Profile, StageCost, trace_profiled},
     replay::{
         EmitterHit, End, Outcome, Reflection, Replay, SampledLight, SharedLight, Surface, Vertex, pixel_samples, replay,
@@ -55,6 +60,6 @@ pub use self::{
     },
     series::{SHARES, TERMS, Terms, trace_series},
     slots::{BLOCK, BLOCKS, TILE},
-    trace::{Interrupted, PathStage, Segments, trace_counting},
+    trace::{PathStage, Segments, trace_counting},
     work::{Blocks, Work},
 };

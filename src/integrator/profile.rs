@@ -3,8 +3,9 @@ use std::time::{Duration, Instant};
 
 use super::{
     batch::Batch,
+    interrupted::Interrupted,
     records::Path,
-    trace::{Interrupted, Observer, PathStage, trace_in},
+    trace::{Observer, PathStage, trace_in},
     work::Work,
 };
 use crate::{

@@ -2,7 +2,8 @@
 //! Tᵏ Lₑ (J. Kajiya, "The Rendering Equation", SIGGRAPH 1986).
 use super::{
     batch::Batch,
-    trace::{Interrupted, Observer, trace_in},
+    interrupted::Interrupted,
+    trace::{Observer, trace_in},
     work::Work,
 };
 use crate::math::{SimdLevel, colour::luminance, in_lanes};

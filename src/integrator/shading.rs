@@ -65,38 +65,8 @@ impl<'a, L: Lanes, K: Shade> Shading<'a, L, K> {
         let hit = Hit::read(l, &queues.hits, start);
         let coordinates_of = if K::DETAILED { ReflectionCoordinates::call_of } else { ReflectionCoordinates::of };
         let coordinates = coordinates_of(l, work, hit.slot, reflection, K::LOBES);
-        let mut chart = None;
-        let vertex = if K::DETAILED {
-            let mut detail = Detail::read(l, &queues.details, start);
-            // Lanes past the end may say anything: they take a material of this kind, whose rows can be read as such.
-            detail.surface = live.pick(detail.surface, l.u(detail.surface.to_array()[0]));
-            if K::CHARTED && work.scene.surfaces.charted {
-                chart = Some(Chart::read(l, &queues.charts, start));
-            }
-            let mut vertex = Vertex::detailed(&hit, &detail);
-            if let Some(chart) = &chart {
-                vertex.align::<K>(l, work, &detail, chart);
-            }
-            vertex
-        } else {
-            Vertex::plain(l, &hit)
-        };
-        let (materials, directions) = (&work.scene.surfaces.materials, work.settings.directions);
-        let mut bsdf = if K::CHARTED {
-            let colour = chart.as_ref().map(|Chart { vertex: V { x, y, z }, vertex_opacity, .. }| [*x, *y, *z, *vertex_opacity]);
-            let lookup = match &chart {
-                Some(Chart { u, v, .. }) => {
-                    Some((&work.scene.textures, TextureCoordinates { u: *u, v: *v, p: hit.p, vertex: colour.as_ref() }))
-                }
-                None => None,
-            };
-            K::at_chart(l, materials, directions, &vertex.local, lookup)
-        } else {
-            K::at(l, materials, directions, &vertex.local)
-        };
-        if K::HAS_TRANSMITTANCE {
-            bsdf = K::with_transmittance(bsdf, Transmittance::read(l, &queues.transmittances, start).colour);
-        }
+        let (vertex, chart) = read_vertex::<L, K>(l, work, queues, Register { start, live }, &hit);
+        let bsdf = read_bsdf::<L, K>(l, work, queues, start, &hit, &vertex.local, chart.as_ref());
         let normal_shadowing = if K::DETAILED && work.scene.surfaces.normal_shadowing {
             Some(NormalShadowing::read(l, &queues.normal_shadowing, start))
         } else {
@@ -170,16 +140,70 @@ impl<'a, L: Lanes, K: Shade> Shading<'a, L, K> {
     }
 }
 
+/// The vertices of a register of hits, and their charts if their kind needs them.
+#[inline(always)]
+pub(super) fn read_vertex<L: Lanes, K: Shade>(
+    l: L,
+    work: &Work,
+    queues: &HitQueues,
+    Register { start, live }: Register<L>,
+    hit: &Hit<L>,
+) -> (Vertex<L>, Option<Chart<L>>) {
+    if !K::DETAILED {
+        return (Vertex::plain(l, hit), None);
+    }
+    let mut detail = Detail::read(l, &queues.details, start);
+    // Lanes past the end may say anything: they take a material of this kind, whose rows can be read as such.
+    detail.surface = live.pick(detail.surface, l.u(detail.surface.to_array()[0]));
+    let mut vertex = Vertex::detailed(hit, &detail);
+    if !(K::CHARTED && work.scene.surfaces.charted) {
+        return (vertex, None);
+    }
+    let chart = Chart::read(l, &queues.charts, start);
+    vertex.align::<K>(l, work, &detail, &chart);
+    (vertex, Some(chart))
+}
+
+/// The BSDFs of the hits from index `start` on.
+#[inline(always)]
+pub(super) fn read_bsdf<'a, L: Lanes, K: Shade>(
+    l: L,
+    work: &Work<'a>,
+    queues: &HitQueues,
+    start: usize,
+    hit: &Hit<L>,
+    local: &Local<L>,
+    chart: Option<&Chart<L>>,
+) -> K::Bsdf<'a, L> {
+    let (materials, directions) = (&work.scene.surfaces.materials, work.settings.directions);
+    let bsdf = if K::CHARTED {
+        let colour = chart.map(|Chart { vertex: V { x, y, z }, vertex_opacity, .. }| [*x, *y, *z, *vertex_opacity]);
+        let lookup = match chart {
+            Some(Chart { u, v, .. }) => {
+                Some((&work.scene.textures, TextureCoordinates { u: *u, v: *v, p: hit.p, vertex: colour.as_ref() }))
+            }
+            None => None,
+        };
+        K::at_chart(l, materials, directions, local, lookup)
+    } else {
+        K::at(l, materials, directions, local)
+    };
+    if K::HAS_TRANSMITTANCE {
+        return K::with_transmittance(bsdf, Transmittance::read(l, &queues.transmittances, start).colour);
+    }
+    bsdf
+}
+
 /// A surface point to shade.
 pub(super) struct Vertex<L: Lanes> {
-    frame: Frame<L>,
+    pub frame: Frame<L>,
     /// Shading normal on the viewer's side.
     pub n: V<L>,
     /// Direction to the viewer, in the local frame.
     pub wo: V<L>,
     /// Offset of the origin of rays from the surface.
     error: F<L>,
-    local: Local<L>,
+    pub local: Local<L>,
     /// See [`surface::SELF_LIT`].
     pub self_lit: M<L>,
     /// See [`surface::SHEET`].
@@ -255,7 +279,7 @@ impl<L: Lanes> Vertex<L> {
     /// The origin of a ray in the world-space direction `d`, and whether it leaves on the side of the shading normal; `z` is its
     /// height over that normal. Light that would leak through the surface because the two normals differ is dropped.
     #[inline(always)]
-    fn leave<K: Shade>(&self, hit: &Hit<L>, d: V<L>, z: F<L>) -> (V<L>, M<L>) {
+    pub fn leave<K: Shade>(&self, hit: &Hit<L>, d: V<L>, z: F<L>) -> (V<L>, M<L>) {
         if !K::DETAILED {
             // What lies below has no weight.
             return (hit.p, self.local.front);

@@ -54,12 +54,12 @@ pub(super) fn surfaces<L: Lanes, const VARIED: bool>(l: L, work: &Work, batch: &
 }
 
 /// Paths that arrive at their first surfaces, or leave the scene.
-struct Arrival<L: Lanes> {
+pub(super) struct Arrival<L: Lanes> {
     /// Index of the first path in its queue.
     start: usize,
     /// The paths, with the transmittance of the way in their throughput.
-    path: Path<L>,
-    nearest: Nearest<L>,
+    pub path: Path<L>,
+    pub nearest: Nearest<L>,
     /// Media around the paths.
     media: U<L>,
     /// Lanes that share their first surface with other pixels.
@@ -69,6 +69,12 @@ struct Arrival<L: Lanes> {
 }
 
 impl<L: Lanes> Arrival<L> {
+    /// Paths in empty space that share nothing; `start` is the index of the first in its queue.
+    #[inline(always)]
+    pub fn new(l: L, start: usize, path: Path<L>, nearest: Nearest<L>) -> Self {
+        Arrival { start, nearest, media: l.u(0), sharing: l.first(0), shared_throughput: path.throughput, path }
+    }
+
     #[inline(always)]
     fn read<const VARIED: bool>(l: L, work: &Work, paths: &PathQueues, at: Register<L>, nearest: Nearest<L>) -> Self {
         let mut path = Path::read(l, &paths.paths, at.start);
@@ -141,7 +147,7 @@ fn add_emission<L: Lanes, const VARIED: bool>(
 
 /// Queues the paths in the lanes of `hit` at reflecting surfaces. Second surfaces that pixels share are kept in `shared`.
 #[inline(always)]
-fn queue_hits<L: Lanes, const VARIED: bool>(
+pub(super) fn queue_hits<L: Lanes, const VARIED: bool>(
     l: L,
     work: &Work,
     arrival: &Arrival<L>,

@@ -3,6 +3,8 @@ use fearless_simd_macros::simd;
 
 use super::{
     batch::Batch,
+    bidirectional::trace_both_ends,
+    interrupted::Interrupted,
     intersect::intersect,
     passage::Decisions,
     queues::HitQueues,
@@ -17,7 +19,7 @@ use super::{
 };
 use crate::{
     material::in_stage,
-    math::{Lanes, One, SimdLevel, in_lanes},
+    math::{Lanes, One, SimdLevel, in_few_lanes, in_lanes},
 };
 
 /// Observes a batch between the stages; `()` does nothing.
@@ -54,10 +56,6 @@ pub enum PathStage {
 
 impl Observer for () {}
 
-/// The batch was interrupted before it finished; discard its radiance.
-#[derive(Debug, PartialEq, Eq)]
-pub struct Interrupted;
-
 /// Traces one sample of every pixel of a tile; the result is [`Batch::radiance`]. Calls `interrupted` before every bounce, and in
 /// the reuse stage.
 ///
@@ -65,6 +63,9 @@ pub struct Interrupted;
 /// 1986, equation 1), with one sampled direction in place of the integral at every surface. Light samples replace the emission at
 /// the next surface or are combined with it by multiple importance sampling (Veach 1997, chapter 9).
 pub fn trace(level: SimdLevel, work: &Work, batch: &mut Batch, interrupted: &dyn Fn() -> bool) -> Result<(), Interrupted> {
+    if let Some(rays) = work.scene.light_rays(work.settings) {
+        return in_few_lanes!(level, l => trace_both_ends(l, work, rays, batch, interrupted));
+    }
     in_lanes!(level, l => trace_in(l, work, batch, interrupted, &mut ()))
 }
 

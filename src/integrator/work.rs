@@ -140,6 +140,12 @@ impl<'a> Work<'a> {
         self.scene.shares(self.rays, self.settings)
     }
 
+    /// Number of paths from lights for every sample of a pixel.
+    pub(super) fn light_paths_of_image(&self) -> f32 {
+        let [width, height] = self.rays.resolution;
+        width as f32 * height as f32
+    }
+
     /// Whether there are absorbing media.
     #[inline(always)]
     pub(super) fn has_media(&self) -> bool {

@@ -3,11 +3,16 @@
 //! A light is chosen in proportion to an estimate of its unoccluded irradiance at the point, E ≈ π L sin²θ · max(cos) over its
 //! cone of half angle θ; textured emitters count with their mean radiance (Shirley et al. 1996 discuss good choices).
 mod lamps;
+mod rays;
+
+use std::f64::consts::PI;
 
 use glam::DVec3;
 
+pub use self::rays::{LightRays, RayCoordinates, RaySample};
 use super::{
     background::Background,
+    bound::Bound,
     coordinates::LightCoordinates,
     emission::{Emission, Emitters},
     lamp::{Lamp, Lamps},
@@ -38,6 +43,14 @@ pub struct Lights {
     places: Vec<[f32; 4]>,
     /// The first light of every emitting primitive; empty under the same condition.
     firsts: Vec<[f32; 4]>,
+    /// Estimates of the flux of the lights with a surface, W.
+    fluxes: Vec<f32>,
+}
+
+/// Estimates the flux of a light with a surface. By Cauchy's theorem, a convex surface has four times its mean projected area.
+fn flux(bound: &Bound) -> f32 {
+    let sides = if bound.normal.is_some() { 1.0 } else { 4.0 };
+    (PI * PI * bound.size * sides) as f32 * (bound.front + bound.back)
 }
 
 /// A direction towards a light.
@@ -88,6 +101,7 @@ impl Lights {
             }
         }
         lights.count = sources.len();
+        lights.fluxes = sources.iter().map(|(piece, motion, emission)| flux(&Bound::new(piece, motion, emission))).collect();
         let sky = lights.background.as_ref().map_or(0.0, Background::luminance);
         lights.selection = Selection::new(&sources, lamps, sky, near);
         lights.selection_of_lamps = Selection::new(&[], lamps, 0.0, near);

@@ -96,3 +96,33 @@ macro_rules! in_lanes {
     }};
 }
 pub(crate) use in_lanes;
+
+/// [`in_lanes!`] for code that is large: it is compiled for AVX2, which every processor with AVX-512 has too, for NEON, and for one lane.
+macro_rules! in_few_lanes {
+    ($level:expr, $l:ident => $call:expr) => {{
+        use $crate::math::{
+            lanes::One,
+            level::SimdLevel,
+            simd::{X4, X16},
+        };
+        let detected = ::fearless_simd::Level::new();
+        let _ = (&detected, X4::<::fearless_simd::Fallback>, X16::<::fearless_simd::Fallback>);
+        match $level {
+            #[cfg(target_arch = "x86_64")]
+            SimdLevel::Avx2 | SimdLevel::Avx512 if let Some(token) = detected.as_avx2() => {
+                let $l = X16(token);
+                $call
+            }
+            #[cfg(target_arch = "aarch64")]
+            SimdLevel::Bits128 if let Some(token) = detected.as_neon() => {
+                let $l = X4(token);
+                $call
+            }
+            _ => {
+                let $l = One;
+                $call
+            }
+        }
+    }};
+}
+pub(crate) use in_few_lanes;

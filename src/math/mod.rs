@@ -15,7 +15,7 @@ mod tests;
 pub mod trig;
 pub mod vector;
 
-pub(crate) use self::level::in_lanes;
+pub(crate) use self::level::{in_few_lanes, in_lanes};
 pub use self::{
     frame::Frame,
     lanes::{F, Lanes, M, MAX_LANES, One, U},

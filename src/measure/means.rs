@@ -4,9 +4,9 @@ use std::cell::RefCell;
 use rayon::prelude::*;
 
 use crate::{
-    integrator::{Batch, TILE, Work, trace},
+    integrator::{Batch, Interrupted, TILE, Work, trace},
     math::SimdLevel,
-    scene::{RenderSettings, Scene},
+    scene::{CameraRays, RenderSettings, Scene},
 };
 
 /// Reduces the colour of a sample to one number.
@@ -53,6 +53,9 @@ pub struct Picture {
     pub width: usize,
     /// The means, row by row from the top left.
     pub pixels: Vec<Mean>,
+    /// The samples of all pixels, image by image, if those of one image depend on each other: a path from a light may arrive in several
+    /// pixels.
+    images: Vec<Vec<f64>>,
 }
 
 thread_local! {
@@ -67,6 +70,13 @@ thread_local! {
 pub fn picture(scene: &Scene, settings: RenderSettings, measure: Measure, spp: u32) -> Picture {
     let [width, height] = scene.camera.resolution;
     let rays = scene.rays(&scene.camera);
+    if scene.traces_light_paths(&settings) {
+        let image = |sample| {
+            let image = sample_image(scene, &rays, &settings, sample, &|| false).expect("nobody interrupts");
+            image.into_iter().map(measure).collect()
+        };
+        return Picture::of_images(width as usize, (0..spp).into_par_iter().map(image).collect());
+    }
     let mut pixels = vec![Mean::default(); (width * height) as usize];
     for y in (0..height).step_by(TILE as usize) {
         for x in (0..width).step_by(TILE as usize) {
@@ -78,7 +88,37 @@ pub fn picture(scene: &Scene, settings: RenderSettings, measure: Measure, spp: u
             }
         }
     }
-    Picture { width: width as usize, pixels }
+    Picture::new(width as usize, pixels)
+}
+
+/// One sample of every pixel, row by row, with what the paths from lights of all of them bring.
+pub(crate) fn sample_image(
+    scene: &Scene,
+    rays: &CameraRays,
+    settings: &RenderSettings,
+    sample: u32,
+    interrupted: &dyn Fn() -> bool,
+) -> Result<Vec<[f32; 4]>, Interrupted> {
+    let [width, height] = scene.camera.resolution;
+    let mut image = vec![[0.0; 4]; (width * height) as usize];
+    let at = |[x, y]: [u32; 2]| (y * width + x) as usize;
+    let mut splats = Vec::new();
+    BATCH.with_borrow_mut(|batch| {
+        for [x, y] in (0..height).step_by(TILE as usize).flat_map(|y| (0..width).step_by(TILE as usize).map(move |x| [x, y])) {
+            let size = [TILE.min(width - x), TILE.min(height - y)];
+            let work = Work::tile(scene, rays, settings, [x, y], size, sample);
+            trace(SimdLevel::best(), &work, batch, interrupted)?;
+            for (row, column) in (0..size[1]).flat_map(|row| (0..size[0]).map(move |column| (row, column))) {
+                image[at([x + column, y + row])] = batch.radiance()[(row * TILE + column) as usize];
+            }
+            splats.extend_from_slice(&batch.splats);
+        }
+        Ok(())
+    })?;
+    for (pixel, light) in splats.iter().filter_map(|splat| splat.land(rays.filter, [width, height])) {
+        (0..3).for_each(|channel| image[at(pixel)][channel] += (light[channel] / f64::from(width * height)) as f32);
+    }
+    Ok(image)
 }
 
 /// The means of one tile, row by row.
@@ -117,19 +157,54 @@ fn tile<'a>(work: &(impl Fn(u32) -> Work<'a> + Sync), size: [u32; 2], measure: M
 }
 
 impl Picture {
+    /// An image of independent pixels.
+    pub fn new(width: usize, pixels: Vec<Mean>) -> Picture {
+        Picture { width, pixels, images: Vec::new() }
+    }
+
+    /// The means of these samples of all pixels.
+    fn of_images(width: usize, images: Vec<Vec<f64>>) -> Picture {
+        assert!(images.iter().flatten().all(|value| value.is_finite() && *value >= 0.0), "an invalid sample");
+        let pixels = (0..images[0].len()).map(|i| mean_of_values(images.iter().map(|image| image[i]))).collect();
+        Picture { width, pixels, images }
+    }
+
+    /// The weighted mean of pixels, given by their indices and weights.
+    pub fn weighted(&self, pixels: &[(usize, f64)]) -> Mean {
+        let whole: f64 = pixels.iter().map(|(_, weight)| weight).sum();
+        let of = |value: &dyn Fn(usize) -> f64, power: i32| {
+            pixels.iter().map(|(i, weight)| (weight / whole).powi(power) * value(*i)).sum::<f64>()
+        };
+        if self.images.is_empty() {
+            let variance_of_mean = of(&|i| self.pixels[i].variance_of_mean, 2);
+            return Mean { mean: of(&|i| self.pixels[i].mean, 1), variance_of_mean };
+        }
+        mean_of_values(self.images.iter().map(|image| of(&|i| image[i], 1)))
+    }
+
     /// The mean over all pixels.
     pub fn whole(&self) -> Mean {
-        Mean::of(self.pixels.iter().copied())
+        self.weighted(&(0..self.pixels.len()).map(|i| (i, 1.0)).collect::<Vec<_>>())
     }
 
     /// The means over squares of `side` × `side` pixels, row by row.
     pub fn blocks(&self, side: usize) -> Vec<Mean> {
-        let rows: Vec<&[Mean]> = self.pixels.chunks(self.width).collect();
-        let column_starts = || (0..self.width).step_by(side);
-        let block =
-            |rows: &[&[Mean]], x: usize| Mean::of(rows.iter().flat_map(|row| &row[x..(x + side).min(row.len())]).copied());
-        rows.chunks(side).flat_map(|rows| column_starts().map(|x| block(rows, x)).collect::<Vec<_>>()).collect()
+        let height = self.pixels.len() / self.width;
+        let block = |x: usize, y: usize| {
+            let rows = y..(y + side).min(height);
+            let pixels: Vec<_> =
+                rows.flat_map(|y| (x..(x + side).min(self.width)).map(move |x| (y * self.width + x, 1.0))).collect();
+            self.weighted(&pixels)
+        };
+        (0..height).step_by(side).flat_map(|y| (0..self.width).step_by(side).map(move |x| block(x, y))).collect()
     }
+}
+
+/// The mean of independent values.
+fn mean_of_values(values: impl Iterator<Item = f64> + Clone) -> Mean {
+    let n = values.clone().count() as f64;
+    let mean = values.clone().sum::<f64>() / n;
+    Mean { mean, variance_of_mean: values.map(|value| (value - mean).powi(2)).sum::<f64>() / (n * (n - 1.0)) }
 }
 
 #[cfg(test)]
@@ -153,7 +228,7 @@ mod tests {
     fn blocks_are_those_of_the_picture_row_by_row() {
         // 5 × 3 pixels in blocks of 2 × 2, some of them narrower and lower.
         let pixels = (0..15).map(|i| Mean { mean: f64::from(i), variance_of_mean: 1.0 }).collect();
-        let picture = Picture { width: 5, pixels };
+        let picture = Picture::new(5, pixels);
         let blocks = picture.blocks(2);
         assert_eq!(blocks.iter().map(|block| block.mean).collect::<Vec<_>>(), [3.0, 5.0, 6.5, 10.5, 12.5, 14.0]);
         assert_eq!(blocks.iter().map(|block| block.variance_of_mean).collect::<Vec<_>>(), [0.25, 0.25, 0.5, 0.5, 0.5, 1.0]);

@@ -7,6 +7,7 @@ mod moments;
 mod ratio;
 mod sample_noise;
 
+pub(crate) use self::means::sample_image;
 pub use self::{
     bias::{Bias, Evidence, LEAST_EFFECTIVE_SAMPLES, as_normal},
     error::{Comparison, Floor, compare, mean_square, relative},

@@ -43,7 +43,11 @@ pub(super) fn spread(
     film: &mut Film,
     interrupted: &(dyn Fn() -> bool + Sync),
 ) -> Result<(), Interrupted> {
-    if film.is_piloted || !job.settings.adaptive || job.scene.shares(job.rays, job.settings) {
+    if film.is_piloted
+        || !job.settings.adaptive
+        || job.scene.shares(job.rays, job.settings)
+        || job.scene.traces_light_paths(job.settings)
+    {
         return Ok(());
     }
     let pilot = pilot(threads, job, film, interrupted)?;

@@ -1,4 +1,5 @@
 //! Means of pixels and their variances, and how far the mean of a block has moved since its samples last doubled.
+use super::splats::SplatEstimate;
 use crate::measure::relative;
 
 /// Mean of a pixel's samples and the variance of that mean, per channel.
@@ -8,6 +9,15 @@ pub struct Estimate {
     pub mean: [f64; 3],
     /// `None` before the second sample.
     pub variance_of_mean: Option<[f64; 3]>,
+}
+
+impl Estimate {
+    /// The estimate with the light of splats, which is independent of that of the pixel's own samples.
+    pub(super) fn plus(self, splats: &SplatEstimate) -> Estimate {
+        let sum = |a: [f64; 3], b: [f32; 3]| [0, 1, 2].map(|c| a[c] + f64::from(b[c]));
+        let variance_of_mean = self.variance_of_mean.map(|variance| sum(variance, splats.variance));
+        Estimate { mean: sum(self.mean, splats.mean), variance_of_mean }
+    }
 }
 
 /// A colour in single precision. Called for every pixel, so it is no `map`, which is not always inlined.

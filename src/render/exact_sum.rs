@@ -100,6 +100,14 @@ impl ExactSums {
         multiple as f64 * unit
     }
 
+    /// A sum after three roundings. It takes a fraction of the time of [`ExactSums::value`], and is a function of the sum, too.
+    #[inline]
+    pub fn quick_value(&self, i: usize) -> f64 {
+        const BIN: f64 = (1u64 << WIDTH) as f64;
+        let unit = f64::from_bits((LOWEST << MANTISSA) + (u64::from(self.bins[i]) << BELOW));
+        self.high[i] as f64 * (unit * BIN) + self.low[i] as f64 * unit
+    }
+
     /// Some sums, rounded to the nearest numbers.
     pub fn values(&self, range: Range<usize>) -> impl Iterator<Item = f64> {
         range.map(|i| self.value(i))

@@ -1,5 +1,7 @@
 //! The film: the sums of an image's samples.
-use super::{area::Area, region::Region, tile::Tile};
+use rayon::prelude::*;
+
+use super::{area::Area, region::Region, splats::SplatFilm, tile::Tile};
 use crate::{
     integrator::{TERMS, TILE},
     memory::{self, Reservation, TooMuch},
@@ -18,13 +20,15 @@ pub struct Film {
     pub(super) is_piloted: bool,
     /// The region that gets all samples.
     pub(super) focus: Option<Region>,
+    /// What paths from lights bring to the pixels, if the estimator traces any.
+    pub(super) splats: Option<SplatFilm>,
 }
 
 impl Film {
     /// An empty film. The render threads allocate its memory with the first sample, tile by tile.
     pub fn new(resolution: [u32; 2]) -> Film {
         let tiles = Area::tiles(resolution).map(|Area { origin, size }| Tile::new(origin, size)).collect();
-        Film { resolution, tiles, is_noting: false, shares: false, is_piloted: false, focus: None }
+        Film { resolution, tiles, is_noting: false, shares: false, is_piloted: false, focus: None, splats: None }
     }
 
     /// Reserves memory for an image of this size: the film, its frames, and saving one of them.
@@ -59,7 +63,7 @@ impl Film {
             return Film::new(resolution);
         }
         self.tiles.iter_mut().for_each(Tile::forget);
-        (self.is_noting, self.shares, self.is_piloted, self.focus) = (false, false, false, None);
+        (self.is_noting, self.shares, self.is_piloted, self.focus, self.splats) = (false, false, false, None, None);
         self
     }
 
@@ -94,7 +98,22 @@ impl Film {
 
     /// Samples that were dropped because they were negative or not finite.
     pub fn invalid_samples(&self) -> u64 {
-        self.tiles.iter().map(|tile| tile.invalid).sum()
+        self.tiles.iter().map(|tile| tile.invalid).sum::<u64>() + self.splats.as_ref().map_or(0, SplatFilm::invalid)
+    }
+
+    /// Starts to sum the light of paths from lights.
+    pub(super) fn keep_splats(&mut self) {
+        let resolution = self.resolution;
+        self.splats.get_or_insert_with(|| SplatFilm::new(resolution));
+    }
+
+    /// Tells the tiles what paths from lights have brought to their pixels: one path belongs to every sample of any pixel.
+    pub(super) fn spread_splats(&mut self) {
+        let paths = self.samples();
+        if let Some(splats) = &self.splats {
+            let tiles = self.tiles.par_iter_mut().enumerate();
+            tiles.for_each(|(place, tile)| tile.splats = splats.estimates(place, paths));
+        }
     }
 
     /// The tiles that get samples.

@@ -9,14 +9,17 @@ use super::{
     area::Area,
     block::UNIFORM,
     error_estimator,
+    exact_sum::MOST_VALUES,
     film::Film,
     sampled_tile::{NextSamples, SampledTile},
+    splats::SplatFilm,
     threads::{Buffers, PassJob, Threads},
     tile::Tile,
 };
 use crate::{
-    integrator::{Interrupted, Work, trace, trace_series},
+    integrator::{Interrupted, Splat, Work, trace, trace_series},
     math::SimdLevel,
+    sampling::Filter,
 };
 
 impl Threads {
@@ -29,6 +32,9 @@ impl Threads {
             if matches!(spread, Ok(Err(Interrupted))) {
                 return PassCount::default();
             }
+        }
+        if job.scene.traces_light_paths(job.settings) && !film.has_series() {
+            film.keep_splats();
         }
         film.shares |= job.scene.shares(job.rays, job.settings);
         let mut count = PassCount::default();
@@ -66,27 +72,43 @@ impl Threads {
     /// Brings a film to `spp` samples per pixel, or to the next power of two.
     fn to_next_doubling(&self, job: PassJob, film: &mut Film, spp: u32, interrupted: &(dyn Fn() -> bool + Sync)) -> PassCount {
         let resolution = film.resolution;
+        let splats = film.splats.take();
         let mut tiles: Vec<&mut Tile> = film.tiles_in_focus().filter(|tile| tile.spp < spp).collect();
         // What takes long begins first, or else one thread would be left with it in the end.
         tiles.sort_by_cached_key(|tile| std::cmp::Reverse(tile.distance_to(spp)));
-        self.pool.install(|| {
+        let count = self.pool.install(|| {
             let tiles = tiles.into_par_iter().with_max_len(1);
             let sample = |tile: &mut Tile| {
-                let count = self.sample_tile(job, resolution, &mut Towards { tile, spp }, interrupted);
+                let splats = splats.as_ref().map(|film| (film, job.rays.filter));
+                let count = self.sample_tile(job, resolution, &mut Towards { tile, spp, splats }, interrupted);
                 if tile.is_adaptive() {
                     tile.note_average(spp);
                 }
                 count
             };
             tiles.map(sample).reduce(PassCount::default, PassCount::merge)
-        })
+        });
+        let is_full = splats.as_ref().is_some_and(SplatFilm::is_full);
+        let count = if is_full { count.merge(full(resolution)) } else { count };
+        film.splats = splats;
+        self.pool.install(|| film.spread_splats());
+        count
     }
+}
+
+/// The failure of a film whose pixels can take no more light.
+fn full(resolution: [u32; 2]) -> PassCount {
+    let message =
+        format!("a pixel has light of {MOST_VALUES} batches of paths from lights, the most that its sums can take: stop earlier");
+    let failure = Failure { at: SampleId { pixel: [0, 0], sample: 0 }, replays: false, resolution, message };
+    PassCount { failure: Some(failure), ..PassCount::default() }
 }
 
 /// A tile of the film on its way to a number of samples per pixel, or to the next power of two.
 struct Towards<'a> {
     tile: &'a mut Tile,
     spp: u32,
+    splats: Option<(&'a SplatFilm, Filter)>,
 }
 
 impl SampledTile for Towards<'_> {
@@ -95,7 +117,7 @@ impl SampledTile for Towards<'_> {
     }
 
     fn next(&self) -> Option<NextSamples> {
-        let Towards { tile, spp } = self;
+        let Towards { tile, spp, .. } = self;
         let next = || {
             if tile.is_adaptive() { NextSamples::OfBlocks(Box::new(tile.missing(*spp))) } else { NextSamples::OfTile(tile.spp) }
         };
@@ -114,6 +136,12 @@ impl SampledTile for Towards<'_> {
             Some(series) => {
                 trace_series(level, work, batch, interrupted, terms).map(|()| series.add(self.tile.size, terms, batch.radiance()))
             }
+        }
+    }
+
+    fn splat(&self, splats: &[Splat]) {
+        if let Some((film, filter)) = self.splats {
+            film.add(filter, splats);
         }
     }
 

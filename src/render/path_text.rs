@@ -52,14 +52,19 @@ fn heading(PathId { scene, camera, settings, pixel: [x, y], sample }: &PathId, r
         None => settings.roulette.name(),
     };
     let cap = settings.max_bounces.map_or_else(|| "none".to_owned(), |cap| cap.to_string());
+    let estimator = settings.estimator.name();
+    let replayed = if scene.traces_light_paths(settings) {
+        format!("mis ({estimator} traces paths from lights, too)")
+    } else {
+        estimator.to_owned()
+    };
     let title = if scene.title.is_empty() { String::new() } else { format!("\n  scene           {}", scene.title) };
     format!(
         "pixel {x},{y}, sample {sample}: radiance {}{title}\n  \
-         settings        estimator {}, directions {}, sampler {}, seed {}\n  \
+         settings        estimator {replayed}, directions {}, sampler {}, seed {}\n  \
          {:15} roulette {roulette}, max_bounces {cap}\n  \
          {:15} reuse {}, adaptive {}, {width} × {height} pixels",
         three(replay.radiance),
-        settings.estimator.name(),
         settings.directions.name(),
         settings.sampler.name(),
         settings.seed,

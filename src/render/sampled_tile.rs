@@ -10,7 +10,7 @@ use super::{
     threads::{Buffers, PassJob, Threads},
 };
 use crate::{
-    integrator::{Blocks, Interrupted, Work, replay, trace},
+    integrator::{Blocks, Interrupted, Splat, Work, replay, trace},
     math::SimdLevel,
     scene::{RenderSettings, Reuse},
 };
@@ -44,6 +44,9 @@ pub trait SampledTile {
 
     /// Adds samples: see [`crate::integrator::Batch::radiance`]. Returns the first that is invalid.
     fn add(&mut self, level: SimdLevel, samples: &NextSamples, radiance: &[[f32; 4]]) -> Option<SampleId>;
+
+    /// Adds what the paths from lights of these samples bring to any pixel.
+    fn splat(&self, _splats: &[Splat]) {}
 }
 
 impl Threads {
@@ -71,7 +74,10 @@ impl Threads {
             };
             let traced = catch_unwind(AssertUnwindSafe(|| tile.trace(self.level, &work, &mut buffers, interrupted)));
             match traced {
-                Ok(Ok(())) => count.invalid = count.invalid.or(tile.add(self.level, &samples, buffers.batch.radiance())),
+                Ok(Ok(())) => {
+                    tile.splat(&buffers.batch.splats);
+                    count.invalid = count.invalid.or(tile.add(self.level, &samples, buffers.batch.radiance()));
+                }
                 Ok(Err(Interrupted)) => break,
                 Err(panic) => {
                     let alone = find_failure(&work);

@@ -16,11 +16,12 @@ use super::{
     protocol::{Budget, Publish, RenderRequest, State, is_below, next_look},
     region::Region,
     sharing::resolved_unless,
+    splats::SplatFilm,
     threads::{PassJob, Threads},
 };
 use crate::{
     memory::{Reservation, TooMuch},
-    scene::{RenderSettings, Reuse},
+    scene::{Estimator, RenderSettings, Reuse},
 };
 
 /// Camera samples per second before the first measurement: those of a slow machine with a simple scene.
@@ -86,6 +87,10 @@ impl Session {
             request,
         };
         session.keep(0, memory);
+        let RenderRequest { scene, camera, settings } = &session.request;
+        if scene.traces_light_paths(settings) || settings.estimator == Estimator::Auto {
+            session.keep(1, SplatFilm::reserve(camera.resolution));
+        }
         session
     }
 

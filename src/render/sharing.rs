@@ -3,11 +3,10 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use rayon::prelude::*;
 
-use super::{estimate::Estimate, tile::Tile};
+use super::{estimate::Estimate, light_trial::estimator_unless, tile::Tile, trial::relative_variances};
 use crate::{
     integrator::{Batch, Interrupted, TILE, Work, trace},
     math::SimdLevel,
-    measure::{Floor, relative},
     sampling::Sampler,
     scene::{CameraRays, RenderSettings, Reuse, Scene},
 };
@@ -23,7 +22,7 @@ const COST_WITH_TREES: f64 = 1.4;
 /// A seed that images are unlikely to have.
 const SEED: u32 = 0x7f4a_7c15;
 
-/// The same settings, with [`Reuse::Auto`] resolved. Where sharing is possible, the decision depends on the scene alone and is made
+/// The same settings, with [`Estimator::Auto`](crate::scene::Estimator::Auto) and [`Reuse::Auto`] resolved. Where sharing is possible, the decision depends on the scene alone and is made
 /// once, with the scene's own estimator: a change of sampler, estimator or cap never turns sharing on or off.
 pub fn resolved(scene: &Scene, rays: &CameraRays, settings: &RenderSettings) -> RenderSettings {
     resolved_unless(scene, rays, settings, &|| false).unwrap_or(*settings)
@@ -45,6 +44,7 @@ pub(super) fn resolved_unless(
         let pays = catch_unwind(AssertUnwindSafe(|| pays(scene, interrupted))).unwrap_or(Ok(false))?;
         Ok(*known.get_or_init(|| pays))
     };
+    let settings = &RenderSettings { estimator: estimator_unless(scene, settings, interrupted)?, ..*settings };
     let reuse = match settings.reuse {
         Reuse::Auto if scene.can_share(rays, settings) && pays()? => Reuse::On,
         Reuse::Auto => Reuse::Off,
@@ -92,39 +92,9 @@ fn estimates(
     Ok((0..tile.size[1] as usize).flat_map(|row| tile.estimates(row)).collect())
 }
 
-/// Sums over tiles of the variances of both, relative to the squared common means with the floor of relMSE.
-fn relative_variances(tiles: &[[Vec<Estimate>; 2]]) -> [f64; 2] {
-    let pairs = || tiles.iter().flat_map(|[without, with]| without.iter().zip(with));
-    let mean = |(a, b): (&Estimate, &Estimate)| [0, 1, 2].map(|channel| (a.mean[channel] + b.mean[channel]) / 2.0);
-    let squares: f64 = pairs().flat_map(mean).map(|x| x * x).sum();
-    let floor = Floor::DEFAULT.of(squares / (3 * pairs().count()).max(1) as f64);
-    let mut sums = [0.0; 2];
-    for (a, b) in pairs() {
-        for (channel, mean) in mean((a, b)).into_iter().enumerate() {
-            let variance = |of: &Estimate| of.variance_of_mean.map_or(0.0, |variance| variance[channel]);
-            sums[0] += relative(variance(a), mean, floor);
-            sums[1] += relative(variance(b), mean, floor);
-        }
-    }
-    sums
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn variances_with_and_without_sharing_are_relative_to_the_mean_of_both() {
-        let of = |mean: [f64; 3], red: f64| vec![Estimate { mean, variance_of_mean: Some([red, 0.0, 0.0]) }];
-        // The mean square of 2, 1 and 1 is 2, a hundredth of which is the floor.
-        let one = [of([1.0; 3], 0.1), of([3.0, 1.0, 1.0], 0.3)];
-        let [without, with] = relative_variances(&[one]);
-        assert!((without - 0.1 / 4.02).abs() < 1e-12 && (with - 0.3 / 4.02).abs() < 1e-12, "{without} {with}");
-        // Another tile of squares 0 and variance 0.02 adds to both sums, and halves the floor.
-        let dark = [of([0.0; 3], 0.02), of([0.0; 3], 0.0)];
-        let [without, with] = relative_variances(&[[of([1.0; 3], 0.1), of([3.0, 1.0, 1.0], 0.3)], dark]);
-        assert!((without - 0.1 / 4.01 - 2.0).abs() < 1e-12 && (with - 0.3 / 4.01).abs() < 1e-12, "{without} {with}");
-    }
 
     #[test]
     fn a_trial_that_is_interrupted_decides_nothing() {

@@ -4,6 +4,7 @@ use super::{
     block::Block,
     region::Region,
     scatter::Scatter,
+    splats::SplatEstimate,
     tile_series::TileSeries,
 };
 use crate::integrator::{BLOCK, Blocks, TILE};
@@ -29,6 +30,8 @@ pub struct Tile {
     pub(super) whole: Scatter,
     /// The series by number of bounces, if it is shown.
     pub(super) series: Option<TileSeries>,
+    /// What paths from lights have brought to the pixels; empty if there are none.
+    pub(super) splats: Vec<SplatEstimate>,
     /// Samples that were negative or not finite; they count as black.
     pub invalid: u64,
 }
@@ -46,6 +49,7 @@ impl Tile {
             blocks: vec![Block::default(); Area { origin, size }.blocks()],
             whole: Scatter::default(),
             series: None,
+            splats: Vec::new(),
             invalid: 0,
         }
     }
@@ -75,6 +79,7 @@ impl Tile {
     pub(super) fn forget(&mut self) {
         (self.spp, self.invalid, self.series, self.whole) = (0, 0, None, Scatter::default());
         self.blocks.fill(Block::default());
+        self.splats.clear();
     }
 
     pub(super) fn samples(&self) -> u64 {

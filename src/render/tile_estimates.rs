@@ -4,6 +4,7 @@ use std::ops::Range;
 use super::{
     estimate::{Doubling, Estimate, SquaredRadiance, single},
     scatter::Parts,
+    splats::SplatEstimate,
     tile::Tile,
 };
 use crate::integrator::BLOCK;
@@ -56,7 +57,9 @@ impl Tile {
     pub(super) fn variance_of_mean(&self, shares: bool) -> f64 {
         let values = 3.0 * self.size.map(f64::from).iter().product::<f64>();
         let of_sum = if shares { self.whole.variance_of_mean() } else { self.parts().map(Parts::sum).sum() };
-        of_sum / (values * values)
+        // The channels of a path are added as if fully correlated, which is an upper bound.
+        let of_splat = |splat: &SplatEstimate| splat.variance.map(|v| f64::from(v).sqrt()).iter().sum::<f64>().powi(2);
+        (of_sum + self.splats.iter().map(of_splat).sum::<f64>()) / (values * values)
     }
 
     /// The parts of the variance of the pixels' means.
@@ -71,7 +74,9 @@ impl Tile {
         let pixel = (row * self.size[0] + column) as usize;
         let mean = if first == block.doubled { self.before[pixel] } else { self.earlier[pixel] };
         let [n, rest] = [first, block.spp - first].map(f64::from);
-        let of_rest = [0, 1, 2].map(|c| ((self.sum[pixel][c] - n * f64::from(mean[c])) / rest).max(0.0) as f32);
+        let splats = self.splats.get(pixel).copied().unwrap_or_default();
+        let sum = |c: usize| self.sum[pixel][c] + (n + rest) * f64::from(splats.mean[c]);
+        let of_rest = [0, 1, 2].map(|c| ((sum(c) - n * f64::from(mean[c])) / rest).max(0.0) as f32);
         Some(([mean, of_rest], (n / (n + rest)) as f32))
     }
 
@@ -90,10 +95,12 @@ impl Tile {
     fn run(&self, pixels: Range<usize>, spp: u32) -> impl Iterator<Item = Estimate> {
         let n = f64::from(spp.max(1));
         let (per_sample, per_degree) = (1.0 / n, 1.0 / (n - 1.0));
-        self.sum[pixels.clone()].iter().zip(&self.sum_of_squares[pixels]).map(move |(sum, square)| {
+        let sums = self.sum[pixels.clone()].iter().zip(&self.sum_of_squares[pixels.clone()]);
+        sums.zip(pixels).map(move |((sum, square), pixel)| {
             let mean = [sum[0] / n, sum[1] / n, sum[2] / n];
             let variance = |c: usize| ((square[c] * per_sample - mean[c] * mean[c]) * per_degree).max(0.0);
-            Estimate { mean, variance_of_mean: (n > 1.0).then(|| [variance(0), variance(1), variance(2)]) }
+            let estimate = Estimate { mean, variance_of_mean: (n > 1.0).then(|| [variance(0), variance(1), variance(2)]) };
+            self.splats.get(pixel).map_or(estimate, |splats| estimate.plus(splats))
         })
     }
 }

@@ -54,6 +54,11 @@ impl<'b> Fields<'b> {
         (0..count).map(|_| self.take()).collect()
     }
 
+    /// Whether no values are left.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
     /// Fails if values are left.
     pub fn end(self) -> Result<(), RenderFileError> {
         if self.0.is_empty() { Ok(()) } else { Err(RenderFileError::contents("a section is longer than its values")) }

@@ -13,13 +13,27 @@ impl Dimension {
     pub const TIME: Dimension = Dimension(4);
     const PER_BOUNCE: u32 = 16;
 
+    /// The first bounce of the path from a light. It counts like one of the path from the camera that no camera path reaches.
+    pub const LIGHT_PATH: u32 = 1 << 20;
+
+    /// The point of the disk or of the surface where light starts (two).
+    pub const LIGHT_PLACE: Dimension = Dimension::direction(Dimension::LIGHT_PATH);
+    /// The side where it starts (one).
+    pub const LIGHT_SIDE: Dimension = Dimension(Dimension::PER_BOUNCE * Dimension::LIGHT_PATH + 3);
+    /// The light, and the coin of the table that chooses it (two).
+    pub const LIGHT_TABLE: Dimension = Dimension(Dimension::PER_BOUNCE * Dimension::LIGHT_PATH + 6);
+    /// The direction in which it starts (two).
+    pub const LIGHT_DIRECTION: Dimension = Dimension(Dimension::PER_BOUNCE * Dimension::LIGHT_PATH + 8);
+    /// The cell of an image background where it starts (two).
+    pub const LIGHT_CELL: Dimension = Dimension(Dimension::PER_BOUNCE * Dimension::LIGHT_PATH + 10);
+
     /// Whether the coordinate belongs to the camera or one of the first three surfaces.
     pub(super) fn is_near(self) -> bool {
         self.0 < 4 * Self::PER_BOUNCE
     }
 
     /// The direction of the path after its `bounce`-th surface, counted from 1 (two).
-    pub fn direction(bounce: u32) -> Dimension {
+    pub const fn direction(bounce: u32) -> Dimension {
         Dimension(Self::PER_BOUNCE * bounce)
     }
 

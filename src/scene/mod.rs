@@ -15,6 +15,7 @@ mod excerpt;
 mod infinite_variance;
 mod lamp;
 mod legend;
+mod light_paths;
 mod load;
 mod locate;
 mod material_instance;
@@ -61,7 +62,7 @@ pub use self::{
     object::Object,
     parse::{BUILT_IN, built_in, describe, parse, parse_watched},
     projection::Projection,
-    rays::CameraRays,
+    rays::{CameraJoin, CameraRays},
     roulette::Roulette,
     settings::{RenderSettings, Reuse},
     shipped::ShippedScene,
@@ -71,7 +72,7 @@ use crate::{
     declare::{Assets, Memo},
     geometry::{Motion, Shapes},
     image::Picture,
-    light::Lights,
+    light::{LightRays, Lights},
     material::Stage,
     memory::Reservation,
     sampling::Directions,
@@ -119,6 +120,10 @@ pub struct Scene {
     pub settings: RenderSettings,
     /// Whether sharing paths between pixels pays, once it has been tried.
     pub sharing_pays: OnceLock<bool>,
+    /// The rays with which paths from lights start, or what keeps them from it: see [`Scene::light_rays`].
+    pub light_paths: OnceLock<Result<LightRays, &'static str>>,
+    /// The estimator that [`Estimator::Auto`] stands for, once it has been tried.
+    pub estimator_by_trial: OnceLock<Estimator>,
     /// Samples per pixel to stop at.
     pub spp: Option<u32>,
     /// Exposure that the scene is displayed with, stops.
@@ -175,7 +180,8 @@ impl Scene {
     /// Whether they could: from diffuse surfaces by cosine-distributed directions, in empty space, while nothing moves.
     ///
     /// Not where light passes through surfaces or materials are blended: the pdf with which another pixel finds a point would then
-    /// contain the mean transmittance on the way and the mean opacity there, and a visibility ray tells neither.
+    /// contain the mean transmittance on the way and the mean opacity there, and a visibility ray tells neither. Not with paths from
+    /// lights, which are shared by all pixels already.
     pub fn can_share(&self, rays: &CameraRays, settings: &RenderSettings) -> bool {
         settings.directions != Directions::Uniform
             && settings.max_bounces.is_none_or(|cap| cap > 1)
@@ -183,6 +189,7 @@ impl Scene {
             && self.surfaces.media.is_empty()
             && self.surfaces.are_opaque()
             && self.surfaces.stages.contains(&Stage::Plain)
+            && !self.traces_light_paths(settings)
     }
 
     /// Whether lights are chosen by what glossy surfaces reflect of them.

@@ -1,8 +1,10 @@
 //! The rays of a camera, in lanes.
+use fearless_simd_macros::simd;
+
 use super::{Camera, Moments, Projection, Scene, Shutter};
 use crate::{
     geometry::Motion,
-    math::{F, Lanes, V},
+    math::{F, Lanes, M, V},
     sampling::{Filter, warp::disk},
 };
 
@@ -37,6 +39,29 @@ struct LensRays {
     right: [f32; 3],
     up: [f32; 3],
     focus: f32,
+}
+
+/// Points that are joined with the camera.
+pub struct CameraJoin<L: Lanes> {
+    /// Vector from the point to the camera.
+    pub way: V<L>,
+    /// Where the image shows the point, in pixels from its upper left corner; it may lie outside.
+    pub x: F<L>,
+    pub y: F<L>,
+    /// Pixels for each unit of area at the point that faces the camera. The pdf of camera rays per such area if one starts from each
+    /// pixel.
+    pub density: F<L>,
+    /// Lanes in front of the camera.
+    pub visible: M<L>,
+}
+
+impl LensRays {
+    /// A point of the lens, relative to its centre.
+    #[inline(always)]
+    fn point<L: Lanes>(&self, l: L, u: (F<L>, F<L>)) -> V<L> {
+        let (right, up, _) = disk(u);
+        V::splat(l, self.right) * right + V::splat(l, self.up) * up
+    }
 }
 
 impl Camera {
@@ -129,8 +154,35 @@ impl CameraRays {
     pub fn through_lens<L: Lanes>(&self, l: L, x: F<L>, y: F<L>, u: (F<L>, F<L>)) -> (V<L>, V<L>) {
         let Some(lens) = self.lens else { return self.through(l, x, y) };
         let place = V::splat(l, self.per_x) * x + V::splat(l, self.per_y) * y + self.corner;
-        let (right, up, _) = disk(u);
-        let on_lens = V::splat(l, lens.right) * right + V::splat(l, lens.up) * up;
+        let on_lens = lens.point(l, u);
         (on_lens + self.eye, (place * lens.focus - on_lens).normalized())
+    }
+
+    /// Joins points with the camera, through points of the lens that `u` samples uniformly if there is one.
+    #[simd]
+    pub fn join<L: Lanes>(&self, l: L, p: V<L>, time: F<L>, u: (F<L>, F<L>)) -> CameraJoin<L> {
+        let mut from_eye = p - self.eye;
+        if self.move_in_time() {
+            from_eye = self.motion.carry_back(l, p, time) - self.eye;
+        }
+        let mut off_axis = V::splat(l, [0.0; 3]);
+        if let Some(lens) = self.lens {
+            let on_lens = lens.point(l, u);
+            from_eye = from_eye - on_lens;
+            off_axis = on_lens * (1.0 / lens.focus);
+        }
+        let seen = self.projection.seen(from_eye, self.forward);
+        // Across the axis, from the upper left corner of the image.
+        let place = seen.place + off_axis - self.corner;
+        let [(x, width), (y, height)] = [self.per_x, self.per_y].map(|edge| {
+            let square = edge[0] * edge[0] + (edge[1] * edge[1] + edge[2] * edge[2]);
+            (place.dot_with(edge) * (1.0 / square), square.sqrt())
+        });
+        let mut join = CameraJoin { way: seen.way, x, y, density: seen.scale * (1.0 / (width * height)), visible: seen.visible };
+        if self.move_in_time() {
+            let (way, squeeze) = self.motion.carry_vector(l, seen.way, time);
+            (join.way, join.density) = (way, join.density * squeeze);
+        }
+        join
     }
 }

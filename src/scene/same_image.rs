@@ -48,6 +48,7 @@ impl Scene {
     pub fn keep_image(&mut self, before: &Scene) {
         if self.compiled.parts.iter().all(|part| part.made == 0 || HARMLESS.contains(&part.part)) {
             self.identity = before.identity.clone();
+            before.estimator_by_trial.get().into_iter().for_each(|best| _ = self.estimator_by_trial.set(*best));
             before.sharing_pays.get().into_iter().for_each(|pays| _ = self.sharing_pays.set(*pays));
         }
     }

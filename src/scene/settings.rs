@@ -30,6 +30,10 @@ pub struct RenderSettings {
     #[cfg(test)]
     #[serde(skip)]
     pub fault: Option<InjectedFault>,
+    /// The only strategy (s, t) of the estimator `bidirectional` that finds light, without a weight.
+    #[cfg(test)]
+    #[serde(skip)]
+    pub strategy: Option<[u32; 2]>,
 }
 
 /// Mistakes that tests inject into the integrator.

@@ -7,7 +7,8 @@ mod tests;
 mod word;
 
 pub use self::word::{
-    BLENDED, FLIPPED, FRONT, ONE_SIDED, SCATTERS_WHERE_BLACK, SELF_LIT, SHEET, SQUARED, is_set, material, stage,
+    BLENDED, FLIPPED, FRONT, ONE_SIDED, SCATTERS_WHERE_BLACK, SELF_LIT, SHEET, SQUARED, STAGE_MASK, STAGE_SHIFT, is_set,
+    material, stage,
 };
 use self::{
     applied::AppliedMaterial,

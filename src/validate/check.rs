@@ -14,6 +14,11 @@ use crate::{
 
 pub const RED: Measure = |radiance| f64::from(radiance[0]);
 
+/// The estimators that find light where the camera sees a point. No path from a light arrives in so small a view.
+pub fn of_a_point() -> impl Iterator<Item = Estimator> {
+    Estimator::ALL.into_iter().filter(|estimator| *estimator != Estimator::Forward)
+}
+
 /// Relative error of the tables of lost energy and their interpolation.
 pub const TABLES: f64 = 1e-3;
 
@@ -80,6 +85,8 @@ impl Validation {
             seed: self.next_seed(),
             #[cfg(test)]
             fault: self.fault,
+            #[cfg(test)]
+            strategy: None,
         }
     }
 

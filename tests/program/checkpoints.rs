@@ -54,6 +54,16 @@ fn a_render_that_is_continued_has_the_file_of_one_in_one_go() {
 }
 
 #[test]
+fn a_render_with_paths_from_lights_that_is_continued_has_the_file_of_one_in_one_go() {
+    let shell = Shell::new();
+    let caustic = scene("glass_ball_caustic");
+    begin(&shell, &caustic, &["--estimator", "bidirectional"]);
+    done(&shell, &["render", "--resume", "a.nf", "-o", "b.exr", "--spp", "21"]);
+    done(&shell, &[&["render", &caustic, "-o", "c.exr", "--spp", "21", "--estimator", "bidirectional"], &SIZE[..]].concat());
+    assert!(bytes(&shell, "b.exr") == bytes(&shell, "c.exr"));
+}
+
+#[test]
 fn what_would_change_the_image_or_lose_a_render_is_refused_by_name() {
     let shell = Shell::new();
     let spheres = scene("cornell_spheres");

@@ -200,7 +200,11 @@ fn failures_exit_with_1_and_say_why_and_wrong_usage_with_2() {
     fails(&["render", &furnace, "-o", &long], 1, "cannot be written");
     std::fs::create_dir(shell.path("folder.png")).expect("a folder");
     fails(&["render", &furnace, "-o", "folder.png"], 1, "it is a folder");
-    fails(&["render", &furnace, "-o", "out.png", "--estimator", "foo"], 2, "path, light or mis");
+    fails(
+        &["render", &furnace, "-o", "out.png", "--estimator", "foo"],
+        2,
+        "path, light, mis, caustics, forward, bidirectional or auto",
+    );
     fails(&["render", &furnace], 2, "--output");
     fails(&["render", &furnace], 2, "-o <OUTPUT>");
     fails(&["render", &furnace, "-o", "out.png", "--spp", "0"], 2, "--spp");

@@ -51,6 +51,21 @@ fn parts_join_to_the_file_of_one_render() {
 }
 
 #[test]
+fn parts_with_paths_from_lights_join_to_the_file_of_one_render() {
+    let shell = Shell::new();
+    for estimator in ["forward", "bidirectional"] {
+        let of = ["--estimator", estimator];
+        part(&shell, "glass_ball_caustic", "0..7", "whole.exr", &of);
+        for (samples, name) in [("0..3", "a.nf"), ("3..4", "b.nf"), ("4..7", "c.nf")] {
+            part(&shell, "glass_ball_caustic", samples, name, &[&of[..], &["--threads", "1"]].concat());
+        }
+        let done = merge(&shell, &["c.nf", "a.nf", "b.nf", "-o", "joined.exr"]);
+        assert!(done.status.success(), "{}", text(&done.stderr));
+        assert!(bytes(&shell, "joined.exr") == bytes(&shell, "whole.exr"), "{estimator}");
+    }
+}
+
+#[test]
 fn overlaps_gaps_and_foreign_files_are_refused_by_name() {
     let shell = Shell::new();
     part(&shell, "furnace", "0..4", "a.nf", &[]);

@@ -102,3 +102,43 @@ fn replayed_samples_add_up_to_the_film() {
         }
     }
 }
+
+/// The settings of an estimator with paths from lights.
+fn from_both_ends(estimator: Estimator) -> RenderSettings {
+    RenderSettings { estimator, adaptive: false, ..settings(Sampler::Sobol, Reuse::Off) }
+}
+
+const BOTH_ENDS: [Estimator; 2] = [Estimator::Forward, Estimator::Bidirectional];
+
+#[test]
+fn paths_from_lights_bring_the_same_light_for_every_number_of_threads_and_every_simd_level() {
+    let scene = built_in();
+    for estimator in BOTH_ENDS {
+        let settings = from_both_ends(estimator);
+        assert!(scene.traces_light_paths(&settings));
+        let reference = bits(&film(&scene, 1, SimdLevel::Scalar, &settings, SPP));
+        for level in SimdLevel::available() {
+            for threads in [1, 2, 4] {
+                let bits = bits(&film(&scene, threads, level, &settings, SPP));
+                assert!(bits == reference, "{}, {level:?}, {threads}", estimator.name());
+            }
+        }
+    }
+}
+
+#[test]
+fn an_interrupted_pass_with_paths_from_lights_goes_on_as_if_nothing_had_happened() {
+    let scene = built_in();
+    let threads = Threads::new(2, SimdLevel::best()).expect("threads can be had");
+    let rays = scene.rays(&camera(&scene));
+    for estimator in BOTH_ENDS {
+        let settings = from_both_ends(estimator);
+        let job = PassJob { scene: &scene, rays: &rays, settings: &settings };
+        let mut interrupted = Film::new(RESOLUTION);
+        let asked = AtomicU32::new(0);
+        while interrupted.spp() < SPP {
+            threads.pass(job, &mut interrupted, SPP, &|| asked.fetch_add(1, Ordering::Relaxed) % 211 == 210);
+        }
+        assert!(bits(&interrupted) == bits(&film(&scene, 1, SimdLevel::best(), &settings, SPP)), "{}", estimator.name());
+    }
+}

@@ -28,6 +28,11 @@ pub fn settings(estimator: Estimator) -> RenderSettings {
     }
 }
 
+/// The estimators whose paths start at the camera, some of them at lights, too. `forward` finds no view as small as a point, and `auto` is
+/// one of the others.
+pub const WITH_CAMERA_PATHS: [Estimator; 5] =
+    [Estimator::Path, Estimator::Light, Estimator::Mis, Estimator::Caustics, Estimator::Bidirectional];
+
 pub const RED: Measure = |radiance| f64::from(radiance[0]);
 pub const GREEN: Measure = |radiance| f64::from(radiance[1]);
 pub const BLUE: Measure = |radiance| f64::from(radiance[2]);

@@ -80,7 +80,7 @@ fn checkers_of_light_and_albedo_add_their_means() {
         let (u, v) = corner(5);
         (0..16).all(|i| cell(i) == cell(0)).then(|| radiance(u, v) + albedo(u, v) * light)
     };
-    for estimator in Estimator::ALL {
+    for estimator in Estimator::ALL.into_iter().filter(|estimator| *estimator != Estimator::Auto) {
         assert_shows(&picture(&scene, settings(estimator), RED, 256), exact, estimator.name());
     }
 }
@@ -139,7 +139,7 @@ fn so_do_pictures() {
         };
         Some((0..SUB * SUB).map(point).sum::<f64>() / (SUB * SUB) as f64)
     };
-    for estimator in Estimator::ALL {
+    for estimator in Estimator::ALL.into_iter().filter(|estimator| *estimator != Estimator::Auto) {
         assert_shows(&picture(&scene, settings(estimator), RED, 256), exact, estimator.name());
     }
 }

@@ -67,7 +67,8 @@ fn all_settings(seed: u32) -> Vec<RenderSettings> {
         (Roulette::BY_THROUGHPUT, Some(3)),
     ];
     let mut all = Vec::new();
-    for estimator in Estimator::ALL {
+    // A replay follows one path, and that from the camera alone.
+    for estimator in Estimator::ALL.into_iter().filter(|estimator| !estimator.traces_light_paths()) {
         for (roulette, max_bounces) in endings {
             let settings = RenderSettings { estimator, roulette, max_bounces, seed, ..RenderSettings::default() };
             all.extend(Sampler::ALL.into_iter().map(|sampler| RenderSettings { sampler, reuse: Reuse::Off, ..settings }));
@@ -263,7 +264,8 @@ fn the_samples_of_a_pixel_are_those_of_the_renderer() {
     for (name, scene) in scenes() {
         let rays = rays(&scene);
         for reuse in [Reuse::Off, Reuse::On] {
-            let settings = RenderSettings { reuse, ..scene.settings };
+            let estimator = if scene.traces_light_paths(&scene.settings) { Estimator::Mis } else { scene.settings.estimator };
+            let settings = RenderSettings { reuse, estimator, ..scene.settings };
             // The range neither starts nor ends at a multiple of the batch.
             let numbers = 5..27;
             let of = |pixel: [u32; 2]| pixel_samples(&scene, &rays, &settings, pixel, numbers.clone(), &|| false);

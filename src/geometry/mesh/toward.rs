@@ -23,6 +23,21 @@ impl Mesh {
         self.density(l, triangle, x, wi).0
     }
 
+    /// A point of triangles, uniform over their area.
+    #[inline(always)]
+    pub fn sample_area<L: Lanes>(&self, l: L, triangle: U<L>, u: (F<L>, F<L>)) -> V<L> {
+        let [a, b, c] = self.positions(l, triangle);
+        let (s, t) = warp(u);
+        a + ((b - a) * s + (c - a) * t)
+    }
+
+    /// The pdf of [`Mesh::sample_area`] per area.
+    #[inline(always)]
+    pub fn area_pdf<L: Lanes>(&self, l: L, triangle: U<L>) -> F<L> {
+        let [a, b, c] = self.positions(l, triangle);
+        2.0 / (b - a).cross(c - a).length_squared().sqrt()
+    }
+
     /// The pdf t²/(A |cos θ|) with 2A n = (b − a) × (c − a), and whether the front is visible.
     #[inline(always)]
     fn density<L: Lanes>(&self, l: L, triangle: U<L>, x: V<L>, wi: V<L>) -> (F<L>, M<L>) {

@@ -88,6 +88,28 @@ impl Shapes {
         pdf
     }
 
+    /// Samples a point of the given primitives, with the point `u` of the unit square. It is off the surface by rounding.
+    #[inline(always)]
+    pub fn sample_area<L: Lanes>(&self, l: L, place: &PrimitiveRef<L>, u: (F<L>, F<L>)) -> V<L> {
+        let mut p = self.tables.sample_area(l, place.primitive, u);
+        let mut rest = self.at_instance(l, place);
+        while let Some((here, instance)) = rest.next(self) {
+            p = here.pick(instance.sample_area(l, &rest.within(here, place), u), p);
+        }
+        p
+    }
+
+    /// The pdf of [`Shapes::sample_area`] per area at points of the given primitives; 0 on isosurfaces.
+    #[inline(always)]
+    pub fn area_pdf<L: Lanes>(&self, l: L, place: &PrimitiveRef<L>, point: &SurfacePoint<L>) -> F<L> {
+        let mut pdf = self.tables.area_pdf(l, place.primitive, point.p);
+        let mut rest = self.at_instance(l, place);
+        while let Some((here, instance)) = rest.next(self) {
+            pdf = here.pick(instance.area_pdf(l, &rest.within(here, place), point), pdf);
+        }
+        pdf
+    }
+
     #[inline(always)]
     fn at_instance<L: Lanes>(&self, l: L, place: &PrimitiveRef<L>) -> AtInstance<L> {
         if self.instances.is_empty() {

@@ -26,7 +26,7 @@ use super::{
 };
 use crate::{
     math::{One, U},
-    scene::{CameraRays, RenderSettings, Scene},
+    scene::{CameraRays, Estimator, RenderSettings, Scene},
 };
 
 /// A path, replayed.
@@ -45,8 +45,10 @@ pub struct Replay {
     pub end: End,
 }
 
-/// Replays sample number `sample` of a pixel.
+/// Replays sample number `sample` of a pixel. Of estimators with paths from lights, it replays the path from the camera, as `mis` weights
+/// it.
 pub fn replay(scene: &Scene, rays: &CameraRays, settings: &RenderSettings, pixel: [u32; 2], sample: u32) -> Replay {
+    let settings = &from_camera(scene, settings);
     let (work, [x, y]) = work_of(scene, rays, settings, pixel, sample);
     let is_here = |slot: &u32| {
         let (column, row) = work.place::<One>(U(*slot));
@@ -65,6 +67,12 @@ pub fn replay(scene: &Scene, rays: &CameraRays, settings: &RenderSettings, pixel
         SharedLight { unshared, kept, from_neighbours }
     });
     Replay { radiance, alone, shared, vertices: follower.vertices, end }
+}
+
+/// The settings without paths from lights.
+fn from_camera(scene: &Scene, settings: &RenderSettings) -> RenderSettings {
+    let estimator = if scene.traces_light_paths(settings) { Estimator::Mis } else { settings.estimator };
+    RenderSettings { estimator, ..*settings }
 }
 
 /// The reason why a vertex is the last one.

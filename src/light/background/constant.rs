@@ -6,7 +6,7 @@ use crate::{
     declare::{Declare, Kind, Parameter, Parameters, Problem, Range, Resources},
     light::{ReferencePoint, parameters::RADIANCE},
     math::{F, Frame, Lanes, Pick, V, colour::luminance},
-    sampling::warp::cosine_hemisphere,
+    sampling::warp::{cap, cosine_hemisphere},
 };
 
 /// The same radiance from all directions.
@@ -67,6 +67,16 @@ impl Radiant for ConstantRadiance {
     #[inline(always)]
     fn pdf<L: Lanes>(&self, _: L, at: &ReferencePoint<L>, wi: V<L>) -> F<L> {
         cosine_pdf(at, wi)
+    }
+
+    #[inline(always)]
+    fn sample_inwards<L: Lanes>(&self, l: L, _: (F<L>, F<L>), u: (F<L>, F<L>)) -> (V<L>, F<L>) {
+        (cap(l.f(2.0), u), l.f(0.25 * FRAC_1_PI))
+    }
+
+    #[inline(always)]
+    fn pdf_inwards<L: Lanes>(&self, l: L, _: V<L>) -> F<L> {
+        l.f(0.25 * FRAC_1_PI)
     }
 
     fn luminance(&self) -> f32 {

@@ -122,6 +122,16 @@ impl Radiant for ImageBackground {
         self.pdf(l, wi)
     }
 
+    #[inline(always)]
+    fn sample_inwards<L: Lanes>(&self, l: L, cell: (F<L>, F<L>), u: (F<L>, F<L>)) -> (V<L>, F<L>) {
+        self.sample(l, cell, u)
+    }
+
+    #[inline(always)]
+    fn pdf_inwards<L: Lanes>(&self, l: L, d: V<L>) -> F<L> {
+        self.pdf(l, d)
+    }
+
     fn luminance(&self) -> f32 {
         self.tables.mean_luminance
     }

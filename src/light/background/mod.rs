@@ -86,6 +86,12 @@ pub trait Radiant {
     /// The pdf of [`Radiant::sample`] at the unit direction `wi`, per solid angle.
     fn pdf<L: Lanes>(&self, l: L, at: &ReferencePoint<L>, wi: V<L>) -> F<L>;
 
+    /// Samples a unit direction for light that enters the scene, and returns it with its pdf per solid angle.
+    fn sample_inwards<L: Lanes>(&self, l: L, cell: (F<L>, F<L>), u: (F<L>, F<L>)) -> (V<L>, F<L>);
+
+    /// The pdf of [`Radiant::sample_inwards`] at the unit direction `d`, per solid angle.
+    fn pdf_inwards<L: Lanes>(&self, l: L, d: V<L>) -> F<L>;
+
     /// Mean luminance over all directions.
     fn luminance(&self) -> f32;
 
@@ -111,6 +117,18 @@ impl Background {
     #[inline(always)]
     pub(super) fn pdf<L: Lanes>(&self, l: L, at: &ReferencePoint<L>, wi: V<L>) -> F<L> {
         in_background!(self, background => Radiant::pdf(background, l, at, wi))
+    }
+
+    /// Samples a unit direction from which light enters the scene, and returns it with its pdf per solid angle.
+    #[inline(always)]
+    pub(super) fn sample_inwards<L: Lanes>(&self, l: L, cell: (F<L>, F<L>), u: (F<L>, F<L>)) -> (V<L>, F<L>) {
+        in_background!(self, background => Radiant::sample_inwards(background, l, cell, u))
+    }
+
+    /// The pdf of [`Background::sample_inwards`] at the unit direction `d`, per solid angle.
+    #[inline(always)]
+    pub(super) fn pdf_inwards<L: Lanes>(&self, l: L, d: V<L>) -> F<L> {
+        in_background!(self, background => Radiant::pdf_inwards(background, l, d))
     }
 
     /// Mean luminance over all directions.

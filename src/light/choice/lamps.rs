@@ -5,7 +5,7 @@ use super::{LightSample, Lights};
 use crate::{
     geometry::{MISS, Nearest},
     light::{LightCoordinates, ReferencePoint},
-    math::{Lanes, M, Pick, U, V},
+    math::{F, Lanes, M, Pick, U, V},
 };
 
 impl Lights {
@@ -45,9 +45,15 @@ impl Lights {
         light.below(first + self.lamps.len() as u32) & !light.below(first)
     }
 
+    /// Distances of the lamps among `lights` in the lanes of `lamps` from the points `p`.
+    #[inline(always)]
+    pub fn distance_of_lamps<L: Lanes>(&self, l: L, lamps: M<L>, lights: U<L>, p: V<L>) -> F<L> {
+        self.lamps.distance(l, self.lamp(l, lamps, lights), p)
+    }
+
     /// The numbers of the lamps of `lights` in the lanes of `lamps`, and the first lamp in the others.
     #[inline(always)]
-    fn lamp<L: Lanes>(&self, l: L, lamps: M<L>, lights: U<L>) -> U<L> {
+    pub(super) fn lamp<L: Lanes>(&self, l: L, lamps: M<L>, lights: U<L>) -> U<L> {
         lamps.pick(lights + (self.count as u32).wrapping_neg(), l.u(0))
     }
 

@@ -113,6 +113,13 @@ impl Emitters {
         (V { x, y, z }, emits & (side * cos).ge(l.f(0.0)))
     }
 
+    /// The sign of the emitting side: 1 for the front, −1 for the back, 0 for both.
+    #[inline(always)]
+    pub fn side<L: Lanes>(&self, l: L, primitive: U<L>) -> F<L> {
+        let [.., side] = l.rows(&self.rows, primitive);
+        side
+    }
+
     /// Whether the far side of some emitter can be seen through it: see [`Emission::translucent`].
     pub fn are_translucent(&self) -> bool {
         self.translucent

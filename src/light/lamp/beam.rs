@@ -1,6 +1,14 @@
 //! The light of lamps at points, in lanes: each lane has a lamp of its own, or all have the same.
+use std::f32::consts::TAU;
+
 use super::compiled::{BY_ANGLE, EVEN, LampRows, PICTURE};
-use crate::math::{F, Lanes, M, Pick, U, V, trig::turns_of};
+use crate::{
+    math::{
+        F, Frame, Lanes, M, Pick, U, V,
+        trig::{sin_cos_turns, turns_of},
+    },
+    sampling::warp::cap,
+};
 
 /// Lamps in lanes.
 pub struct Beam<L: Lanes> {
@@ -55,6 +63,45 @@ impl<L: Lanes> Beam<L> {
         let length = squared.sqrt();
         let spread = w.above(0.0).pick(1.0 / squared, l.f(1.0));
         Way { wi: way * (1.0 / length), distance: length / w, spread }
+    }
+
+    /// The position and, in the lanes of directional lamps, the unit direction towards them.
+    #[inline(always)]
+    pub fn origin(&self) -> (V<L>, M<L>) {
+        let [x, y, z, w] = self.rows[0];
+        (V { x, y, z }, !w.above(0.0))
+    }
+
+    /// The axis of the cap of directions that contains all light, and its height: 2 is the sphere. Pictures lie in the hemisphere
+    /// around the normal of their plane.
+    #[inline(always)]
+    fn cap(&self, l: L) -> (V<L>, F<L>) {
+        let word = self.word();
+        let (even, is_cone) = (word.is(EVEN), word.below(PICTURE));
+        let [cone, form] = [self.rows[2], self.rows[4]];
+        let pick = |i: usize| is_cone.pick(cone[i], form[i]);
+        let axis = even.pick(V::splat(l, [0.0, 0.0, 1.0]), V { x: pick(0), y: pick(1), z: pick(2) });
+        let edge = cone[3];
+        // The edge is a cosine, or an angle as negative turns.
+        let (_, cos_of_angle) = sin_cos_turns(-edge);
+        let cos = word.is(BY_ANGLE).pick(cos_of_angle, edge);
+        // Wider than the cone by more than the rounding.
+        let height = (1.0 - cos + 1e-4).min(l.f(2.0));
+        (axis.normalized(), even.pick(l.f(2.0), is_cone.pick(height, l.f(1.0))))
+    }
+
+    /// Samples a unit direction of light away from lamps with a position.
+    #[inline(always)]
+    pub fn sample_direction(&self, l: L, u: (F<L>, F<L>)) -> V<L> {
+        let (axis, height) = self.cap(l);
+        Frame::new(axis).world_from_local(cap(height, u))
+    }
+
+    /// The pdf of [`Beam::sample_direction`] per solid angle, the same for all directions.
+    #[inline(always)]
+    pub fn direction_pdf(&self, l: L) -> F<L> {
+        let (_, height) = self.cap(l);
+        1.0 / (height * TAU)
     }
 
     /// The power of the beam on its axis.

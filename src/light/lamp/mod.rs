@@ -32,7 +32,7 @@ pub(super) use self::{
 };
 pub use self::{
     compiled::{Lamp, Picture},
-    table::Lamps,
+    table::{LampRay, Lamps},
 };
 use crate::declare::{Declare, Parameters, Problem, Resources};
 

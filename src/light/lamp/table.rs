@@ -5,7 +5,7 @@ use fearless_simd_macros::simd;
 
 use super::{Beam, Lamp};
 use crate::{
-    math::{F, Lanes, Pick, U, V},
+    math::{F, Lanes, M, Pick, U, V},
     texture::{Edge, ImageTexture},
 };
 
@@ -18,6 +18,7 @@ pub struct Lamps {
     count: usize,
     /// The images that lamps cast.
     images: Vec<Arc<ImageTexture>>,
+    powers: Vec<f32>,
 }
 
 /// The light of a lamp at a point.
@@ -26,6 +27,20 @@ pub struct LampSample<L: Lanes> {
     pub wi: V<L>,
     /// Unoccluded irradiance of a surface that faces the lamp, W/m².
     pub irradiance: V<L>,
+}
+
+/// Light that leaves a lamp.
+pub struct LampRay<L: Lanes> {
+    /// The position; of directional lamps the unit direction towards them.
+    pub origin: V<L>,
+    /// Lanes of directional lamps.
+    pub far: M<L>,
+    /// Unit direction of the light.
+    pub d: V<L>,
+    /// Radiant intensity, W/sr; of directional lamps the irradiance, W/m².
+    pub light: V<L>,
+    /// Pdf of the direction per solid angle; 1 for directional lamps.
+    pub pdf: F<L>,
 }
 
 impl Lamps {
@@ -42,7 +57,12 @@ impl Lamps {
             place as u32 + 1
         };
         let rows = lamps.iter().flat_map(|lamp| lamp.rows(number(lamp))).collect();
-        Lamps { rows, count: lamps.len(), images }
+        Lamps { rows, count: lamps.len(), images, powers: lamps.iter().map(Lamp::light).collect() }
+    }
+
+    /// The luminance of the power of a lamp; of a picture, of its mean.
+    pub fn power(&self, lamp: usize) -> f32 {
+        self.powers[lamp]
     }
 
     /// Number of lamps.
@@ -70,18 +90,41 @@ impl Lamps {
     pub fn sample<L: Lanes>(&self, l: L, lamp: U<L>, p: V<L>) -> LampSample<L> {
         let beam = Beam::read(l, &self.rows, lamp);
         let way = beam.way_from(l, p);
-        let mut irradiance = beam.power() * (way.spread * beam.strength(l, -way.wi));
+        LampSample { wi: way.wi, irradiance: self.light(l, &beam, -way.wi, way.spread) }
+    }
+
+    /// The power of beams in the unit direction `d` away from them, times `spread`.
+    #[inline(always)]
+    fn light<L: Lanes>(&self, l: L, beam: &Beam<L>, d: V<L>, spread: F<L>) -> V<L> {
+        let mut light = beam.power() * (spread * beam.strength(l, d));
         for (number, image) in self.images.iter().enumerate() {
             let casts = beam.casts(number as u32 + 1);
             if casts.any() {
-                let (u, v, _) = beam.picture_place(l, -way.wi);
+                let (u, v, _) = beam.picture_place(l, d);
                 // An image repeats in u: half a texel from its edges is the last place that does not blend with the other edge.
                 let rim = image.step_u();
                 let u = u.max(l.f(rim)).min(l.f(1.0 - rim));
-                irradiance = casts.pick(irradiance * image.colour(l, u, v, Edge::Clamp), irradiance);
+                light = casts.pick(light * image.colour(l, u, v, Edge::Clamp), light);
             }
         }
-        LampSample { wi: way.wi, irradiance }
+        light
+    }
+
+    /// Samples light that leaves lamps.
+    #[simd]
+    pub fn emit<L: Lanes>(&self, l: L, lamp: U<L>, u: (F<L>, F<L>)) -> LampRay<L> {
+        let beam = Beam::read(l, &self.rows, lamp);
+        let (origin, far) = beam.origin();
+        let d = far.pick(-origin, beam.sample_direction(l, u));
+        LampRay { origin, far, d, light: self.light(l, &beam, d, l.f(1.0)), pdf: far.pick(l.f(1.0), beam.direction_pdf(l)) }
+    }
+
+    /// The pdf of the directions of [`Lamps::emit`] per solid angle, and the lanes of directional lamps, where it is 1.
+    #[simd]
+    pub fn direction_pdf<L: Lanes>(&self, l: L, lamp: U<L>) -> (F<L>, M<L>) {
+        let beam = Beam::read(l, &self.rows, lamp);
+        let (_, far) = beam.origin();
+        (far.pick(l.f(1.0), beam.direction_pdf(l)), far)
     }
 
     /// The distance of lamps from the points `p`, metres; infinite for directional lamps.

@@ -8,9 +8,11 @@ use crate::{
         adaptive::RATES,
         block::Block,
         estimate::Doubling,
+        exact_sum::ExactSums,
         film::Film,
         region::Region,
         scatter::{Parts, Scatter},
+        splats::{PLANES, SplatFilm, TileSplats},
         tile::Tile,
     },
     render_file::{Encode, Encoded, Fields, Reader, RenderFileError, Tag},
@@ -18,6 +20,8 @@ use crate::{
 
 const FILM: Tag = Tag(*b"FILM");
 const TILE: Tag = Tag(*b"TILE");
+/// What paths from lights bring to a tile. Absent without such paths.
+const SPLATS: Tag = Tag(*b"SPLT");
 /// Bytes of a tile besides its pixels, at most; and of a pixel.
 const BESIDES: usize = 2048;
 const PIXEL: usize = 72;
@@ -29,6 +33,10 @@ pub fn encode(film: &Film) -> Vec<Encoded> {
     let tiles = film.tiles.par_iter().enumerate().map(|(place, tile)| encode_tile(place as u32, tile));
     let mut sections = vec![encode_film(film)];
     sections.extend(tiles.collect::<Vec<_>>());
+    if let Some(splats) = &film.splats {
+        let tiles = (0..film.tiles.len()).into_par_iter();
+        sections.extend(tiles.map(|place| encode_splats(splats, place)).collect::<Vec<_>>());
+    }
     sections
 }
 
@@ -63,6 +71,51 @@ fn encode_tile(place: u32, tile: &Tile) -> Encoded {
     })
 }
 
+fn encode_splats(film: &SplatFilm, place: usize) -> Encoded {
+    let TileSplats { sums, counts } = film.tile(place);
+    Encoded::new(SPLATS, 32 + (17 * PLANES + 4) * counts.len(), |to| {
+        (place as u32).encode(to);
+        [film.batches(), film.invalid()].encode(to);
+        counts.encode(to);
+        let (high, low, bins) = sums.parts();
+        high.encode(to);
+        low.encode(to);
+        to.extend(bins);
+    })
+}
+
+/// Reads the sections of light paths, of which the first is already there.
+fn read_splats<R: Read + Seek>(reader: &mut Reader<R>, first: &[u8], film: &mut Film) -> Result<(), RenderFileError> {
+    let pixels = |tile: &Tile| (tile.size[0] * tile.size[1]) as usize;
+    let (first_tile, counters) = read_tile_splats(first, 0, pixels(&film.tiles[0]))?;
+    let mut tiles = vec![first_tile];
+    for place in 1..film.tiles.len() {
+        match reader.section()? {
+            Some((SPLATS, payload)) => tiles.push(read_tile_splats(payload, place as u32, pixels(&film.tiles[place]))?.0),
+            _ => return Err(RenderFileError::contents(format!("the light paths to tile {place} are missing"))),
+        }
+    }
+    film.splats = Some(SplatFilm::of_tiles(film.resolution, tiles, counters));
+    film.spread_splats();
+    Ok(())
+}
+
+fn read_tile_splats(payload: &[u8], place: u32, pixels: usize) -> Result<(TileSplats, [u64; 2]), RenderFileError> {
+    let mut fields = Fields::of(payload);
+    if fields.take::<u32>()? != place {
+        return Err(RenderFileError::contents(format!("the light paths to tile {place} are not in their place")));
+    }
+    let counters = fields.take()?;
+    let counts: Vec<u32> = fields.list(pixels)?;
+    let (high, low): (Vec<i64>, Vec<i64>) = (fields.list(PLANES * pixels)?, fields.list(PLANES * pixels)?);
+    let bins: Vec<u8> = fields.list(PLANES * pixels)?;
+    fields.end()?;
+    let most = counts.iter().copied().max().unwrap_or(0).into();
+    let sums = ExactSums::from_parts(high, low, &bins, most);
+    let contradiction = || RenderFileError::contents(format!("the light paths to tile {place} contradict each other"));
+    Ok((TileSplats { sums: sums.ok_or_else(contradiction)?, counts }, counters))
+}
+
 /// Reads the film of an image of this size. Its memory is reserved already.
 pub fn read<R: Read + Seek>(reader: &mut Reader<R>, resolution: [u32; 2]) -> Result<Film, RenderFileError> {
     // A film has memory for its samples only once it has some, but its tiles exist from the beginning.
@@ -83,6 +136,14 @@ pub fn read<R: Read + Seek>(reader: &mut Reader<R>, resolution: [u32; 2]) -> Res
     }
     match reader.section()? {
         None => Ok(film),
+        Some((SPLATS, payload)) => {
+            let first = payload.to_vec();
+            read_splats(reader, &first, &mut film)?;
+            match reader.section()? {
+                None => Ok(film),
+                Some((tag, _)) => Err(RenderFileError::contents(format!("the section {tag} is not known"))),
+            }
+        }
         Some((tag, _)) => Err(RenderFileError::contents(format!("the section {tag} is not known"))),
     }
 }

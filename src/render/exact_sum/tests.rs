@@ -127,3 +127,15 @@ fn impossible_sums_are_refused() {
     assert!(of(0, 0, BINS).is_none());
     assert!(ExactSums::from_parts(vec![0], vec![0, 0], &[0], 1).is_none());
 }
+
+#[test]
+fn a_quick_value_is_the_value_but_for_rounding() {
+    let mut random = SmallRng::seed_from_u64(9);
+    for _ in 0..200 {
+        let sums = sum(&values(&mut random));
+        for i in 0..2 {
+            let (exact, quick) = (sums.value(i), sums.quick_value(i));
+            assert!((quick - exact).abs() <= 4.0 * f64::EPSILON * exact, "{quick} {exact}");
+        }
+    }
+}

@@ -8,7 +8,7 @@ use super::{
     sums::{TileSums, TooManySamples},
 };
 use crate::{
-    integrator::{BLOCK, Interrupted},
+    integrator::{BLOCK, Interrupted, Splat},
     math::SimdLevel,
     memory::{self, Reservation, TooMuch},
     render::{
@@ -19,9 +19,11 @@ use crate::{
         film::Film,
         pass::{PassCount, SampleId},
         sampled_tile::{NextSamples, SampledTile},
+        splats::SplatFilm,
         threads::{PassJob, Threads},
         tile::Tile,
     },
+    sampling::Filter,
 };
 
 /// Why a film of samples cannot be begun.
@@ -46,7 +48,9 @@ pub struct SampleFilm {
     tiles: Vec<RangeTile>,
     samples: Range<u32>,
     count: PassCount,
-    _memory: Reservation,
+    /// What paths from lights bring to the pixels, if the estimator traces any.
+    splats: Option<SplatFilm>,
+    _memory: [Option<Reservation>; 2],
 }
 
 /// A tile, and how far it is.
@@ -74,6 +78,8 @@ impl SampleFilm {
     ) -> Result<SampleFilm, SplitError> {
         let resolution = job.rays.resolution;
         let memory = SampleFilm::reserve(resolution)?;
+        let traces_light_paths = job.scene.traces_light_paths(job.settings);
+        let of_splats = traces_light_paths.then(|| SplatFilm::reserve(resolution)).transpose()?;
         let mut plan = Film::new(resolution);
         if end > UNIFORM {
             let spread = adaptive::spread(threads, job, &mut plan, interrupted);
@@ -89,17 +95,23 @@ impl SampleFilm {
         if tiles.iter().any(|tile| tile.most_samples(end) > MOST_VALUES) {
             return Err(TooManySamples.into());
         }
-        Ok(SampleFilm { tiles, samples: start..start, count: PassCount::default(), _memory: memory })
+        let splats = traces_light_paths.then(|| SplatFilm::new(resolution));
+        Ok(SampleFilm { tiles, samples: start..start, count: PassCount::default(), splats, _memory: [Some(memory), of_splats] })
     }
 
     /// Adds the samples up to `end`, excluded. An interrupted film lacks some of them, and can only continue.
     pub fn advance(&mut self, threads: &Threads, job: PassJob, end: u32, interrupted: &(dyn Fn() -> bool + Sync)) {
         let resolution = job.rays.resolution;
         let tiles = self.tiles.par_iter_mut().with_max_len(1);
-        let sample = |tile| threads.sample_tile(job, resolution, &mut Towards { tile, end }, interrupted);
+        let splats = self.splats.as_ref().map(|film| (film, job.rays.filter));
+        let sample = |tile| threads.sample_tile(job, resolution, &mut Towards { tile, end, splats }, interrupted);
         let count = threads.install(|| tiles.map(sample).reduce(PassCount::default, PassCount::merge));
         self.count = std::mem::take(&mut self.count).merge(count);
         self.samples.end = end;
+        if let Some(splats) = &self.splats {
+            self.tiles[0].sums.invalid += splats.take_invalid();
+            self.tiles.iter_mut().enumerate().for_each(|(place, tile)| tile.sums.splats = Some(splats.tile(place)));
+        }
     }
 
     /// The samples that it has.
@@ -149,6 +161,7 @@ impl RangeTile {
 struct Towards<'a> {
     tile: &'a mut RangeTile,
     end: u32,
+    splats: Option<(&'a SplatFilm, Filter)>,
 }
 
 impl SampledTile for Towards<'_> {
@@ -163,6 +176,12 @@ impl SampledTile for Towards<'_> {
         }
         let left = self.tile.left(self.end);
         left.clone().any(|left| !left.is_empty()).then(|| NextSamples::OfBlocks(Box::new(self.tile.sums.area.batch(&left))))
+    }
+
+    fn splat(&self, splats: &[Splat]) {
+        if let Some((film, filter)) = self.splats {
+            film.add(filter, splats);
+        }
     }
 
     fn add(&mut self, level: SimdLevel, samples: &NextSamples, radiance: &[[f32; 4]]) -> Option<SampleId> {

@@ -1,6 +1,7 @@
 //! The image of exact sums: means, variances and noise figures.
 use super::{ranges::SampleRanges, sums::TileSums};
 use crate::{
+    integrator::TILE,
     measure::{Floor, SampleNoise},
     memory::{self, Reservation, TooMuch},
     render::{
@@ -8,6 +9,7 @@ use crate::{
         estimate::{Doubling, Estimate, SquaredRadiance, single},
         exact_sum::RESOLUTION,
         frame::Frame,
+        splats::SplatEstimate,
     },
 };
 
@@ -58,14 +60,41 @@ impl Picture {
         if sums.counts.contains(&0) {
             return Err(NoSamples(self.samples.clone()));
         }
+        let splats = self.splats_of(sums);
         let mut of_blocks = 0.0;
         for block in 0..sums.area.blocks() {
             of_blocks += self.add_block(sums, block);
         }
-        let of_sum = if self.shares { of_whole(sums) } else { of_blocks };
+        let of_sum = if self.shares { of_whole(sums) } else { of_blocks } + self.add_splats(sums, &splats);
         let values = 3.0 * sums.area.pixels() as f64;
         self.tiles.push(of_sum / (values * values));
         Ok(())
+    }
+
+    /// What paths from lights bring to the pixels of a tile.
+    fn splats_of(&self, sums: &TileSums) -> Vec<SplatEstimate> {
+        let Some(splats) = &sums.splats else { return Vec::new() };
+        let samples = u64::from(self.samples.total());
+        let pixels = self.resolution.map(u64::from).iter().product::<u64>();
+        // A batch is a sample of a tile.
+        let tiles = self.resolution.map(|side| u64::from(side.div_ceil(TILE))).iter().product::<u64>();
+        splats.estimates(samples * pixels, samples * tiles)
+    }
+
+    /// Adds that to the image. Returns the variance of its sum over the pixels and channels, as if channels were fully correlated.
+    fn add_splats(&mut self, sums: &TileSums, splats: &[SplatEstimate]) -> f64 {
+        let [left, top] = sums.area.origin.map(|side| side as usize);
+        let mut of_sum = 0.0;
+        for (pixel, splat) in splats.iter().enumerate() {
+            let [column, row] = [pixel % sums.area.size[0] as usize, pixel / sums.area.size[0] as usize];
+            let i = (top + row) * self.resolution[0] as usize + left + column;
+            for channel in 0..3 {
+                self.radiance[i][channel] += splat.mean[channel];
+                self.variance[i][channel] += splat.variance[channel];
+            }
+            of_sum += splat.variance.map(|variance| f64::from(variance).sqrt()).iter().sum::<f64>().powi(2);
+        }
+        of_sum
     }
 
     /// Returns the variance of the sum over the pixels and channels of a block, if its pixels are independent.

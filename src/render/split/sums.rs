@@ -7,6 +7,7 @@ use crate::{
     render::{
         area::{Area, valid},
         exact_sum::{ExactSums, MOST_VALUES},
+        splats::TileSplats,
     },
 };
 
@@ -29,6 +30,8 @@ pub struct TileSums {
     pub counts: Vec<u32>,
     /// Samples that were negative or not finite; they count as black.
     pub invalid: u64,
+    /// What paths from lights bring to the pixels, if there are any.
+    pub splats: Option<TileSplats>,
 }
 
 /// Numbers of a row of pixels.
@@ -50,6 +53,7 @@ impl TileSums {
             whole: ExactSums::new(2),
             counts: vec![0; area.blocks()],
             invalid: 0,
+            splats: None,
         }
     }
 
@@ -72,7 +76,12 @@ impl TileSums {
         self.blocks.merge(&other.blocks);
         self.whole.merge(&other.whole);
         self.invalid = self.invalid.saturating_add(other.invalid);
-        Ok(())
+        match (&mut self.splats, &other.splats) {
+            (Some(splats), Some(more)) => splats.merge(more),
+            (splats, more) => *splats = splats.take().or_else(|| more.clone()),
+        }
+        let most = self.splats.iter().flat_map(|splats| &splats.counts).max();
+        if most.is_some_and(|most| *most >= MOST_VALUES) { Err(TooManySamples) } else { Ok(()) }
     }
 
     #[simd]

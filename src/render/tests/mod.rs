@@ -1,4 +1,5 @@
 //! Film, frames and their noise estimates, with known samples.
+mod both_ends;
 mod denoise;
 mod film;
 mod frame;

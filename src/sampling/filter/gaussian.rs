@@ -56,6 +56,18 @@ impl Placing for Gaussian {
         gaussian(l, u) * self.sigma + 0.5
     }
 
+    fn density(self, x: f32) -> f32 {
+        let y = x / self.sigma;
+        // The step that contains it: each has the same probability.
+        let step = QUANTILES.partition_point(|row| row[0] <= y).saturating_sub(1);
+        let [start, width, ..] = QUANTILES[step];
+        if (start..start + width).contains(&y) { 1.0 / (STEPS as f32 * width * self.sigma) } else { 0.0 }
+    }
+
+    fn reach(self) -> f32 {
+        REACH as f32 * self.sigma
+    }
+
     #[cfg(test)]
     fn distribution(self, x: f64) -> f64 {
         use statrs::distribution::{ContinuousCDF, Normal};

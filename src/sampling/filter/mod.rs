@@ -29,6 +29,16 @@ impl Filter {
     pub fn place<L: Lanes>(self, l: L, u: F<L>) -> F<L> {
         in_filter!(self, filter => filter.place(l, u))
     }
+
+    /// The filter at `x` in one dimension, measured from the middle of the pixel: the pdf of [`Filter::place`].
+    pub fn density(self, x: f32) -> f32 {
+        in_filter!(self, filter => filter.density(x))
+    }
+
+    /// The distance from the middle of the pixel beyond which the filter is 0.
+    pub fn reach(self) -> f32 {
+        in_filter!(self, filter => filter.reach())
+    }
 }
 
 /// Widths of filters, pixels.
@@ -38,6 +48,12 @@ const WIDTHS: Range = Range::log(0.01, 16.0);
 trait Placing: Kind {
     /// The position of a sample, measured from the left (upper) edge of its pixel: the inverse of the filter's distribution function.
     fn place<L: Lanes>(self, l: L, u: F<L>) -> F<L>;
+
+    /// See [`Filter::density`].
+    fn density(self, x: f32) -> f32;
+
+    /// See [`Filter::reach`].
+    fn reach(self) -> f32;
 
     /// The integral of the filter left of `x`, which is measured from the middle of the pixel.
     #[cfg(test)]
@@ -54,6 +70,22 @@ mod tests {
     /// The integral of a filter left of `x`, which is measured from the pixel's left edge.
     fn distribution(filter: Filter, x: f64) -> f64 {
         in_filter!(filter, filter => filter.distribution(x - 0.5))
+    }
+
+    #[test]
+    fn the_density_is_the_slope_of_the_distribution() {
+        for filter in Filter::alternatives().into_iter().chain([Filter::tent(0.7)]) {
+            // Over steps as wide as those in which a density is constant.
+            for i in -40..40 {
+                let [a, b] = [i, i + 1].map(|i| f64::from(filter.reach()) * f64::from(i) / 40.0);
+                let steps = 1000;
+                let at = |k: i32| a + (b - a) * (f64::from(k) + 0.5) / f64::from(steps);
+                let mean = (0..steps).map(|k| f64::from(filter.density(at(k) as f32))).sum::<f64>() / f64::from(steps);
+                let slope = (distribution(filter, b + 0.5) - distribution(filter, a + 0.5)) / (b - a);
+                assert!((mean - slope).abs() < 2e-3, "{filter:?} from {a} to {b}: {mean} {slope}");
+            }
+            assert_eq!(filter.density(1.01 * filter.reach()), 0.0);
+        }
     }
 
     #[test]

@@ -25,6 +25,14 @@ impl Placing for Box {
         u
     }
 
+    fn density(self, x: f32) -> f32 {
+        if (-0.5..0.5).contains(&x) { 1.0 } else { 0.0 }
+    }
+
+    fn reach(self) -> f32 {
+        0.5
+    }
+
     #[cfg(test)]
     fn distribution(self, x: f64) -> f64 {
         (x + 0.5).clamp(0.0, 1.0)

@@ -51,6 +51,14 @@ impl Placing for Tent {
         tent(u) * self.radius + 0.5
     }
 
+    fn density(self, x: f32) -> f32 {
+        (1.0 - x.abs() / self.radius).max(0.0) / self.radius
+    }
+
+    fn reach(self) -> f32 {
+        self.radius
+    }
+
     #[cfg(test)]
     fn distribution(self, x: f64) -> f64 {
         let y = (x / f64::from(self.radius)).clamp(-1.0, 1.0);

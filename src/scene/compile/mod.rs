@@ -172,6 +172,8 @@ impl Parts {
             camera,
             settings,
             sharing_pays: Default::default(),
+            light_paths: OnceLock::new(),
+            estimator_by_trial: OnceLock::new(),
             spp,
             exposure,
             truth,

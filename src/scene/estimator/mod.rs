@@ -1,6 +1,10 @@
 //! How direct light is estimated. All estimators converge to the same image; they differ in noise.
 //!
 //! An estimator is one file and one line of the catalogue below.
+mod auto;
+mod bidirectional;
+mod caustics;
+mod forward;
 mod light;
 mod mis;
 mod path;
@@ -19,6 +23,10 @@ crate::declare::word_kinds! {
         path::Path,
         light::Light,
         mis::Mis,
+        caustics::Caustics,
+        forward::Forward,
+        bidirectional::Bidirectional,
+        auto::Auto,
     }
     in_estimator
 }
@@ -34,6 +42,21 @@ impl Estimator {
     #[inline(always)]
     pub fn compares(self) -> bool {
         in_estimator!(self, E => E::COMPARES)
+    }
+
+    /// Whether paths start at lights, too. In scenes where they cannot, the estimator works like `mis`.
+    pub fn traces_light_paths(self) -> bool {
+        in_estimator!(self, E => E::TRACES_LIGHT_PATHS)
+    }
+
+    /// Whether these are connected with all vertices of camera paths, and not only with the camera.
+    pub fn connects(self) -> bool {
+        in_estimator!(self, E => E::CONNECTS)
+    }
+
+    /// Whether paths from lights end at the first surface that scatters light in more than one direction.
+    pub fn traces_only_caustics(self) -> bool {
+        in_estimator!(self, E => E::ONLY_CAUSTICS)
     }
 
     /// The weight of an emitter hit that light sampling could have found, with the pdf of its direction and the pdf of light sampling,
@@ -67,6 +90,15 @@ trait Strategy {
 
     /// Whether a weight depends on the pdf of the other strategy.
     const COMPARES: bool = false;
+
+    /// See [`Estimator::traces_light_paths`].
+    const TRACES_LIGHT_PATHS: bool = false;
+
+    /// See [`Estimator::connects`].
+    const CONNECTS: bool = false;
+
+    /// See [`Estimator::traces_only_caustics`].
+    const ONLY_CAUSTICS: bool = false;
 
     /// See [`Estimator::hit_weight`].
     fn hit_weight<L: Lanes>(l: L, pdf: F<L>, of_light: F<L>) -> F<L>;

@@ -9,7 +9,7 @@ use serde::{Deserialize, Deserializer};
 
 use crate::{
     declare::Kind,
-    math::{Lanes, V},
+    math::{F, Lanes, M, V},
 };
 
 crate::declare::choices! {
@@ -70,6 +70,12 @@ impl Projection {
         in_projection!(self, projection => projection.rays(l, place, eye, forward))
     }
 
+    /// The point of the image that shows a point at `from_eye`, relative to the eye: see [`Seen`].
+    #[inline(always)]
+    pub(crate) fn seen<L: Lanes>(self, from_eye: V<L>, forward: [f32; 3]) -> Seen<L> {
+        in_projection!(self, projection => projection.seen(from_eye, forward))
+    }
+
     /// Reads a projection. Images of earlier versions store only the width of an orthographic projection, or nothing.
     pub(super) fn carried<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Projection, D::Error> {
         #[derive(Deserialize)]
@@ -85,6 +91,18 @@ impl Projection {
     }
 }
 
+/// Where points are in the image.
+pub struct Seen<L: Lanes> {
+    /// The point of the image, as in [`Projection::rays`].
+    pub place: V<L>,
+    /// Vector to the camera.
+    pub way: V<L>,
+    /// Area of the image for each unit of area at the point that faces the camera.
+    pub scale: F<L>,
+    /// Lanes in front of the camera.
+    pub visible: M<L>,
+}
+
 /// A kind of projection; see the functions of [`Projection`] of the same names.
 trait Projecting: Kind {
     fn has_angle(self) -> bool;
@@ -96,6 +114,7 @@ trait Projecting: Kind {
     fn with_width(self, width: f64) -> Self;
     fn widened(self, factor: f64) -> Option<Self>;
     fn rays<L: Lanes>(self, l: L, place: V<L>, eye: [f32; 3], forward: [f32; 3]) -> (V<L>, V<L>);
+    fn seen<L: Lanes>(self, from_eye: V<L>, forward: [f32; 3]) -> Seen<L>;
 }
 
 #[cfg(test)]

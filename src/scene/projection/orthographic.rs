@@ -2,7 +2,7 @@
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-use super::{Projecting, Projection};
+use super::{Projecting, Projection, Seen};
 use crate::{
     declare::{Declare, Kind, Parameter, Parameters, Range},
     math::{Lanes, V},
@@ -77,5 +77,12 @@ impl Projecting for Orthographic {
     #[inline(always)]
     fn rays<L: Lanes>(self, l: L, place: V<L>, eye: [f32; 3], forward: [f32; 3]) -> (V<L>, V<L>) {
         (place + eye, V::splat(l, forward))
+    }
+
+    #[inline(always)]
+    fn seen<L: Lanes>(self, from_eye: V<L>, forward: [f32; 3]) -> Seen<L> {
+        let depth = from_eye.dot_with(forward);
+        let [x, y, z] = forward.map(|axis| depth * -axis);
+        Seen { place: from_eye, way: V { x, y, z }, scale: depth.splat(1.0), visible: depth.above(0.0) }
     }
 }

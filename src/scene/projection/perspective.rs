@@ -1,7 +1,7 @@
 //! All rays start at the eye.
 use glam::DVec3;
 
-use super::Projecting;
+use super::{Projecting, Seen};
 use crate::{
     declare::{Declare, Kind, Parameter, Parameters},
     math::{Lanes, V},
@@ -57,5 +57,16 @@ impl Projecting for Perspective {
     #[inline(always)]
     fn rays<L: Lanes>(self, l: L, place: V<L>, eye: [f32; 3], _: [f32; 3]) -> (V<L>, V<L>) {
         (V::splat(l, eye), place.normalized())
+    }
+
+    /// An area of the image at distance 1 and angle θ to the axis has the solid angle cos³ θ, so it shows r² cos³ θ at distance r.
+    #[inline(always)]
+    fn seen<L: Lanes>(self, from_eye: V<L>, forward: [f32; 3]) -> Seen<L> {
+        let depth = from_eye.dot_with(forward);
+        let inverse = 1.0 / depth;
+        let place = from_eye * inverse;
+        // Over the depth |p| = r/depth = 1/cos θ.
+        let scale = place.length_squared().sqrt() * inverse * inverse;
+        Seen { place, way: -from_eye, scale, visible: depth.above(0.0) }
     }
 }

@@ -10,13 +10,16 @@ use crate::{
 const ROULETTES: [Roulette; 4] =
     [Roulette::by_throughput_from(2), Roulette::BY_THROUGHPUT, Roulette::by_throughput_from(8), Roulette::fixed(0.8)];
 
+/// Estimators to try. `forward` is good at caustics alone, and `auto` is one of the others.
+const ESTIMATORS: [Estimator; 4] = [Estimator::Path, Estimator::Light, Estimator::Mis, Estimator::Bidirectional];
+
 /// The settings in use and each sampler.
 pub const MOST_OF_SECOND_STAGE: usize = 1 + Sampler::ALL.len();
 
 /// The settings in use, then those with another roulette, another estimator or `other_reuse`.
 pub fn first_stage(in_use: &RenderSettings, other_reuse: Option<Reuse>) -> Vec<RenderSettings> {
     let roulettes = ROULETTES.map(|roulette| RenderSettings { roulette, ..*in_use });
-    let estimators = Estimator::ALL.map(|estimator| RenderSettings { estimator, ..*in_use });
+    let estimators = ESTIMATORS.map(|estimator| RenderSettings { estimator, ..*in_use });
     let reuse = other_reuse.map(|reuse| RenderSettings { reuse, ..*in_use });
     each_once(in_use, roulettes.into_iter().chain(estimators).chain(reuse))
 }

@@ -27,6 +27,7 @@ const IN_USE: RenderSettings = RenderSettings {
     adaptive: false,
     seed: 7,
     fault: None,
+    strategy: None,
 };
 const ADVISED: RenderSettings = RenderSettings { sampler: Sampler::Sobol, roulette: Roulette::BY_THROUGHPUT, ..IN_USE };
 
@@ -164,8 +165,8 @@ fn without_noise_nothing_is_better() {
 #[test]
 fn the_second_stage_adopts_the_best_of_the_first() {
     let first = first_stage(&IN_USE, None);
-    assert_eq!(first.len(), 1 + 4 + 2);
-    assert_eq!(first_stage(&ADVISED, None).len(), 1 + 3 + 2);
+    assert_eq!(first.len(), 1 + 4 + 3);
+    assert_eq!(first_stage(&ADVISED, None).len(), 1 + 3 + 3);
     let seconds = |settings: &RenderSettings| match (settings.roulette, settings.estimator) {
         (roulette, _) if roulette == Roulette::by_throughput_from(2) => 0.2,
         (Roulette::Throughput(_), _) => 0.4,
@@ -184,7 +185,7 @@ fn the_second_stage_adopts_the_best_of_the_first() {
 fn sharing_is_tried_and_taken_over_where_it_stands_out() {
     let first = first_stage(&IN_USE, Some(Reuse::On));
     let shared = RenderSettings { reuse: Reuse::On, ..IN_USE };
-    assert_eq!((first.len(), first.last()), (1 + 4 + 2 + 1, Some(&shared)));
+    assert_eq!((first.len(), first.last()), (1 + 4 + 3 + 1, Some(&shared)));
     let seconds = |settings: &RenderSettings| if *settings == shared { 0.2 } else { 1.0 };
     let trials: Vec<Measured> = first.iter().map(|settings| known(*settings, 0.01, &[seconds(settings); 4])).collect();
     let advice = rank(&trials, SPP);

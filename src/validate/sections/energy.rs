@@ -223,7 +223,7 @@ mod tests {
         let place = |x: usize| (2.0 * x as f64 + 1.0) / SIDE as f64 - 1.0;
         let height = |i: usize| (1.0 - place(i % SIDE).powi(2) - place(i / SIDE).powi(2)).max(0.0).sqrt();
         let pixels = (0..SIDE * SIDE).map(|i| Mean { mean: height(i), variance_of_mean: 0.0 }).collect();
-        let rings = rings(&Picture { width: SIDE, pixels });
+        let rings = rings(&Picture::new(SIDE, pixels));
         assert!(rings.len() > 6);
         for (cos, found) in rings {
             assert!((found.mean - cos).abs() < 1e-9, "{cos}: {}", found.mean);

@@ -86,14 +86,18 @@ fn integrating_sphere(validation: &Validation) -> Vec<Statement> {
             let up = if at[1] == 0 { [0, 1, 0] } else { [0, 0, 1] };
             let scene = sphere(&format!("look_at = {at:?}, up = {up:?}, fov = 90.0, resolution = [{SIDE}, {SIDE}]"));
             let settings = RenderSettings { roulette: Roulette::BY_THROUGHPUT, ..validation.settings(estimator) };
-            for (i, pixel) in picture(&scene, settings, RED, validation.spp(600)).pixels.iter().enumerate() {
-                let place = |x: u32| (f64::from(x) + 0.5) / f64::from(SIDE) * 2.0 - 1.0;
-                let (x, y) = (place(i as u32 % SIDE), place(i as u32 / SIDE));
-                let weight = (1.0 + x * x + y * y).powf(-1.5);
-                sum += weight * pixel.mean;
-                variance += weight * weight * pixel.variance_of_mean;
-                whole += weight;
-            }
+            let weights: Vec<(usize, f64)> = (0..(SIDE * SIDE) as usize)
+                .map(|i| {
+                    let place = |x: u32| (f64::from(x) + 0.5) / f64::from(SIDE) * 2.0 - 1.0;
+                    let (x, y) = (place(i as u32 % SIDE), place(i as u32 / SIDE));
+                    (i, (1.0 + x * x + y * y).powf(-1.5))
+                })
+                .collect();
+            let weight: f64 = weights.iter().map(|(_, weight)| weight).sum();
+            let found = picture(&scene, settings, RED, validation.spp(600)).weighted(&weights);
+            sum += weight * found.mean;
+            variance += weight * weight * found.variance_of_mean;
+            whole += weight;
         }
         // Cells may end within a pixel, which has the weight of its centre.
         let error = variance.sqrt().hypot(1e-4 * whole);

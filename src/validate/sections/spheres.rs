@@ -95,11 +95,10 @@ fn lit(validation: &Validation, estimator: Estimator, what: &str) -> [Statement;
     let (scene, exact) = lit_ball();
     // One path in twelve finds the lamp.
     let found = pixels(validation, &scene, estimator, if estimator == Estimator::Path { 9000 } else { 900 });
-    let known: Vec<(usize, Mean, f64)> =
-        found.pixels.iter().zip(&exact).enumerate().filter_map(|(i, (pixel, exact))| Some((i, *pixel, (*exact)?))).collect();
-    let mean = |part: &[&(usize, Mean, f64)]| {
-        let exact = part.iter().map(|(_, _, exact)| exact).sum::<f64>() / part.len() as f64;
-        (Mean::of(part.iter().map(|(_, mean, _)| *mean)), exact)
+    let known: Vec<(usize, f64)> = exact.iter().enumerate().filter_map(|(i, exact)| Some((i, (*exact)?))).collect();
+    let mean = |part: &[&(usize, f64)]| {
+        let exact = part.iter().map(|(_, exact)| exact).sum::<f64>() / part.len() as f64;
+        (found.weighted(&part.iter().map(|(i, _)| (*i, 1.0)).collect::<Vec<_>>()), exact)
     };
     let block = |i: usize| (i / found.width / BLOCK, i % found.width / BLOCK);
     let mut blocks: Vec<(usize, usize)> = known.iter().map(|(i, ..)| block(*i)).collect();

@@ -12,7 +12,7 @@ use super::{
 use crate::{
     integrator::{Batch, TILE, Work, trace},
     math::SimdLevel,
-    measure::Mean,
+    measure::{Mean, sample_image},
     render::pass::panic_message,
     scene::{CameraRays, RenderSettings, Scene, parse},
     validate::check::largest,
@@ -107,6 +107,9 @@ fn render(
         Expected::Everywhere(exact) | Expected::Mean(exact) | Expected::Within { radiance: exact, .. } => exact,
         _ => 1.0,
     };
+    if scene.traces_light_paths(settings) {
+        return render_both_ends(scene, settings, rays, trial_scene, exact, start);
+    }
     for sample in 0..trial_scene.spp {
         let work = Work::tile(scene, rays, settings, [0, 0], size, sample);
         BATCH.with_borrow_mut(|batch| {
@@ -132,6 +135,32 @@ fn render(
         Expected::Within { .. } => outcome.lost = Some((sum / outcome.samples as f64).abs()),
         Expected::Mean(_) => outcome.z = Some(deviation(sum, square, outcome.samples as f64)),
         _ => {}
+    }
+    Some(outcome)
+}
+
+/// Renders the scene with paths from lights, too. Only means are known, and that of an image is a single value, as its pixels depend on
+/// each other.
+fn render_both_ends(
+    scene: &Scene,
+    settings: &RenderSettings,
+    rays: &CameraRays,
+    trial_scene: &TrialScene,
+    exact: f64,
+    start: Instant,
+) -> Option<Outcome> {
+    let mut outcome = Outcome::default();
+    let (mut sum, mut square) = (0.0, 0.0);
+    for sample in 0..trial_scene.spp {
+        let image = sample_image(scene, rays, settings, sample, &|| start.elapsed() > PATIENCE).ok()?;
+        outcome.samples += image.len() as u64;
+        outcome.invalid +=
+            image.iter().filter(|[r, g, b, _]| ![r, g, b].iter().all(|x| (0.0..=f32::MAX).contains(*x))).count() as u64;
+        let relative = image.iter().map(|[r, ..]| f64::from(*r) / exact).sum::<f64>() / image.len() as f64 - 1.0;
+        (sum, square) = (sum + relative, square + relative * relative);
+    }
+    if let Expected::Mean(_) | Expected::Everywhere(_) = trial_scene.expected {
+        outcome.z = Some(deviation(sum, square, f64::from(trial_scene.spp)));
     }
     Some(outcome)
 }

@@ -1,5 +1,5 @@
 //! Joins the windows over the picture with the state of the window.
-use noisefall::scene::{RenderSettings, Roulette};
+use noisefall::scene::{Estimator, RenderSettings, Roulette};
 
 use super::state::App;
 use crate::viewer::background::adviser::Adviser;
@@ -95,6 +95,10 @@ impl App {
             TourRequest::CompareWithCap => {
                 self.session.settings.roulette = Roulette::BY_THROUGHPUT;
                 self.start_comparison(RenderSettings { max_bounces: Some(3), ..self.session.settings });
+            }
+            TourRequest::CompareBothEnds => {
+                self.session.settings.estimator = Estimator::Mis;
+                self.start_comparison(RenderSettings { estimator: Estimator::Bidirectional, ..self.session.settings });
             }
             TourRequest::OpenGallery => self.dialogs.gallery.open = true,
         }

@@ -83,7 +83,8 @@ impl App {
             .as_ref()
             .and_then(|opened| opened.scene.infinite_variance(&edited))
             .map(|caution| format!("{}.", capitalised(&caution)));
-        if sampling::show(ui, self.session.edited(), status, caution.as_deref()) {
+        let in_force = self.session.opened.as_ref().and_then(|opened| opened.scene.estimator_in_force(&edited));
+        if sampling::show(ui, self.session.edited(), status, in_force.as_deref(), caution.as_deref()) {
             self.ask_for_advice();
         }
     }

@@ -29,7 +29,21 @@ pub struct CatalogueEntry {
 const CHAPTERS: [(&str, &[&str]); 6] = [
     ("The box", &["cornell_box", "cornell_spheres"]),
     ("Noise", &["bright_sky", "tiny_lamp", "room_window", "sky_lit"]),
-    ("Estimators", &["veach_plates", "glass_and_mirror", "lamp_behind_glass", "many_small_lamps", "five_hundred_lamps", "lamps"]),
+    (
+        "Estimators",
+        &[
+            "veach_plates",
+            "glass_and_mirror",
+            "glass_ball_caustic",
+            "lamp_behind_glass",
+            "keyhole_room",
+            "water_pool",
+            "caustic_in_mirror",
+            "many_small_lamps",
+            "five_hundred_lamps",
+            "lamps",
+        ],
+    ),
     ("Materials", &["gloss_row", "principled", "tinted_glass", "thin_panes", "leaves", "nested_glass", "textures_and_bump"]),
     (
         "Geometry",

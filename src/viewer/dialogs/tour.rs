@@ -12,6 +12,8 @@ pub enum TourRequest {
     ShowSecondBounce,
     /// Compares roulette with a cap of 3 bounces.
     CompareWithCap,
+    /// Compares MIS with bidirectional paths.
+    CompareBothEnds,
     OpenGallery,
 }
 
@@ -24,7 +26,7 @@ struct Page {
     tries: (&'static str, TourRequest),
 }
 
-const PAGES: [Page; 4] = [
+const PAGES: [Page; 5] = [
     Page {
         title: "This image is an estimate",
         text: "Every pixel is the mean of N random light paths. The samples scatter. Their mean approaches the solution of the light \
@@ -46,6 +48,12 @@ const PAGES: [Page; 4] = [
                mean stays exact at finite cost. Compare it with a cap of 3: the difference is the missing light.",
         shows: Some(InstrumentTab::Compare),
         tries: ("Compare with a cap of 3", TourRequest::CompareWithCap),
+    },
+    Page {
+        title: "Paths can start at both ends",
+        text: "A path from the camera finds a caustic by luck, a path from the lamp by itself. A strategy (s, t) takes s vertices from the                lamp and t from the camera. Bidirectional paths use all strategies, each weighted by its pdf over the sum of all pdfs.                The means agree; the noise moves. Caustics gain, and plain scenes lose time.",
+        shows: Some(InstrumentTab::Compare),
+        tries: ("Compare MIS with both ends", TourRequest::CompareBothEnds),
     },
     Page {
         title: "Now you",

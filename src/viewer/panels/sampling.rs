@@ -4,7 +4,7 @@ use noisefall::{
     declare::OneOf,
     render::{Status, sharing::sharing_name},
     sampling::Sampler,
-    scene::{RenderSettings, Reuse, Roulette},
+    scene::{Estimator, RenderSettings, Reuse, Roulette},
 };
 
 use super::presets;
@@ -12,7 +12,7 @@ use crate::viewer::widgets::{
     kinds::{kinds, number_rows, words},
     number,
     palette::Palette,
-    style::{choices, controls, row},
+    style::{choices, controls, elided, row},
 };
 
 /// Shows which side of a comparison the panel edits, and lets the user change it. The row stays where nothing is compared, so that no
@@ -31,16 +31,14 @@ pub fn side_choice(ui: &mut Ui, edits_second: Option<&mut bool>) {
 }
 
 /// Shows the settings, with a caution where their variance is infinite. Returns whether advice was asked for.
-pub fn show(ui: &mut Ui, settings: &mut RenderSettings, status: &Status, caution: Option<&str>) -> bool {
+pub fn show(ui: &mut Ui, settings: &mut RenderSettings, status: &Status, in_force: Option<&str>, caution: Option<&str>) -> bool {
     controls(ui, "sampling", |ui| {
         presets::show(ui, settings);
         row(
             ui,
             &RenderSettings::ESTIMATOR.label(),
             "How direct light is estimated. All converge to the same image; they differ in noise.",
-            |ui, _| {
-                words(ui, &mut settings.estimator);
-            },
+            |ui, _| estimator_choice(ui, &mut settings.estimator, in_force),
         );
         sampler_row(ui, &mut settings.sampler);
         row(ui, &RenderSettings::DIRECTIONS.label(), "Pdf p(ω_i) of the next direction at diffuse surfaces.", |ui, _| {
@@ -79,6 +77,18 @@ pub fn show(ui: &mut Ui, settings: &mut RenderSettings, status: &Status, caution
     ui.add_space(4.0);
     let doc = "Tests estimators, samplers, roulettes and sharing for some seconds, and offers the most efficient settings.";
     ui.button("What should I use here?").on_hover_text(doc).clicked()
+}
+
+/// The estimators in rows, and the one in force where it is another.
+fn estimator_choice(ui: &mut Ui, estimator: &mut Estimator, in_force: Option<&str>) {
+    /// Estimators in a row.
+    const ROW: usize = 3;
+    let all = Estimator::ALL.map(|estimator| (estimator, estimator.word().title, estimator.word().doc));
+    ui.vertical(|ui| {
+        all.chunks(ROW).for_each(|row| choices(ui, estimator, row));
+        // Always there, so that no row below moves.
+        elided(ui, ui.available_width(), in_force.unwrap_or(" "));
+    });
 }
 
 fn sampler_row(ui: &mut Ui, sampler: &mut Sampler) {

@@ -1,0 +1,104 @@
+//! Shading of paths from the camera: samples lights, connects the vertices with those of paths from lights, and samples the next
+//! directions.
+use fearless_simd_macros::simd;
+
+use super::{
+    connect::{Connector, finish_connections},
+    scatter::{Evaluated, depth, evaluate, scatter},
+};
+use crate::{
+    integrator::{
+        batch::Batch,
+        light_paths::{
+            partial::{Others, cosine},
+            path_state::PathVertex,
+            paths::LightPaths,
+            records::DirectSample,
+        },
+        light_sample::call_sample_light,
+        queue::{Queue, Register},
+        queues::HitQueues,
+        records::Path,
+        roulette::survive,
+        work::Work,
+    },
+    light::ReferencePoint,
+    material::Stage,
+    math::{Lanes, Pick},
+};
+
+/// Runs the stage.
+#[simd]
+pub(super) fn shade_camera_paths<L: Lanes>(l: L, work: &Work, batch: &mut Batch, state: &mut LightPaths) {
+    let Batch { paths, hits, bounce, radiance, rays, .. } = batch;
+    let reflection = *bounce + 1;
+    let next = &mut paths[(reflection & 1) as usize];
+    next.clear();
+    let connects = work.settings.estimator.connects();
+    let only_caustics = work.settings.estimator.traces_only_caustics();
+    // What paths from lights bring to the first surface is found by them alone.
+    let is_joined = !connects && !only_caustics && *bounce == 0;
+    let others = match *bounce {
+        _ if connects => Others::All,
+        0 if only_caustics => Others::All,
+        _ if only_caustics => Others::AfterDelta,
+        _ => Others::None,
+    };
+    let is_connected = connects && reflection < work.settings.last_bounce();
+    for stage in &work.scene.surfaces.stages {
+        let hits = &hits[*stage as usize];
+        for at in hits.registers(l) {
+            let vertex = state.ends[1].read(l, hits, at);
+            if stage.sees_lights() && !is_joined {
+                queue_light_sample(l, work, *stage, hits, at, &vertex, reflection, &mut state.direct);
+            }
+            if stage.sees_lights() && is_connected {
+                let connector = Connector { work, stage: *stage, hits, at, vertex: &vertex, reflection };
+                connector.connect(l, state, radiance, rays);
+            }
+            let scattered = scatter(l, work, *stage, hits, at, vertex.back, reflection);
+            let throughput = vertex.hit.throughput * scattered.weight;
+            let survival = survive(l, work.settings.roulette, reflection, scattered.roulette, throughput, scattered.judged);
+            let mut keep = at.live & survival.alive & scattered.consistent & survival.throughput.max_component().above(0.0);
+            if is_joined {
+                keep = keep & scattered.delta;
+            }
+            let cos = cosine(scattered.d, vertex.hit.n);
+            let pdfs = [scattered.pdf, scattered.reverse];
+            let partial = vertex.partial.scatter(scattered.delta, pdfs, cos, others);
+            let slot = vertex.hit.slot;
+            let end = &mut state.ends[1];
+            end.put_partial(keep, slot, partial);
+            end.put_before(keep, slot, vertex.hit.n, l.f(if stage.transmits() { 1.0 } else { 0.0 }));
+            Path { o: scattered.o, d: scattered.d, throughput: survival.throughput, slot }.push(keep, &mut next.paths);
+        }
+    }
+    finish_connections(l, work, reflection, state, radiance, rays);
+}
+
+/// Samples lights, and queues the samples that would contribute if they are visible.
+#[inline(always)]
+#[allow(clippy::too_many_arguments)]
+fn queue_light_sample<L: Lanes>(
+    l: L,
+    work: &Work,
+    stage: Stage,
+    hits: &HitQueues,
+    at: Register<L>,
+    PathVertex { live, hit, back, partial }: &PathVertex<L>,
+    reflection: u32,
+    queue: &mut Queue,
+) {
+    let transmits = if stage.transmits() { l.first(L::N) } else { l.first(0) };
+    let point = ReferencePoint { p: hit.p, n: hit.n, transmits, lobe: None };
+    let stream = work.stream(l, hit.slot);
+    let sample = call_sample_light(l, work, &point, &stream, hit.slot, reflection);
+    let Evaluated { f_cos, pdf: bsdf_pdf, reverse } = evaluate(l, work, stage, hits, at, [*back, sample.wi]);
+    let radiance = hit.throughput * f_cos * sample.radiance * (1.0 / sample.pdf);
+    let keep = *live & sample.pdf.above(0.0) & radiance.max_component().above(0.0);
+    let height = sample.wi.dot(hit.n);
+    let o = height.above(0.0).pick(hit.p, hit.p - hit.n * depth(l, stage, hits, at));
+    let partial = if work.settings.estimator.connects() { partial.sum(height.abs(), reverse) } else { l.f(0.0) };
+    let (d, target, slot, pdf) = (sample.wi, sample.target, hit.slot, sample.pdf);
+    DirectSample { o, d, radiance, target, slot, pdf, bsdf_pdf, partial }.push(keep, queue);
+}

@@ -1,0 +1,162 @@
+//! Connects the vertices of paths from the camera with those of the path from the light of the same sample.
+use fearless_simd_macros::simd;
+
+use super::{
+    scatter::{Evaluated, depth, evaluate},
+    strategy::weight_of,
+};
+use crate::{
+    integrator::{
+        batch::add,
+        light_paths::{partial::cosine, path_state::PathVertex, paths::LightPaths, records::Connection, vertices::LightVertex},
+        queue::Register,
+        queues::HitQueues,
+        slots::SLOTS,
+        work::Work,
+    },
+    material::Stage,
+    math::{Lanes, MAX_LANES, Pick},
+    scene::surface,
+};
+
+/// Of a surface that is not convex a ray may meet another part first.
+const NEARLY: f32 = 0.999;
+
+/// A register of vertices of paths from the camera.
+pub(super) struct Connector<'a, 'w, L: Lanes> {
+    pub work: &'a Work<'w>,
+    pub stage: Stage,
+    pub hits: &'a HitQueues,
+    pub at: Register<L>,
+    pub vertex: &'a PathVertex<L>,
+    pub reflection: u32,
+}
+
+impl<L: Lanes> Connector<'_, '_, L> {
+    /// Queues the connections with all vertices of the paths from the lights.
+    #[inline(always)]
+    pub fn connect(&self, l: L, state: &mut LightPaths, radiance: &mut [[f32; 4]], rays: &mut u64) {
+        let PathVertex { live, hit, .. } = self.vertex;
+        let most = self.work.settings.last_bounce() - self.reflection;
+        let mut next = live.pick(state.vertices.last(l, hit.slot), l.u(0));
+        loop {
+            let open = !next.is(0);
+            if !open.any() {
+                return;
+            }
+            let index = open.pick(next + u32::MAX, l.u(0));
+            let light = state.vertices.read(l, index);
+            next = open.pick(light.before, l.u(0));
+            let allowed = open & light.bounce.below(most);
+            if allowed.any() {
+                self.queue(l, state, allowed, index, &light, radiance, rays);
+            }
+        }
+    }
+
+    #[inline(always)]
+    #[allow(clippy::too_many_arguments)]
+    fn queue(
+        &self,
+        l: L,
+        state: &mut LightPaths,
+        lanes: crate::math::M<L>,
+        index: crate::math::U<L>,
+        light: &LightVertex<L>,
+        radiance: &mut [[f32; 4]],
+        rays: &mut u64,
+    ) {
+        let Connector { work, stage, hits, at, vertex: PathVertex { hit, back, partial, .. }, .. } = self;
+        let way = light.p - hit.p;
+        let square = way.length_squared();
+        let distance = square.sqrt();
+        let d = way * (1.0 / distance);
+        let Evaluated { f_cos, pdf, reverse } = evaluate(l, work, *stage, hits, *at, [*back, d]);
+        let contribution = hit.throughput * f_cos;
+        let keep = lanes & square.above(0.0) & contribution.max_component().above(0.0);
+        if !keep.any() {
+            return;
+        }
+        let height = d.dot(hit.n);
+        let o = height.above(0.0).pick(hit.p, hit.p - hit.n * depth(l, *stage, hits, *at));
+        let record = Connection {
+            o,
+            d,
+            distance,
+            cos: height.abs(),
+            light: contribution,
+            pdf,
+            partial: partial.sum(l.f(1.0), reverse),
+            slot: hit.slot,
+            vertex: index,
+        };
+        for stage in &work.scene.surfaces.stages {
+            let here = keep & surface::stage(light.word).is(*stage as u32);
+            if !here.any() {
+                continue;
+            }
+            if state.connections[*stage as usize].0.len() + MAX_LANES > SLOTS {
+                finish(l, work, *stage, self.reflection, state, radiance, rays);
+            }
+            let (queue, hits) = &mut state.connections[*stage as usize];
+            record.push(here, queue);
+            state.vertices.queue_hits(l, work, *stage, here, index, light, hit.slot, hits);
+        }
+    }
+}
+
+/// Finishes all connections.
+#[inline(always)]
+pub(super) fn finish_connections<L: Lanes>(
+    l: L,
+    work: &Work,
+    reflection: u32,
+    state: &mut LightPaths,
+    radiance: &mut [[f32; 4]],
+    rays: &mut u64,
+) {
+    for stage in &work.scene.surfaces.stages {
+        finish(l, work, *stage, reflection, state, radiance, rays);
+    }
+}
+
+/// Evaluates the BSDFs at the vertices of lights of a stage, tests which connections are visible, and weights them.
+#[simd]
+fn finish<L: Lanes>(
+    l: L,
+    work: &Work,
+    stage: Stage,
+    reflection: u32,
+    state: &mut LightPaths,
+    radiance: &mut [[f32; 4]],
+    rays: &mut u64,
+) {
+    let LightPaths { connections, vertices, .. } = state;
+    let (queue, hits) = &mut connections[stage as usize];
+    for at in queue.registers(l) {
+        let connection = Connection::read(l, queue, at.start);
+        let Connection { o, d, distance, cos, .. } = connection;
+        let index = at.live.pick(connection.vertex, l.u(0));
+        let light = vertices.read(l, index);
+        let end = vertices.read_end(l, index);
+        let Evaluated { f_cos, pdf, reverse } = evaluate(l, work, stage, hits, at, [-d, end.back]);
+        let (leaving, arriving) = (d.dot(light.n).abs(), cosine(end.back, light.n));
+        let per_area = 1.0 / (distance * distance);
+        let contribution = connection.light * end.light * f_cos * (leaving / arriving * per_area);
+        let faces = at.live & contribution.max_component().above(0.0);
+        if !faces.any() {
+            continue;
+        }
+        *rays += faces.count() as u64;
+        let nearest = work.scene.shapes.closest(l, faces, o, d, work.time(l, connection.slot));
+        let same = nearest.primitive.equals(end.primitive) & nearest.element.equals(end.element);
+        let seen = faces & same & nearest.t.ge(distance * NEARLY);
+        let from_camera = end.partial.sum(connection.pdf * leaving * per_area, pdf);
+        let from_light = connection.partial * (reverse * cos * per_area);
+        let weight = 1.0 / (1.0 + from_camera + from_light);
+        let weight = weight_of(work, light.bounce + 2, reflection + 1, weight);
+        add(radiance, seen, connection.slot, contribution * weight);
+    }
+    queue.clear();
+    hits.clear();
+}

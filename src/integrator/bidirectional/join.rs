@@ -1,0 +1,31 @@
+//! Tests which vertices of paths from lights the camera sees.
+use fearless_simd_macros::simd;
+
+use crate::{
+    integrator::{
+        batch::Batch,
+        light_paths::{paths::LightPaths, records::CameraRay, splat::Splat},
+        work::Work,
+    },
+    math::{F, Lanes, MAX_LANES},
+    sampling::Dimension,
+};
+
+#[simd]
+pub(super) fn join<L: Lanes>(l: L, work: &Work, batch: &mut Batch, state: &mut LightPaths) {
+    for at in state.joins.registers(l) {
+        let CameraRay { o, d, distance, slot, x, y, light } = CameraRay::read(l, &state.joins, at.start);
+        let nearest = work.scene.shapes.closest(l, at.live, o, d, work.time(l, slot));
+        let (u, v) = work.stream(l, slot).two(Dimension::cell(Dimension::LIGHT_PATH + batch.bounce + 1));
+        let seen = at.live & nearest.t.ge(distance);
+        let [x, y, u, v, r, g, b] = [x, y, u, v, light.x, light.y, light.z].map(F::to_array);
+        let mut lanes = seen.bits();
+        while lanes != 0 {
+            let lane = lanes.trailing_zeros() as usize % MAX_LANES;
+            lanes &= lanes - 1;
+            batch.splats.push(Splat { place: [x[lane], y[lane]], u: [u[lane], v[lane]], light: [r[lane], g[lane], b[lane]] });
+        }
+    }
+    batch.rays += state.joins.len() as u64;
+    state.joins.clear();
+}

@@ -1,0 +1,158 @@
+//! Shading of paths from lights: joins their vertices with the camera, keeps them for connections, and samples the next directions.
+use fearless_simd_macros::simd;
+
+use super::{
+    scatter::{Evaluated, depth, evaluate, scatter},
+    strategy::weight_of,
+};
+use crate::{
+    geometry::{MISS, PrimitiveRef},
+    integrator::{
+        batch::Batch,
+        light_paths::{
+            partial::{Others, Partial, cosine},
+            path_state::PathVertex,
+            paths::LightPaths,
+            records::CameraRay,
+        },
+        queue::{Queue, Register},
+        queues::HitQueues,
+        records::Path,
+        roulette::survive,
+        work::Work,
+    },
+    light::{LightRays, ReferencePoint},
+    material::Stage,
+    math::{F, Lanes, Pick, U, V},
+    sampling::Dimension,
+};
+
+/// Runs the stage.
+#[simd]
+pub(super) fn shade_light_paths<L: Lanes>(l: L, work: &Work, rays: &LightRays, batch: &mut Batch, state: &mut LightPaths) {
+    let Batch { paths, hits, bounce, .. } = batch;
+    let next = &mut paths[((*bounce + 1) & 1) as usize];
+    next.clear();
+    let (connects, only_caustics) = (work.settings.estimator.connects(), work.settings.estimator.traces_only_caustics());
+    let is_connected = connects && *bounce + 2 <= work.settings.last_bounce();
+    // Without a surface between, camera paths find the light by light samples.
+    let is_joined = !only_caustics || *bounce > 0;
+    let others = if connects || only_caustics { Others::All } else { Others::None };
+    for stage in &work.scene.surfaces.stages {
+        let hits = &hits[*stage as usize];
+        for at in hits.registers(l) {
+            let mut vertex = state.ends[0].read(l, hits, at);
+            if *bounce == 0 && others == Others::All {
+                vertex.partial = at_first_surface(l, work, rays, state, *stage, &vertex);
+            }
+            let [r, g, b, _] = l.rows(&state.fluxes, vertex.hit.slot);
+            let light = vertex.hit.throughput * V { x: r, y: g, z: b };
+            if stage.sees_lights() && is_joined {
+                queue_join(l, work, *stage, hits, at, &vertex, light, *bounce, &mut state.joins);
+                if is_connected {
+                    let place = state.ends[0].place(l, vertex.hit.slot);
+                    state.vertices.push(l, work, *stage, hits, at, &vertex, light, place, *bounce);
+                }
+            }
+            let reflection = Dimension::LIGHT_PATH + *bounce + 1;
+            let scattered = scatter(l, work, *stage, hits, at, vertex.back, reflection);
+            let throughput = vertex.hit.throughput * scattered.adjoint_weight;
+            let survival = survive(l, work.settings.roulette, *bounce + 1, scattered.roulette, throughput, l.f(1.0));
+            let mut keep = at.live & survival.alive & scattered.consistent & survival.throughput.max_component().above(0.0);
+            if only_caustics {
+                keep = keep & scattered.delta;
+            }
+            let cos = cosine(scattered.d, vertex.hit.n);
+            let pdfs = [scattered.pdf, scattered.reverse];
+            let partial = vertex.partial.scatter(scattered.delta, pdfs, cos, others);
+            let slot = vertex.hit.slot;
+            state.ends[0].put_partial(keep, slot, partial);
+            Path { o: scattered.o, d: scattered.d, throughput: survival.throughput, slot }.push(keep, &mut next.paths);
+        }
+    }
+}
+
+/// The partial sums at the first surfaces. Light samples there could have found the same lights.
+#[inline(always)]
+fn at_first_surface<L: Lanes>(
+    l: L,
+    work: &Work,
+    rays: &LightRays,
+    state: &LightPaths,
+    stage: Stage,
+    PathVertex { live, hit, back, .. }: &PathVertex<L>,
+) -> Partial<L> {
+    let lights = &work.scene.lights;
+    let [.., inverse_density] = l.rows(&state.fluxes, hit.slot);
+    let [light, primitive, element, _] = l.rows(&state.sources, hit.slot).map(F::bits);
+    let transmits = if stage.transmits() { l.first(L::N) } else { l.first(0) };
+    let at = ReferencePoint { p: hit.p, n: hit.n, transmits, lobe: None };
+    let lamps = *live & lights.are_lamps(light);
+    let sky = light.is(MISS);
+    let place = PrimitiveRef { primitive: sky.pick(l.u(MISS), primitive), element, time: work.time(l, hit.slot) };
+    let mut pdf = lights.pdf(l, &work.scene.shapes, &at, *back, &place);
+    let mut finds_light = l.f(1.0);
+    if lamps.any() {
+        pdf = lamps.pick(pdf_of_lamps(l, work, rays, &at, lamps, light), pdf);
+        finds_light = lamps.pick(l.f(0.0), finds_light);
+    }
+    let cos = cosine(*back, hit.n);
+    let v = pdf * inverse_density / cos;
+    Partial { v, c: finds_light * inverse_density / cos }
+}
+
+/// The pdf of light samples of lamps, in the unit of the light density: per area across the ray, or for directional lamps none.
+#[inline(always)]
+fn pdf_of_lamps<L: Lanes>(
+    l: L,
+    work: &Work,
+    rays: &LightRays,
+    at: &ReferencePoint<L>,
+    lamps: crate::math::M<L>,
+    light: U<L>,
+) -> F<L> {
+    let lights = &work.scene.lights;
+    let (_, far) = rays.density_of_lamps(l, lights, lamps, light);
+    let distance = lights.distance_of_lamps(l, lamps, light, at.p);
+    lights.probability_of_lamp(l, at, lamps, light) * far.pick(l.f(1.0), distance * distance)
+}
+
+/// Queues joins with the camera that would contribute if nothing lies between.
+#[inline(always)]
+#[allow(clippy::too_many_arguments)]
+fn queue_join<L: Lanes>(
+    l: L,
+    work: &Work,
+    stage: Stage,
+    hits: &HitQueues,
+    at: Register<L>,
+    PathVertex { live, hit, back, partial }: &PathVertex<L>,
+    light: V<L>,
+    bounce: u32,
+    queue: &mut Queue,
+) {
+    let lens = work.stream(l, hit.slot).two(Dimension::light(Dimension::LIGHT_PATH + bounce + 1));
+    let join = work.rays.join(l, hit.p, work.time(l, hit.slot), lens);
+    let reach = work.rays.filter.reach();
+    let [width, height] = work.rays.resolution.map(|side| side as f32 + reach);
+    let shown = join.x.above(-reach) & join.x.below(width) & join.y.above(-reach) & join.y.below(height);
+    let faces = *live & join.visible & shown;
+    if !faces.any() {
+        return;
+    }
+    let distance = join.way.length_squared().sqrt();
+    let d = join.way * (1.0 / distance);
+    let Evaluated { f_cos, pdf, .. } = evaluate(l, work, stage, hits, at, [d, *back]);
+    let (height, cos_in) = (d.dot(hit.n), cosine(*back, hit.n));
+    let density = join.density * height.abs();
+    let mut light = light * f_cos * (density / cos_in);
+    let estimator = work.settings.estimator;
+    if estimator.connects() || estimator.traces_only_caustics() {
+        let found = density * (1.0 / work.light_paths_of_image());
+        let weight = 1.0 / (1.0 + partial.sum(found, pdf));
+        light = light * weight_of(work, l.u(bounce + 2), 1, weight);
+    }
+    let o = height.above(0.0).pick(hit.p, hit.p - hit.n * depth(l, stage, hits, at));
+    let keep = faces & light.max_component().above(0.0);
+    CameraRay { o, d, distance, slot: hit.slot, x: join.x, y: join.y, light }.push(keep, queue);
+}

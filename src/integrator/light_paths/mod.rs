@@ -1,0 +1,16 @@
+//! What is kept of paths from both ends while a batch is traced. [`super::bidirectional`] has their stages.
+//!
+//! | file | content |
+//! |---|---|
+//! | `partial.rs` | partial sums of the balance heuristic |
+//! | `path_state.rs` | the state of the paths from one end, by slot |
+//! | `vertices.rs` | the vertices of paths from lights |
+//! | `records.rs` | records in the queues between stages |
+//! | `paths.rs` | all of that |
+//! | `splat.rs` | light that arrives in any pixel |
+pub mod partial;
+pub mod path_state;
+pub mod paths;
+pub mod records;
+pub mod splat;
+pub mod vertices;

@@ -1,0 +1,118 @@
+//! Paths from both ends: every strategy alone, and all of them together.
+use crate::{
+    math::SimdLevel,
+    render::{
+        film::Film,
+        frame::Frame,
+        threads::{PassJob, Threads},
+    },
+    sampling::Sampler,
+    scene::{Estimator, RenderSettings, Reuse, Roulette, Scene, parse},
+};
+
+/// Two panels, a ball and a lamp that do not touch each other: near an edge, a strategy alone would have no variance.
+const PANELS: &str = "
+    format = 1
+    [camera]
+    eye = [0.0, 1.0, 4.0]
+    look_at = [0.0, 0.6, 0.0]
+    fov = 40
+    resolution = [16, 16]
+    [materials]
+    white.lambertian = { albedo = 0.8 }
+    red.lambertian = { albedo = [0.8, 0.3, 0.3] }
+    gloss.conductor = { reflectance = 0.9, roughness = 0.6 }
+    clear.dielectric = { ior = 1.5 }
+    lacquered.plastic = { albedo = 0.5, ior = 1.5 }
+    coated.plastic = { albedo = 0.5, ior = 1.5, roughness = 0.5 }
+    [[objects]]
+    shape.rectangle = { origin = [-2.0, 0.0, -2.0], edge_u = [0.0, 0.0, 4.0], edge_v = [4.0, 0.0, 0.0] }
+    material = 'white'
+    [[objects]]
+    shape.rectangle = { origin = [-1.2, 0.3, -1.3], edge_u = [2.4, 0.0, 0.0], edge_v = [0.0, 1.5, 0.0] }
+    material = 'red'
+    [[objects]]
+    shape.sphere = { center = [0.4, 0.8, 0.2], radius = 0.4 }
+    material = 'BALL'
+    [[objects]]
+    shape.rectangle = { origin = [-0.9, 1.6, -0.6], edge_u = [0.6, 0.0, 0.0], edge_v = [0.0, 0.0, 0.6] }
+    emission.radiance = [9.0, 8.0, 7.0]
+    ";
+
+fn scene(text: &str) -> Scene {
+    parse("both ends", text.to_owned()).unwrap_or_else(|error| panic!("{}", error.report()))
+}
+
+const SETTINGS: RenderSettings = RenderSettings {
+    estimator: Estimator::Bidirectional,
+    sampler: Sampler::Independent,
+    directions: crate::sampling::Directions::Bsdf,
+    roulette: Roulette::Off,
+    max_bounces: None,
+    reuse: Reuse::Off,
+    adaptive: false,
+    seed: 7,
+    fault: None,
+    strategy: None,
+};
+
+/// Mean green of the image, and its variance.
+fn mean(scene: &Scene, settings: &RenderSettings, spp: u32) -> [f64; 2] {
+    let rays = scene.rays(&scene.camera);
+    let threads = Threads::new(2, SimdLevel::best()).expect("threads");
+    let mut film = Film::new(rays.resolution);
+    threads.pass(PassJob { scene, rays: &rays, settings }, &mut film, spp, &|| false);
+    let frame = Frame::of_film(&film, 0, rays.resolution, rays.resolution);
+    let pixels = frame.radiance.len() as f64;
+    let noise = frame.noise.expect("two samples");
+    let sum: f64 = frame.radiance.iter().map(|radiance| f64::from(radiance[1])).sum();
+    let variance: f64 = noise.variance.iter().map(|variance| f64::from(variance[1])).sum();
+    [sum / pixels, variance / (pixels * pixels)]
+}
+
+#[test]
+fn every_strategy_alone_finds_the_light_of_its_number_of_reflections() {
+    let mut worst: f64 = 0.0;
+    for ball in ["white", "gloss", "coated"] {
+        let scene = scene(&PANELS.replace("BALL", ball));
+        for reflections in 1..=3 {
+            let alone = |s: u32| {
+                let t = reflections + 2 - s;
+                mean(
+                    &scene,
+                    &RenderSettings { strategy: Some([s, t]), max_bounces: Some(reflections), seed: 7 + s, ..SETTINGS },
+                    2000,
+                )
+            };
+            let [light_samples, variance] = alone(1);
+            assert!(light_samples > 0.0 && variance > 0.0);
+            for s in (0..=reflections + 1).filter(|s| *s != 1) {
+                let [found, of_found] = alone(s);
+                let z = (found - light_samples) / (variance + of_found).sqrt();
+                worst = worst.max(z.abs());
+                assert!(z.abs() < 4.0, "{ball} ({s}, {}): {found} and {light_samples}, {z} σ", reflections + 2 - s);
+                let is_known = of_found.sqrt() < 0.7 * found;
+                assert!(is_known, "{ball} ({s}, {}): {found} ± {}", reflections + 2 - s, of_found.sqrt());
+            }
+        }
+    }
+    assert!(worst > 0.3, "chance is at work: {worst} σ");
+}
+
+#[test]
+fn all_strategies_together_find_the_light_of_mis() {
+    const SETTINGS: RenderSettings = RenderSettings { roulette: Roulette::BY_THROUGHPUT, ..self::SETTINGS };
+    for ball in ["white", "gloss", "lacquered", "clear"] {
+        let scene = scene(&PANELS.replace("BALL", ball));
+        for cap in [Some(3), None] {
+            let with = |estimator, spp| mean(&scene, &RenderSettings { estimator, max_bounces: cap, ..SETTINGS }, spp);
+            let [of_mis, variance] = with(Estimator::Mis, 2000);
+            for estimator in [Estimator::Caustics, Estimator::Forward, Estimator::Bidirectional] {
+                let [found, of_found] = with(estimator, 1000);
+                let z = (found - of_mis) / (variance + of_found).sqrt();
+                println!("{ball}, {}, cap {cap:?}: {found} and {of_mis}, {z} σ", estimator.name());
+                assert!(z.abs() < 4.0, "{ball}, {}, cap {cap:?}: {found} and {of_mis}, {z} σ", estimator.name());
+            }
+        }
+    }
+}

@@ -1,0 +1,50 @@
+//! Comparison of two settings by a trial.
+use super::estimate::Estimate;
+use crate::measure::{Floor, relative};
+
+/// Sums over tiles of the variances of both, relative to the squared common means with the floor of relMSE.
+pub(super) fn relative_variances(tiles: &[[Vec<Estimate>; 2]]) -> [f64; 2] {
+    let pairs = || tiles.iter().flat_map(|[without, with]| without.iter().zip(with));
+    let mean = |(a, b): (&Estimate, &Estimate)| [0, 1, 2].map(|channel| (a.mean[channel] + b.mean[channel]) / 2.0);
+    let squares: f64 = pairs().flat_map(mean).map(|x| x * x).sum();
+    let floor = Floor::DEFAULT.of(squares / (3 * pairs().count()).max(1) as f64);
+    let mut sums = [0.0; 2];
+    for (a, b) in pairs() {
+        for (channel, mean) in mean((a, b)).into_iter().enumerate() {
+            let variance = |of: &Estimate| of.variance_of_mean.map_or(0.0, |variance| variance[channel]);
+            sums[0] += relative(variance(a), mean, floor);
+            sums[1] += relative(variance(b), mean, floor);
+        }
+    }
+    sums
+}
+
+/// The sum of the squared differences of two images, relative to the squared common means with the floor of relMSE.
+pub(super) fn relative_difference(a: &[Estimate], b: &[Estimate]) -> f64 {
+    // A difference d of the means is a variance of d² of an image with the mean of both.
+    let with = |of: &Estimate, other: &Estimate| {
+        let square = |channel: usize| (of.mean[channel] - other.mean[channel]).powi(2);
+        Estimate { variance_of_mean: Some([square(0), square(1), square(2)]), ..*of }
+    };
+    let squares: Vec<Estimate> = a.iter().zip(b).map(|(a, b)| with(a, b)).collect();
+    let [difference, _] = relative_variances(&[[squares, b.to_vec()]]);
+    difference
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn variances_with_and_without_sharing_are_relative_to_the_mean_of_both() {
+        let of = |mean: [f64; 3], red: f64| vec![Estimate { mean, variance_of_mean: Some([red, 0.0, 0.0]) }];
+        // The mean square of 2, 1 and 1 is 2, a hundredth of which is the floor.
+        let one = [of([1.0; 3], 0.1), of([3.0, 1.0, 1.0], 0.3)];
+        let [without, with] = relative_variances(&[one]);
+        assert!((without - 0.1 / 4.02).abs() < 1e-12 && (with - 0.3 / 4.02).abs() < 1e-12, "{without} {with}");
+        // Another tile of squares 0 and variance 0.02 adds to both sums, and halves the floor.
+        let dark = [of([0.0; 3], 0.02), of([0.0; 3], 0.0)];
+        let [without, with] = relative_variances(&[[of([1.0; 3], 0.1), of([3.0, 1.0, 1.0], 0.3)], dark]);
+        assert!((without - 0.1 / 4.01 - 2.0).abs() < 1e-12 && (with - 0.3 / 4.01).abs() < 1e-12, "{without} {with}");
+    }
+}

@@ -1,0 +1,31 @@
+//! Bidirectional path tracing (E. Lafortune and Y. Willems 1993; E. Veach and L. Guibas 1994).
+use super::{Strategy, power_heuristic};
+use crate::{
+    declare::Word,
+    math::{F, Lanes},
+};
+
+/// Paths from the camera and from lights are joined at all of their vertices.
+pub(super) struct Bidirectional;
+
+impl Strategy for Bidirectional {
+    const WORD: Word = Word {
+        name: "bidirectional",
+        title: "Bidirectional",
+        doc: "Joins paths from the camera with paths from lights in all ways (s, t), weighted by the balance heuristic. Good for caustics and hidden lamps.",
+    };
+    const COMPARISON: &'static str = "Bidirectional";
+    const COMPARES: bool = true;
+    const TRACES_LIGHT_PATHS: bool = true;
+    const CONNECTS: bool = true;
+
+    #[inline(always)]
+    fn hit_weight<L: Lanes>(_: L, pdf: F<L>, of_light: F<L>) -> F<L> {
+        power_heuristic(pdf, of_light)
+    }
+
+    #[inline(always)]
+    fn light_weight<L: Lanes>(_: L, pdf: F<L>, of_bsdf: F<L>) -> F<L> {
+        power_heuristic(pdf, of_bsdf)
+    }
+}

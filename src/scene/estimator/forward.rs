@@ -1,0 +1,33 @@
+//! Light tracing (J. Arvo, "Backward Ray Tracing", 1986; P. Dutré, E. Lafortune and Y. Willems, "Monte Carlo Light Tracing with Direct
+//! Computation of Pixel Intensities", 1993).
+use super::{Strategy, power_heuristic};
+use crate::{
+    declare::Word,
+    math::{F, Lanes},
+};
+
+/// Paths start at lights. Every surface point that they reach is joined with the camera.
+///
+/// What the camera sees of a mirror or of clear glass cannot be joined with it, and comes from camera paths as with `mis`.
+pub(super) struct Forward;
+
+impl Strategy for Forward {
+    const WORD: Word = Word {
+        name: "forward",
+        title: "Forward",
+        doc: "Paths start at lights, and all points that they reach are joined with the camera. Good for caustics, noisy for the rest.",
+    };
+    const COMPARISON: &'static str = "Forward tracing";
+    const COMPARES: bool = true;
+    const TRACES_LIGHT_PATHS: bool = true;
+
+    #[inline(always)]
+    fn hit_weight<L: Lanes>(_: L, pdf: F<L>, of_light: F<L>) -> F<L> {
+        power_heuristic(pdf, of_light)
+    }
+
+    #[inline(always)]
+    fn light_weight<L: Lanes>(_: L, pdf: F<L>, of_bsdf: F<L>) -> F<L> {
+        power_heuristic(pdf, of_bsdf)
+    }
+}

@@ -1,0 +1,107 @@
+//! Whether paths can start at the lights of a scene.
+use glam::DVec3;
+
+use super::{
+    Estimator, Object, RenderSettings, Scene,
+    surface::{ONE_SIDED, SELF_LIT, STAGE_MASK, STAGE_SHIFT},
+};
+use crate::{geometry::Shape, light::LightRays, material::Stage};
+
+/// Space around the scene, relative to its size.
+const MARGIN: f64 = 1e-4;
+/// Where more paths survive roulette, they are connected with each other only if they have at most this many bounces.
+const MOST_BOUNCES: u32 = 64;
+const MOST_SURVIVORS: f32 = 0.98;
+const ENDLESS: &str = "with so little roulette and no low bounce cap, there would be too many connections between paths";
+
+/// Whether paths may have so many vertices that the connections between them would take for ever.
+fn goes_on_for_ever(settings: &RenderSettings) -> bool {
+    settings.estimator.connects()
+        && settings.roulette.survival() > MOST_SURVIVORS
+        && settings.max_bounces.is_none_or(|cap| cap > MOST_BOUNCES)
+}
+
+impl Scene {
+    /// The rays with which paths from lights start, if the estimator traces any and the scene allows it.
+    pub fn light_rays(&self, settings: &RenderSettings) -> Option<&LightRays> {
+        let traces = settings.estimator.traces_light_paths() && !goes_on_for_ever(settings);
+        if traces { self.rays_or_obstacle().ok() } else { None }
+    }
+
+    /// Whether paths start at lights, too.
+    pub fn traces_light_paths(&self, settings: &RenderSettings) -> bool {
+        self.light_rays(settings).is_some()
+    }
+
+    /// The note that an estimator without its paths from lights works like `mis`; `None` if that is not so.
+    pub fn lacks_light_paths(&self, settings: &RenderSettings) -> Option<String> {
+        if !settings.estimator.traces_light_paths() {
+            return None;
+        }
+        let name = settings.estimator.name();
+        if goes_on_for_ever(settings) {
+            return Some(format!("the estimator `{name}` works like `mis`: {ENDLESS}"));
+        }
+        let reason = self.rays_or_obstacle().err()?;
+        Some(format!("the estimator `{name}` works like `mis` in this scene, which has {reason}"))
+    }
+
+    fn rays_or_obstacle(&self) -> Result<&LightRays, &'static str> {
+        let made = self.light_paths.get_or_init(|| {
+            if let Some(obstacle) = self.obstacle_to_light_paths() {
+                return Err(obstacle);
+            }
+            let (center, radius) = self.bounding_sphere();
+            LightRays::new(&self.lights, center, radius).ok_or("no light from which paths could start")
+        });
+        made.as_ref().map_err(|reason| *reason)
+    }
+
+    /// What is known of the estimator in force, where it is not the one of the settings.
+    pub fn estimator_in_force(&self, settings: &RenderSettings) -> Option<String> {
+        let traces = settings.estimator == Estimator::Auto || settings.estimator.traces_light_paths();
+        if traces && goes_on_for_ever(settings) {
+            return Some(format!("MIS: {ENDLESS}"));
+        }
+        let obstacle = self.light_paths.get().and_then(|made| made.as_ref().err());
+        match (settings.estimator, self.estimator_by_trial.get()) {
+            (Estimator::Auto, Some(Estimator::Mis)) => Some("MIS: paths from lights did not pay in a trial".to_owned()),
+            (Estimator::Auto, Some(best)) => Some(format!("{}: less noise at equal cost in a trial", best.name())),
+            _ => obstacle.filter(|_| traces).map(|reason| format!("MIS: the scene has {reason}")),
+        }
+    }
+
+    /// What paths from lights do not know yet.
+    fn obstacle_to_light_paths(&self) -> Option<&'static str> {
+        let surfaces = &self.surfaces;
+        let is = |holds: fn(&Object) -> bool| self.objects.iter().any(holds);
+        let emits_from_isosurface =
+            |object: &Object| object.emission.is_some() && matches!(object.shape, Shape::Isosurface { .. });
+        let is_smooth = |object: &Object| matches!(&object.shape, Shape::Mesh { data, .. } if !data.normals.is_empty());
+        let words = || surfaces.rows.iter().map(|row| row[3].to_bits());
+        let transmits =
+            |word: u32| Stage::ALL.get((word >> STAGE_SHIFT & STAGE_MASK) as usize).is_some_and(|stage| stage.transmits());
+        let obstacles = [
+            (!surfaces.media.is_empty(), "tinted media"),
+            (!surfaces.are_opaque(), "surfaces that are blended or let some light pass"),
+            (!surfaces.relief.is_empty(), "bump or normal maps"),
+            (is(is_smooth), "meshes with normals at their vertices"),
+            (is(emits_from_isosurface), "isosurfaces that emit light"),
+            (words().any(|word| word & SELF_LIT != 0) || self.lights.emitters.are_translucent(), "translucent lamps"),
+            (words().any(|word| word & ONE_SIDED != 0 && transmits(word)), "glass with one side"),
+        ];
+        obstacles.into_iter().find_map(|(holds, obstacle)| holds.then_some(obstacle))
+    }
+
+    /// A sphere around all objects in all of their poses.
+    fn bounding_sphere(&self) -> (DVec3, f64) {
+        let spheres: Vec<_> = self.objects.iter().map(|object| object.shape.swept_sphere(&object.motion)).collect();
+        let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        for (center, radius) in &spheres {
+            (low, high) = (low.min(*center - *radius), high.max(*center + *radius));
+        }
+        let center = if spheres.is_empty() { DVec3::ZERO } else { (low + high) * 0.5 };
+        let radius = spheres.iter().map(|(c, r)| c.distance(center) + r).fold(0.0, f64::max);
+        (center, radius * (1.0 + MARGIN) + f64::from(f32::MIN_POSITIVE).sqrt())
+    }
+}
