@@ -1,4 +1,6 @@
 //! Whether paths can start at the lights of a scene.
+use std::fmt;
+
 use glam::DVec3;
 
 use super::{
@@ -13,6 +15,19 @@ const MARGIN: f64 = 1e-4;
 const MOST_BOUNCES: u32 = 64;
 const MOST_SURVIVORS: f32 = 0.98;
 const ENDLESS: &str = "with so little roulette and no low bounce cap, there would be too many connections between paths";
+
+/// The estimator that renders, and why it is not the one of the settings.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct EstimatorInForce {
+    pub estimator: Estimator,
+    pub reason: String,
+}
+
+impl fmt::Display for EstimatorInForce {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.estimator.title(), self.reason)
+    }
+}
 
 /// Whether paths may have so many vertices that the connections between them would take for ever.
 fn goes_on_for_ever(settings: &RenderSettings) -> bool {
@@ -58,17 +73,22 @@ impl Scene {
     }
 
     /// What is known of the estimator in force, where it is not the one of the settings.
-    pub fn estimator_in_force(&self, settings: &RenderSettings) -> Option<String> {
-        let traces = settings.estimator == Estimator::Auto || settings.estimator.traces_light_paths();
-        if traces && goes_on_for_ever(settings) {
-            return Some(format!("MIS: {ENDLESS}"));
+    pub fn estimator_in_force(&self, settings: &RenderSettings) -> Option<EstimatorInForce> {
+        let is_auto = settings.estimator == Estimator::Auto;
+        // A trial has to try all strategies.
+        let wanted = if is_auto { Estimator::Bidirectional } else { settings.estimator };
+        if !wanted.traces_light_paths() {
+            return None;
         }
-        let obstacle = self.light_paths.get().and_then(|made| made.as_ref().err());
-        match (settings.estimator, self.estimator_by_trial.get()) {
-            (Estimator::Auto, Some(Estimator::Mis)) => Some("MIS: paths from lights did not pay in a trial".to_owned()),
-            (Estimator::Auto, Some(best)) => Some(format!("{}: less noise at equal cost in a trial", best.name())),
-            _ => obstacle.filter(|_| traces).map(|reason| format!("MIS: the scene has {reason}")),
+        let mis = |reason| Some(EstimatorInForce { estimator: Estimator::Mis, reason });
+        if goes_on_for_ever(&RenderSettings { estimator: wanted, ..*settings }) {
+            return mis(ENDLESS.to_owned());
         }
+        if let Err(obstacle) = self.light_paths.get()? {
+            return mis(format!("the scene has {obstacle}"));
+        }
+        let best = self.estimator_by_trial.get().filter(|_| is_auto)?;
+        Some(EstimatorInForce { estimator: *best, reason: "least error in a trial".to_owned() })
     }
 
     /// What paths from lights do not know yet.

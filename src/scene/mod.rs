@@ -57,6 +57,7 @@ pub use self::{
     estimator::{Estimator, power_heuristic},
     lamp::LampInstance,
     legend::Legend,
+    light_paths::EstimatorInForce,
     load::{LARGEST_FILE, load, load_watched, read_text},
     material_instance::{BlendParts, MaterialInstance, Properties},
     object::Object,

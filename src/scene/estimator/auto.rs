@@ -5,16 +5,16 @@ use crate::{
     math::{F, Lanes},
 };
 
-/// `bidirectional` if a short trial of the scene shows a gain, else `mis`. The integrator itself treats it as `mis`.
+/// `mis`, `caustics` or `bidirectional`, by a trial of the scene. The integrator itself treats it as `mis`.
 pub(super) struct Auto;
 
 impl Strategy for Auto {
     const WORD: Word = Word {
         name: "auto",
-        title: "By trial",
-        doc: "Bidirectional if a short trial of the scene shows less noise at equal cost, else MIS. The decision is made once per scene.",
+        title: "Auto",
+        doc: "Tries MIS, Caustics and Bidirectional on a small image, once per scene, and takes the one with the least error at equal cost.",
     };
-    const COMPARISON: &'static str = "The estimator by trial";
+    const COMPARISON: &'static str = "Estimator by trial";
     const COMPARES: bool = true;
 
     #[inline(always)]

@@ -6,8 +6,8 @@ use super::state::App;
 use crate::viewer::background::{adviser::Adviser, catalogue::SceneRequest, recent};
 use crate::viewer::dialogs::{open::OpenDialog, unsaved::Leaving};
 use crate::viewer::panels::{
-    camera, display, panel_tabs, panel_tabs::PanelTab, pixel_readout::Pixel, sampling, scene, status_bar::StatusBar, stop, views,
-    views::ReferenceSource, window,
+    camera, display, panel_tabs, panel_tabs::PanelTab, pixel_readout::Pixel, sampling, sampling::Findings, scene,
+    status_bar::StatusBar, stop, views, views::ReferenceSource, window,
 };
 use crate::viewer::widgets::{style::section, wording::capitalised};
 
@@ -84,7 +84,8 @@ impl App {
             .and_then(|opened| opened.scene.infinite_variance(&edited))
             .map(|caution| format!("{}.", capitalised(&caution)));
         let in_force = self.session.opened.as_ref().and_then(|opened| opened.scene.estimator_in_force(&edited));
-        if sampling::show(ui, self.session.edited(), status, in_force.as_deref(), caution.as_deref()) {
+        let findings = Findings { status, in_force: in_force.as_ref(), caution: caution.as_deref() };
+        if sampling::show(ui, self.session.edited(), &findings) {
             self.ask_for_advice();
         }
     }
@@ -124,6 +125,7 @@ impl App {
             is_studying: self.is_studying(),
             camera: &session.camera,
             settings: &session.settings,
+            in_force: session.opened.as_ref().and_then(|opened| opened.scene.estimator_in_force(&session.settings)),
             budget: &session.budget,
             status: &results.status,
             request: self.background.worker.request(),

@@ -81,7 +81,10 @@ pub fn show(ctx: &egui::Context, is_open: &mut bool) -> bool {
         .show(ctx, |ui| {
             let most = ctx.content_rect().height() - 130.0;
             egui::ScrollArea::vertical().max_height(most).min_scrolled_height(most).show(ui, keys);
-            tour = ui.button("Take the tour").on_hover_text("Noise, bounces and roulette in four short pages").clicked();
+            tour = ui
+                .button("Take the tour")
+                .on_hover_text("Shows noise, bounces, roulette and paths from both ends on five short pages.")
+                .clicked();
         });
     *is_open = open && !tour;
     tour

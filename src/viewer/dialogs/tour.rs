@@ -1,4 +1,4 @@
-//! The tour on first run: noise, bounces and roulette, shown on the picture itself.
+//! The tour on first run: noise, bounces, roulette and paths from both ends, shown on the picture itself.
 use egui::{Align2, Button, RichText, ScrollArea, TextStyle, TextWrapMode, Ui, WidgetText, Window};
 
 use crate::viewer::{instruments::tabs::InstrumentTab, widgets::palette::Palette};
@@ -51,7 +51,9 @@ const PAGES: [Page; 5] = [
     },
     Page {
         title: "Paths can start at both ends",
-        text: "A path from the camera finds a caustic by luck, a path from the lamp by itself. A strategy (s, t) takes s vertices from the                lamp and t from the camera. Bidirectional paths use all strategies, each weighted by its pdf over the sum of all pdfs.                The means agree; the noise moves. Caustics gain, and plain scenes lose time.",
+        text: "Paths from the lamp form a caustic by themselves; a path from the camera meets the lamp through glass by luck. A \
+               strategy (s, t) takes s vertices from the lamp and t from the camera. Bidirectional paths use all strategies, each \
+               weighted by its pdf over the sum of all pdfs. The image stays the same; caustics lose noise, and plain scenes cost time.",
         shows: Some(InstrumentTab::Compare),
         tries: ("Compare MIS with both ends", TourRequest::CompareBothEnds),
     },

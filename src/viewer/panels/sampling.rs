@@ -1,18 +1,18 @@
 //! The panel of render settings: estimator, sampler, directions, roulette, cap and seed.
-use egui::{ComboBox, Id, Ui};
+use egui::{ComboBox, RichText, Ui};
 use noisefall::{
     declare::OneOf,
     render::{Status, sharing::sharing_name},
     sampling::Sampler,
-    scene::{Estimator, RenderSettings, Reuse, Roulette},
+    scene::{Estimator, EstimatorInForce, RenderSettings, Reuse, Roulette},
 };
 
 use super::presets;
 use crate::viewer::widgets::{
-    kinds::{kinds, number_rows, words},
+    kinds::{kinds, number_rows, word_list, words},
     number,
     palette::Palette,
-    style::{choices, controls, elided, row},
+    style::{choices, controls, elided, row, row_with_note},
 };
 
 /// Shows which side of a comparison the panel edits, and lets the user change it. The row stays where nothing is compared, so that no
@@ -30,16 +30,21 @@ pub fn side_choice(ui: &mut Ui, edits_second: Option<&mut bool>) {
     });
 }
 
-/// Shows the settings, with a caution where their variance is infinite. Returns whether advice was asked for.
-pub fn show(ui: &mut Ui, settings: &mut RenderSettings, status: &Status, in_force: Option<&str>, caution: Option<&str>) -> bool {
+/// What is known of settings in a scene.
+pub struct Findings<'a> {
+    pub status: &'a Status,
+    /// The estimator that renders, where it is not the one of the settings.
+    pub in_force: Option<&'a EstimatorInForce>,
+    /// Why the variance is infinite.
+    pub caution: Option<&'a str>,
+}
+
+/// Shows the settings, and what is known of them. Returns whether advice was asked for.
+pub fn show(ui: &mut Ui, settings: &mut RenderSettings, findings: &Findings<'_>) -> bool {
+    let Findings { status, in_force, caution } = *findings;
     controls(ui, "sampling", |ui| {
         presets::show(ui, settings);
-        row(
-            ui,
-            &RenderSettings::ESTIMATOR.label(),
-            "How direct light is estimated. All converge to the same image; they differ in noise.",
-            |ui, _| estimator_choice(ui, &mut settings.estimator, in_force),
-        );
+        estimator_row(ui, &mut settings.estimator, in_force);
         sampler_row(ui, &mut settings.sampler);
         row(ui, &RenderSettings::DIRECTIONS.label(), "Pdf p(ω_i) of the next direction at diffuse surfaces.", |ui, _| {
             words(ui, &mut settings.directions);
@@ -79,61 +84,44 @@ pub fn show(ui: &mut Ui, settings: &mut RenderSettings, status: &Status, in_forc
     ui.button("What should I use here?").on_hover_text(doc).clicked()
 }
 
-/// The estimators in rows, and the one in force where it is another.
-fn estimator_choice(ui: &mut Ui, estimator: &mut Estimator, in_force: Option<&str>) {
-    /// Estimators in a row.
-    const ROW: usize = 3;
-    let all = Estimator::ALL.map(|estimator| (estimator, estimator.word().title, estimator.word().doc));
-    ui.vertical(|ui| {
-        all.chunks(ROW).for_each(|row| choices(ui, estimator, row));
+fn estimator_row(ui: &mut Ui, estimator: &mut Estimator, in_force: Option<&EstimatorInForce>) {
+    let doc = "How light is found. All estimators converge to the same image; they differ in noise.";
+    row_with_note(ui, &RenderSettings::ESTIMATOR.label(), doc, |ui, label| {
+        word_list(ui, label, estimator);
         // Always there, so that no row below moves.
-        elided(ui, ui.available_width(), in_force.unwrap_or(" "));
+        let text = match in_force {
+            Some(in_force) => in_force.to_string(),
+            None if *estimator == Estimator::Auto => "…".to_owned(),
+            None => " ".to_owned(),
+        };
+        elided(ui, ui.available_width(), RichText::new(text).weak());
     });
 }
 
 fn sampler_row(ui: &mut Ui, sampler: &mut Sampler) {
     let doc = "Points of the unit cube for the N samples of a pixel. They decide how fast the noise falls.";
-    row(ui, &RenderSettings::SAMPLER.label(), doc, |ui, label| {
-        let combo = ComboBox::from_id_salt("Sampler").selected_text(sampler.word().title).show_ui(ui, |ui| {
-            for (value, word) in Sampler::ALL.map(|sampler| (sampler, sampler.word())) {
-                ui.selectable_value(sampler, value, word.title).on_hover_text(word.doc);
-            }
-        });
-        combo.response.labelled_by(label);
-    });
+    row(ui, &RenderSettings::SAMPLER.label(), doc, |ui, label| word_list(ui, label, sampler));
 }
 
 fn reuse_row(ui: &mut Ui, reuse: &mut Reuse, status: &Status) {
     let doc = "Shares path suffixes between neighbouring pixels (Bekaert et al. 2002). Less noise, no bias.";
-    row(ui, &RenderSettings::REUSE.label(), doc, |ui, _| {
-        // Below, and not beside: the panel is as wide as its widest row.
-        ui.vertical(|ui| {
-            words(ui, reuse);
-            // Always there, so that no row below moves.
-            let in_force = if status.spp > 0 { sharing_name(status.shares) } else { "…" };
-            ui.weak(in_force).on_hover_text("What the render does now. Auto decides once for the scene.");
-        });
+    row_with_note(ui, &RenderSettings::REUSE.label(), doc, |ui, _| {
+        words(ui, reuse);
+        // Always there, so that no row below moves.
+        let in_force = if status.spp > 0 { sharing_name(status.shares) } else { "…" };
+        ui.weak(in_force).on_hover_text("What the render does now. Auto decides once for the scene.");
     });
 }
 
 fn roulette_rows(ui: &mut Ui, roulette: &mut Roulette, caution: Option<&str>) {
     let doc = "Ends paths with probability 1 − q and weights the survivors by 1/q. Shorter paths, no bias.";
-    row(ui, &RenderSettings::ROULETTE.label(), doc, |ui, label| {
-        // Below, and not beside, as above.
-        ui.vertical(|ui| {
-            roulette_choice(ui, label, roulette);
-            match caution {
-                Some(caution) => ui.colored_label(ui.warning(), "infinite variance?").on_hover_text(caution),
-                None => ui.label(" "),
-            };
-        });
-    });
-    number_rows(ui, roulette);
-}
-
-fn roulette_choice(ui: &mut Ui, label: Id, roulette: &mut Roulette) {
-    ui.vertical(|ui| {
+    row_with_note(ui, &RenderSettings::ROULETTE.label(), doc, |ui, label| {
         let combo = ComboBox::from_id_salt("Roulette").selected_text(roulette.about().label());
         combo.show_ui(ui, |ui| kinds(ui, roulette)).response.labelled_by(label);
+        match caution {
+            Some(caution) => ui.colored_label(ui.warning(), "infinite variance?").on_hover_text(caution),
+            None => ui.label(" "),
+        };
     });
+    number_rows(ui, roulette);
 }

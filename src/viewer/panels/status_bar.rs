@@ -4,7 +4,7 @@ use std::{path::PathBuf, time::Duration};
 use egui::{Color32, Label, RichText};
 use noisefall::{
     render::{Budget, RenderRequest, State, Status, pass::SampleId, replay_command::replay_command},
-    scene::{Camera, RenderSettings},
+    scene::{Camera, Estimator, EstimatorInForce, RenderSettings},
 };
 
 use super::pixel_readout::Pixel;
@@ -25,6 +25,8 @@ pub struct StatusBar<'a> {
     pub is_studying: bool,
     pub camera: &'a Camera,
     pub settings: &'a RenderSettings,
+    /// The estimator that renders, where it is not the one of the settings.
+    pub in_force: Option<EstimatorInForce>,
     pub budget: &'a Budget,
     pub status: &'a Status,
     /// The last request to the renderer.
@@ -56,6 +58,7 @@ impl StatusBar<'_> {
                     .on_hover_text(with_quotation_marks(&error.to_string()));
                 return;
             }
+            self.estimator_label(ui);
             self.progress_labels(ui);
             self.noise_label(ui);
             self.truth_label(ui);
@@ -72,6 +75,24 @@ impl StatusBar<'_> {
             });
         });
         asks
+    }
+
+    /// The estimator that renders. It is marked where the settings name another one that this scene does not allow.
+    fn estimator_label(&self, ui: &mut egui::Ui) {
+        let chosen = self.settings.estimator;
+        let Some(in_force) = &self.in_force else {
+            ui.label(chosen.title()).on_hover_text(chosen.word().doc);
+            ui.separator();
+            return;
+        };
+        let (title, doc) = (in_force.estimator.title(), in_force.estimator.word().doc);
+        let text = if chosen == Estimator::Auto {
+            RichText::new(format!("{title} (Auto)"))
+        } else {
+            RichText::new(format!("{title}, not {}", chosen.title())).color(ui.warning())
+        };
+        ui.label(text).on_hover_text(format!("{in_force}.\n{doc}"));
+        ui.separator();
     }
 
     /// Samples, speed and time. A narrow window has room for the samples only.

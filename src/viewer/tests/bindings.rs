@@ -16,9 +16,10 @@ fn sets(window: &mut Window, label: &str, expected: RenderSettings) {
 fn every_choice_of_the_estimate_sets_what_it_names() {
     let mut window = window("cornell_spheres");
     let mut expected = window.state().session.settings;
-    for (label, estimator) in [("Path", Estimator::Path), ("Light", Estimator::Light), ("MIS", Estimator::Mis)] {
+    for estimator in Estimator::ALL.into_iter().rev() {
+        choose(&mut window, "Estimator", estimator.title());
         expected.estimator = estimator;
-        sets(&mut window, label, expected);
+        assert_eq!(window.state().session.settings, expected, "{estimator:?}");
     }
     for (label, directions) in [("Uniform", Directions::Uniform), ("BSDF", Directions::Bsdf), ("Cosine", Directions::Cosine)] {
         expected.directions = directions;

@@ -15,9 +15,13 @@ pub fn click(window: &mut Window, label: &str) {
 }
 
 pub fn choose(window: &mut Window, combo: &str, item: &str) {
+    // The list lies over the panel, which can have a button of the same name.
+    let places = |window: &Window| window.query_all_by_role_and_label(Role::Button, item).map(|node| node.rect()).collect();
+    let others: Vec<egui::Rect> = places(window);
     window.get_by_role_and_label(Role::ComboBox, combo).click();
     window.run_steps(3);
-    window.get_by_role_and_label(Role::Button, item).click();
+    let entry = window.query_all_by_role_and_label(Role::Button, item).find(|node| !others.contains(&node.rect()));
+    entry.expect("the list has it").click();
     window.run_steps(3);
 }
 

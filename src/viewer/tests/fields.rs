@@ -75,7 +75,7 @@ fn arithmetic_counts_and_what_is_no_number_says_so_until_the_next_press() {
     never_restarts(&mut window, |w| type_seed(w, "3//7"));
     const REFUSAL: &str = "expected a number, found “3//7”";
     assert!(window.query_by_label(REFUSAL).is_some());
-    click(&mut window, "MIS");
+    click(&mut window, "Teaching");
     assert!(window.query_by_label(REFUSAL).is_none());
     assert_eq!(window.state().session.settings.seed, 21);
 }

@@ -126,7 +126,7 @@ fn a_comparison_starts_with_one_click_and_both_sides_converge() {
     let before = window.state().results.second_status.generation;
     window.get_by_role_and_label(Role::Button, "B").click();
     window.run_steps(3);
-    click(&mut window, "Light");
+    choose(&mut window, "Estimator", "Light");
     wait(&mut window, "the other side anew", |app| app.results.second_status.generation > before);
     let app = window.state();
     assert_eq!(

@@ -121,6 +121,7 @@ fn the_tour_shows_noise_bounces_and_roulette_and_is_not_shown_again() {
         ("This image is an estimate", InstrumentTab::Convergence),
         ("Light bounces", InstrumentTab::Bounces),
         ("Roulette ends paths without bias", InstrumentTab::Compare),
+        ("Paths can start at both ends", InstrumentTab::Compare),
         ("Now you", InstrumentTab::Compare),
     ] {
         assert!(window.query_by_label(title).is_some(), "{title}");
@@ -132,6 +133,12 @@ fn the_tour_shows_noise_bounces_and_roulette_and_is_not_shown_again() {
             let capped = RenderSettings { max_bounces: Some(3), ..app.session.settings };
             assert_eq!(app.session.comparison.map(|compare| compare.other), Some(capped));
             assert_eq!(app.session.settings.roulette, Roulette::BY_THROUGHPUT);
+        }
+        if title.starts_with("Paths") {
+            click(&mut window, "Compare MIS with both ends");
+            let app = window.state();
+            let other = app.session.comparison.map(|compare| compare.other.estimator);
+            assert_eq!((app.session.settings.estimator, other), (Estimator::Mis, Some(Estimator::Bidirectional)));
         }
         let next = if title == "Now you" { "Done" } else { "Next" };
         let place = window.get_by_label(next).rect();
@@ -148,6 +155,9 @@ fn the_gallery_shows_the_scenes_and_opens_one() {
     window.key_press(Key::F6);
     window.run_steps(5);
     assert!(window.query_by_label("Open a file…").is_some());
+    // The gallery begins at the open scene, which comes last.
+    window.get_by_role_and_label(Role::Button, "Bright sky: fast to converge").scroll_to_me();
+    window.run_steps(5);
     window.get_by_role_and_label(Role::Button, "Bright sky: fast to converge").click();
     window.run_steps(3);
     wait(&mut window, "the scene", |app| app.session.opened.as_ref().is_some_and(|opened| opened.name.starts_with("Bright sky")));
@@ -170,11 +180,8 @@ fn both_themes_can_be_chosen_and_are_remembered() {
     for (name, dark, remembered) in
         [("Light", Some(false), Some("light")), ("Dark", Some(true), Some("dark")), ("As the system", None, None)]
     {
-        window.get_by_role_and_label(Role::ComboBox, "Theme").click();
-        window.run_steps(3);
-        // The estimator "Light" is in the window too.
-        window.get_all_by_role_and_label(Role::Button, name).last().expect("it is there").click();
-        window.run_steps(4);
+        choose(&mut window, "Theme", name);
+        window.run_steps(1);
         assert!(dark.is_none_or(|dark| window.ctx.global_style().visuals.dark_mode == dark), "{name}");
         let noted = || Preferences::in_folder(folder.path()).now.theme.clone();
         wait(&mut window, "the note of it", |_| noted().as_deref() == remembered);

@@ -9,6 +9,7 @@ mod desktop;
 mod driving;
 mod dropping;
 mod editing;
+mod estimator;
 mod exports;
 mod exposure;
 mod fields;
@@ -77,7 +78,7 @@ use super::{
 };
 
 /// As tall as all panels together: what is scrolled out of sight cannot be clicked.
-const SIZE: egui::Vec2 = vec2(1280.0, 1340.0);
+const SIZE: egui::Vec2 = vec2(1280.0, 1380.0);
 
 type Window = Harness<'static, Lazy>;
 

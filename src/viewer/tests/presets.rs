@@ -25,7 +25,7 @@ fn sharing_stays_as_it_is_while_other_settings_change_and_every_curve_names_it()
     assert!(window.state().results.status.shares);
     restarts(&mut window, "independent samples", |w| choose(w, "Sampler", "Independent"));
     sampled(&mut window);
-    restarts(&mut window, "paths alone", |w| click(w, "Path"));
+    restarts(&mut window, "paths alone", |w| choose(w, "Estimator", "Path"));
     sampled(&mut window);
     restarts(&mut window, "a cap", |w| w.state_mut().session.settings.max_bounces = Some(4));
     sampled(&mut window);

@@ -6,9 +6,9 @@ fn every_setting_of_the_estimate_starts_a_new_picture() {
     let mut window = window("cornell_spheres");
     restarts(&mut window, "stratified", |w| choose(w, "Sampler", "Stratified"));
     assert_eq!(window.state().session.settings.sampler, Sampler::Stratified);
-    restarts(&mut window, "light sampling alone", |w| click(w, "Light"));
+    restarts(&mut window, "light sampling alone", |w| choose(w, "Estimator", "Light"));
     assert_eq!(window.state().session.settings.estimator, Estimator::Light);
-    restarts(&mut window, "paths alone", |w| click(w, "Path"));
+    restarts(&mut window, "paths alone", |w| choose(w, "Estimator", "Path"));
     assert_eq!(window.state().session.settings.estimator, Estimator::Path);
     restarts(&mut window, "uniform directions", |w| click(w, "Uniform"));
     assert_eq!(window.state().session.settings.directions, Directions::Uniform);

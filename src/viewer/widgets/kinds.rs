@@ -1,5 +1,5 @@
 //! Choices of kinds and words, as their catalogues list them.
-use egui::{Response, Ui};
+use egui::{ComboBox, Id, Response, Ui};
 use noisefall::declare::{OneOf, Parameter, Parameters, Scale, Value, Words};
 
 use super::{
@@ -11,6 +11,18 @@ use super::{
 pub fn words<T: Words>(ui: &mut Ui, chosen: &mut T) {
     let all: Vec<_> = T::words().iter().map(|(word, value)| (*value, word.title, word.doc)).collect();
     choices(ui, chosen, &all);
+}
+
+/// A drop-down list of all words of a type, for more of them than a row has room for.
+pub fn word_list<T: Words>(ui: &mut Ui, label: Id, chosen: &mut T) {
+    let title = |value: T| T::words().iter().find(|(_, other)| *other == value).map_or("", |(word, _)| word.title);
+    // The label tells lists apart: each has one of its own.
+    let combo = ComboBox::from_id_salt(label).selected_text(title(*chosen)).show_ui(ui, |ui| {
+        for (word, value) in T::words() {
+            ui.selectable_value(chosen, *value, word.title).on_hover_text(word.doc);
+        }
+    });
+    combo.response.labelled_by(label);
 }
 
 /// A button for each kind, with the default values of the kind.

@@ -35,6 +35,18 @@ pub fn row(ui: &mut egui::Ui, label: &str, doc: &str, control: impl FnOnce(&mut 
     ui.end_row();
 }
 
+/// Shows a row whose control has a note below it. The label is beside the control.
+pub fn row_with_note(ui: &mut egui::Ui, label: &str, doc: &str, control: impl FnOnce(&mut egui::Ui, egui::Id)) {
+    // From the top of a control to the top of a label beside it.
+    const DROP: f32 = 2.0;
+    let label = ui.vertical(|ui| {
+        ui.add_space(DROP);
+        ui.label(label).on_hover_text(doc)
+    });
+    ui.vertical(|ui| control(ui, label.inner.id));
+    ui.end_row();
+}
+
 /// Shows a row of buttons to choose one of several values, with their names and tooltips.
 pub fn choices<T: Copy + PartialEq>(ui: &mut egui::Ui, chosen: &mut T, all: &[(T, &str, &str)]) {
     ui.horizontal(|ui| {

@@ -1,0 +1,39 @@
+//! Panel and status line say which estimator renders, and why.
+use super::*;
+
+/// Whether the window shows a text.
+fn shows(window: &Window, text: &str) -> bool {
+    window.query_all_by_label(text).count() > 0
+}
+
+#[test]
+fn an_estimator_that_the_scene_allows_is_named_once_in_the_line_below() {
+    let mut window = window("cornell_spheres");
+    wait(&mut window, "samples", |app| app.results.status.spp >= 1);
+    restarts(&mut window, "light sampling", |w| choose(w, "Estimator", "Light"));
+    assert!(shows(&window, "Light") && window.query_by_label_contains("Light, not").is_none());
+}
+
+#[test]
+fn the_choice_by_trial_says_what_it_has_chosen_and_why() {
+    let mut window = window("cornell_spheres");
+    restarts(&mut window, "a trial", |w| choose(w, "Estimator", "Auto"));
+    let scene = window.state().session.opened.as_ref().expect("it is open").scene.clone();
+    wait(&mut window, "the trial", |_| scene.estimator_by_trial.get().is_some());
+    window.run_steps(3);
+    let best = scene.estimator_by_trial.get().expect("it has been tried").title();
+    assert!(shows(&window, &format!("{best}: least error in a trial")), "the panel names {best}");
+    assert!(shows(&window, &format!("{best} (Auto)")), "the line below names {best}");
+    // Nothing stops paths now, so they are not connected, and the trial no longer counts.
+    restarts(&mut window, "endless paths", |w| choose(w, "Roulette", "Off"));
+    assert!(window.query_by_label_contains("MIS: with so little roulette").is_some() && shows(&window, "MIS (Auto)"));
+}
+
+#[test]
+fn an_estimator_that_the_scene_does_not_allow_says_what_renders_instead() {
+    let mut window = window("tinted_glass");
+    restarts(&mut window, "paths from both ends", |w| choose(w, "Estimator", "Bidirectional"));
+    wait(&mut window, "samples", |app| app.results.status.spp >= 1);
+    window.run_steps(3);
+    assert!(shows(&window, "MIS: the scene has tinted media") && shows(&window, "MIS, not Bidirectional"));
+}
