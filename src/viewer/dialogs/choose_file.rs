@@ -1,18 +1,13 @@
 //! The dialog that chooses a file for a value of the scene.
 use std::path::{Path as FilePath, PathBuf};
 
-use egui::{Align, Align2, Button, Layout, RichText};
 use noisefall::{
     declare::{OwnedValue, Path, Step, Textured},
     edit::{Document, Edit, Tree},
     texture::{TextureKind, image::Image},
 };
 
-use super::{
-    completion::Completion,
-    open::{LIST, path_field},
-};
-use crate::viewer::widgets::path_field::PathField;
+use super::path_form::{self, PathForm, Wanted};
 
 /// Purpose of the file.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,15 +23,13 @@ pub enum FilePurpose {
 /// Asks for a file.
 pub struct FileDialog {
     purpose: FilePurpose,
-    field: PathField,
-    completion: Completion,
+    form: PathForm,
 }
 
 impl FileDialog {
     /// A dialog that begins in the folder of the scene.
     pub fn new(purpose: FilePurpose, scene: Option<&FilePath>) -> FileDialog {
-        let field = path_field(scene, "path/to/file").with_completion();
-        FileDialog { purpose, field, completion: Completion::default() }
+        FileDialog { purpose, form: PathForm::new(scene, "path/to/file") }
     }
 }
 
@@ -79,65 +72,18 @@ pub fn texture_in_place(document: &mut Document, path: &Path, wanted: &str, mut 
 /// Shows the dialog until it is answered. Returns the file and what it is for.
 pub fn show(ctx: &egui::Context, dialog: &mut Option<FileDialog>) -> Option<(FilePurpose, PathBuf)> {
     let mut asking = dialog.take()?;
-    let (mut open, mut asked) = (true, Asked::default());
-    egui::Window::new(format!("Choose {}", asking.purpose.kind().0))
-        .open(&mut open)
-        .collapsible(false)
-        .resizable(false)
-        .anchor(Align2::CENTER_CENTER, [0.0, 0.0])
-        .show(ctx, |ui| asked = dialog_body(ui, &mut asking));
-    let field = &mut asking.field;
-    match asked.file.or(field.path().filter(|_| asked.uses)) {
-        Some(path) if path.is_file() => return Some((asking.purpose, path)),
-        Some(path) => field.refusal = Some(format!("There is no file {}. Check the path, or choose Browse…", path.display())),
-        None => {}
+    let (what, extensions) = asking.purpose.kind();
+    let text = format!(
+        "Type the path of {what} ({}). Tab completes it, arrows choose. A file in the scene's folder is stored with a relative path.",
+        extensions.join(", ").to_uppercase()
+    );
+    let wanted = Wanted { text: &text, verb: "Use", files: "Image or mesh", extensions };
+    let (stays, answer) = path_form::window(ctx, &format!("Choose {what}"), |ui| asking.form.show(ui, &wanted));
+    if let Some(file) = answer.path.and_then(|path| asking.form.existing(path)) {
+        return Some((asking.purpose, file));
     }
-    if open && !asked.cancels {
+    if stays {
         *dialog = Some(asking);
     }
     None
-}
-
-/// What a frame of the dialog asks for.
-#[derive(Default)]
-struct Asked {
-    /// The path in the field.
-    uses: bool,
-    cancels: bool,
-    /// This file.
-    file: Option<PathBuf>,
-}
-
-fn dialog_body(ui: &mut egui::Ui, FileDialog { purpose, field, completion }: &mut FileDialog) -> Asked {
-    let (what, extensions) = purpose.kind();
-    let mut asked = Asked::default();
-    ui.set_width(460.0);
-    ui.label(format!(
-        "Type the path of {what} ({}). Tab completes it, arrows choose. A file in the scene's folder is stored with a relative path.",
-        extensions.join(", ").to_uppercase()
-    ));
-    ui.add_space(4.0);
-    completion.follow(ui, field, extensions);
-    let entered = field.show(ui);
-    field.remark(ui, "");
-    let clicked = completion.show(ui, field, LIST);
-    ui.horizontal(|ui| {
-        let folder = field.path().and_then(|path| path.parent().map(ToOwned::to_owned));
-        field.browse(ui, |dialog| folder.into_iter().fold(dialog, rfd::FileDialog::set_directory).pick_file());
-        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            asked.uses = ui.add_enabled(field.path().is_some(), Button::new(RichText::new("Use").strong())).clicked();
-            asked.cancels = ui.button("Cancel").clicked();
-        });
-    });
-    match clicked.or_else(|| completion.chosen(field).filter(|_| entered)) {
-        Some((path, true)) => asked.file = Some(path.into()),
-        Some((path, false)) => field.set(ui, path),
-        None => asked.uses |= entered,
-    }
-    // A folder is listed, and not used.
-    if let Some(folder) = field.path().filter(|path| asked.uses && path.is_dir()) {
-        asked.uses = false;
-        field.set(ui, folder.join("").display().to_string());
-    }
-    asked
 }

@@ -9,6 +9,7 @@ pub mod help;
 pub mod loading;
 pub mod notices;
 pub mod open;
+mod path_form;
 mod question;
 pub mod recovery;
 pub mod remarks;

@@ -159,7 +159,7 @@ fn a_path_that_is_typed_replaces_the_folder_that_open_begins_with() {
     window.run_steps(4);
     window.event(Event::Text("/elsewhere/a.toml".to_owned()));
     window.run_steps(3);
-    assert_eq!(window.state().dialogs.open.as_ref().expect("it is open").field.path, "/elsewhere/a.toml");
+    assert_eq!(window.state().dialogs.open.as_ref().expect("it is open").form.field.path, "/elsewhere/a.toml");
 }
 
 #[test]

@@ -260,7 +260,7 @@ fn a_file_is_looked_for_where_the_open_scene_lies() {
     let path = shipped("furnace").canonicalize().expect("it is there");
     app.session.opened.as_mut().expect("it is open").path = Some(path.clone());
     app.open_scene(SceneRequest::Browse);
-    let start = app.dialogs.open.map(|dialog| dialog.field.path);
+    let start = app.dialogs.open.map(|dialog| dialog.form.field.path);
     let folder = path.parent().expect("it lies in one").join("");
     assert_eq!(start, Some(folder.display().to_string()), "a name can be typed behind it");
 }

@@ -13,7 +13,7 @@ fn scenes() -> tempfile::TempDir {
 }
 
 fn text(window: &Window) -> String {
-    window.state().dialogs.open.as_ref().expect("it is open").field.path.clone()
+    window.state().dialogs.open.as_ref().expect("it is open").form.field.path.clone()
 }
 
 /// Opens the dialog, types a path, and waits for so many rows.
@@ -25,7 +25,7 @@ fn typed(window: &mut Window, path: &str, rows: usize) {
 }
 
 fn listed(window: &mut Window, rows: usize) {
-    wait(window, "the list", |app| app.dialogs.open.as_ref().is_some_and(|dialog| dialog.lists(rows)));
+    wait(window, "the list", |app| app.dialogs.open.as_ref().is_some_and(|dialog| dialog.form.lists(rows)));
     window.run_steps(2);
 }
 
@@ -83,6 +83,6 @@ fn a_file_of_another_kind_is_refused_in_the_dialog() {
     window.get_by_role(Role::TextInput).set_text_value_accesskit(&photo.display().to_string());
     window.run_steps(3);
     press(&mut window, Key::Enter);
-    let refusal = window.state().dialogs.open.as_ref().and_then(|dialog| dialog.field.refusal.clone());
+    let refusal = window.state().dialogs.open.as_ref().and_then(|dialog| dialog.form.field.refusal.clone());
     assert!(refusal.is_some_and(|refusal| refusal.starts_with("photo.jpg is not a scene")));
 }
