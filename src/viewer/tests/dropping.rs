@@ -8,7 +8,7 @@ use noisefall::{
 };
 
 use super::{
-    scene_edits::{bits, description, edits},
+    edited::{bits, description, edits},
     selection::{AMBER_BALL, ball, seen},
     *,
 };

@@ -6,7 +6,11 @@ use noisefall::{
     edit::Edit,
 };
 
-use super::*;
+use super::{
+    edited::description,
+    selection::{ball, seen},
+    *,
+};
 use crate::viewer::dialogs::unsaved::Leaving;
 
 /// A window with a scene of its own that may be written to.
@@ -210,4 +214,25 @@ fn a_new_scene_is_saved_under_its_title() {
     window.key_press_modifiers(Modifiers::COMMAND, Key::S);
     window.run_steps(3);
     assert!(window.state().dialogs.save.as_ref().is_some_and(|dialog| dialog.path().ends_with("studio.toml")));
+}
+
+#[test]
+fn saving_says_that_the_view_is_left_out_and_can_keep_it() {
+    let mut window = window("cornell_spheres");
+    window.state_mut().session.camera.eye.y += 0.1;
+    let eye = window.state().session.camera.eye;
+    window.run_steps(2);
+    let at = seen(&mut window, ball());
+    window.state_mut().ask_where_to_save();
+    window.run_steps(3);
+    // The dialog has the mouse too.
+    click_at(&mut window, at);
+    assert_eq!(window.state().selection.subject, None);
+    check_box(&mut window, "Save this view as the scene's camera");
+    window.state_mut().keep_view();
+    assert_eq!(description(&window).camera.eye, eye);
+    let resolution = description(&window).camera.resolution;
+    assert_ne!(resolution, [96, 64], "the resolution is no part of the view");
+    window.run_steps(2);
+    wait(&mut window, "the scene with this view", |app| !app.session.view_differs());
 }

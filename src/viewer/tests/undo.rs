@@ -6,7 +6,7 @@ use noisefall::{
     scene::Camera,
 };
 
-use super::{scene_edits::edits, *};
+use super::{edited::edits, *};
 
 /// Sets the number of samples to stop at, which is no step here.
 fn stop_at(window: &mut Window, spp: u32) {
