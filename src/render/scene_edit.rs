@@ -25,7 +25,7 @@ pub struct SceneEdit {
     pub before: Arc<Scene>,
     /// Precision of the compile.
     pub precision: Precision,
-    /// Whether the scene differs from `before` in texts at most: see [`SceneDescription::differs_in_texts`]. Its image is then that of
+    /// Whether the scene differs from `before` unseen at most: see [`SceneDescription::differs_unseen`]. Its image is then that of
     /// `before`, which continues.
     pub keeps_image: bool,
     /// The camera, which need not be the scene's.

@@ -32,6 +32,7 @@ mod shutter;
 pub mod surface;
 mod syntax;
 mod turntable;
+mod used;
 mod values;
 mod warnings;
 mod wording;

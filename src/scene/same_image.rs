@@ -1,27 +1,31 @@
-//! Scenes that differ only in title, notes, truth, exposure and names of objects, and therefore have the same image.
+//! Scenes that differ only in what no image shows: title, notes, truth, exposure, names of objects, and materials and textures that
+//! nothing uses.
 use std::sync::Arc;
 
 use super::{
     Scene,
     description::{ObjectDescription, SceneDescription},
+    used::Used,
 };
 
-/// Parts whose compile leaves the image as it is: they are made every time, or only compared with the image.
-const HARMLESS: [&str; 2] = ["surfaces", "references"];
+/// Parts whose compile leaves the image as it is: they are made every time, or only compared with the image, or belong to materials,
+/// of which only unused ones differ.
+const HARMLESS: [&str; 3] = ["surfaces", "references", "material tables"];
 
 impl SceneDescription {
-    /// Whether title, notes, truth, exposure or names of objects differ, and nothing else does.
-    pub fn differs_in_texts(&self, other: &SceneDescription) -> bool {
+    /// Whether texts, exposure, unused materials or unused textures differ, and nothing else does.
+    pub fn differs_unseen(&self, other: &SceneDescription) -> bool {
         let SceneDescription { camera, background, textures, materials, objects, lamps, render, .. } = self;
         let names = |objects: &[ObjectDescription]| objects.iter().map(|object| object.name.clone()).collect::<Vec<_>>();
         let texts = |of: &SceneDescription| (of.title.clone(), of.notes.clone(), of.truth.clone(), of.render.exposure);
-        (texts(self) != texts(other) || names(objects) != names(&other.objects))
+        let has_same_lists = (textures, materials) == (&other.textures, &other.materials);
+        (texts(self) != texts(other) || names(objects) != names(&other.objects) || !has_same_lists)
             && (camera, background) == (&other.camera, &other.background)
             && render.renders_like(&other.render)
-            && (textures, materials) == (&other.textures, &other.materials)
             && lamps == &other.lamps
             && objects.len() == other.objects.len()
             && objects.iter().zip(&other.objects).all(|(a, b)| a.is_same_but_for_name(b))
+            && (has_same_lists || Used::by(self).are_same(self, other))
     }
 }
 
@@ -43,7 +47,8 @@ impl Scene {
         Arc::ptr_eq(&self.lineage, &other.lineage)
     }
 
-    /// Takes over the identity of the scene that this one was rebuilt from. Their descriptions differ in texts at most. If a file that
+    /// Takes over the identity of the scene that this one was rebuilt from. Their descriptions [differ
+    /// unseen](SceneDescription::differs_unseen) at most. If a file that
     /// the scene names has changed, parts were made anew, and the scene keeps an identity of its own.
     pub fn keep_image(&mut self, before: &Scene) {
         if self.compiled.parts.iter().all(|part| part.made == 0 || HARMLESS.contains(&part.part)) {
@@ -60,6 +65,7 @@ mod tests {
     use crate::{
         declare::Precision,
         light::background::{BackgroundDescription, image::Image},
+        material::{Dielectric, Lambertian},
         scene::{BUILT_IN, built_in, describe},
     };
 
@@ -68,13 +74,13 @@ mod tests {
     }
 
     #[test]
-    fn texts_are_told_from_what_an_image_depends_on() {
+    fn what_an_image_shows_is_told_from_the_rest() {
         let before = built_in_description();
-        assert!(!before.differs_in_texts(&before), "nothing differs");
+        assert!(!before.differs_unseen(&before), "nothing differs");
         let changed = |change: fn(&mut SceneDescription)| {
             let mut after = before.clone();
             change(&mut after);
-            after.differs_in_texts(&before)
+            after.differs_unseen(&before)
         };
         assert!(changed(|scene| scene.title = "Room".to_owned()));
         assert!(changed(|scene| scene.notes = "Bright.".to_owned()));
@@ -83,6 +89,8 @@ mod tests {
         assert!(!changed(|scene| (scene.title, scene.camera.fov) = ("Room".to_owned(), Some(20.0))));
         assert!(changed(|scene| scene.objects[0].name = "wall".to_owned()));
         assert!(!changed(|scene| (scene.objects[0].name, scene.objects[0].flip) = ("wall".to_owned(), true)));
+        assert!(changed(|scene| _ = scene.add_material("new", Lambertian::default())));
+        assert!(!changed(|scene| _ = scene.add_material("white", Lambertian::default())));
         assert!(!changed(|scene| scene.render.settings.seed = 5));
         assert!(!changed(|scene| drop(scene.objects.pop())));
     }
@@ -114,5 +122,20 @@ mod tests {
         assert!(!renamed().has_same_image(&before));
         assert!(after.is_of_same_file(&before) && !built_in().is_of_same_file(&before));
         assert!(!built_in().has_same_image(&built_in()), "another compile is not compared");
+    }
+    #[test]
+    fn a_material_that_nothing_uses_leaves_the_image_as_it_is() {
+        let mut description = built_in_description();
+        let before = description.build(std::path::Path::new("")).expect("it is valid");
+        for (name, transmittance) in [("spare", 0.5), ("spare", 0.25), ("another", 0.1)] {
+            let glass = Dielectric { transmittance: [transmittance; 3], ..Dielectric::default() };
+            description.add_material(name, glass);
+            let mut after = Arc::new(description.clone())
+                .rebuild(std::path::Path::new(""), &before, Precision::Interactive)
+                .expect("it is valid");
+            after.keep_image(&before);
+            assert!(after.has_same_image(&before) && after.surfaces.media.is_empty(), "{name}");
+            assert_eq!(after.materials.len(), description.materials.len());
+        }
     }
 }

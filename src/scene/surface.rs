@@ -60,8 +60,9 @@ impl Surfaces {
     /// The surfaces of all pieces of the objects, in order.
     pub fn new(objects: &[Object], instances: &[MaterialInstance], materials: Materials) -> Surfaces {
         let inside = |instance: &MaterialInstance| instance.compiled.inside.unwrap_or([1.0; 3]);
-        let has_media = instances.iter().any(|instance| inside(instance) != [1.0; 3]);
-        let columns = Columns::new(objects, instances);
+        let used = used(objects, instances);
+        let has_media = used.iter().any(|instance| inside(instance) != [1.0; 3]);
+        let columns = Columns::new(objects, instances, &used);
         let mut surfaces = Surfaces { materials, ..Surfaces::default() };
         if has_media {
             surfaces.media.push([0.0; 4]);
@@ -165,6 +166,18 @@ impl Surfaces {
     }
 }
 
+/// The materials of the objects and the parts of their blends. A material that nothing uses costs no table.
+fn used<'a>(objects: &[Object], instances: &'a [MaterialInstance]) -> Vec<&'a MaterialInstance> {
+    let mut is_used = vec![false; instances.len()];
+    let mut waiting: Vec<u32> = objects.iter().filter_map(|object| object.material).collect();
+    while let Some(number) = waiting.pop() {
+        if !std::mem::replace(&mut is_used[number as usize], true) {
+            waiting.extend(instances[number as usize].blend.iter().flat_map(|blend| blend.materials));
+        }
+    }
+    instances.iter().zip(is_used).filter(|(_, is_used)| *is_used).map(|(instance, _)| instance).collect()
+}
+
 /// The tables that only some scenes need.
 #[derive(Clone, Copy)]
 struct Columns {
@@ -174,14 +187,14 @@ struct Columns {
 }
 
 impl Columns {
-    fn new(objects: &[Object], instances: &[MaterialInstance]) -> Columns {
+    fn new(objects: &[Object], instances: &[MaterialInstance], used: &[&MaterialInstance]) -> Columns {
         let is_layered = |number: u32| {
             let instance = &instances[number as usize];
             instance.properties.passes || instance.blend.is_some()
         };
         Columns {
-            relief: instances.iter().any(|instance| instance.bump.is_some() || instance.normal_map.is_some()),
-            transmittance: instances.iter().any(|instance| instance.compiled.transmittance.is_some()),
+            relief: used.iter().any(|instance| instance.bump.is_some() || instance.normal_map.is_some()),
+            transmittance: used.iter().any(|instance| instance.compiled.transmittance.is_some()),
             opacity: objects.iter().filter_map(|object| object.material).any(is_layered),
         }
     }

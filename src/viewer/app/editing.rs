@@ -25,10 +25,10 @@ impl App {
         // A diagnosis of an earlier edit is out of date.
         self.outside.diagnosis = None;
         self.session.submitted_edit = Some(description.clone());
-        let differs_in_texts = description.differs_in_texts(&opened.description);
+        let differs_unseen = description.differs_unseen(&opened.description);
         // A drag has no way back to an earlier scene, and no time to look for one.
         let earlier = if self.is_dragging() { None } else { self.session.earlier.of(&description) };
-        self.background.worker.edit(request, EditedDescription { description, folder, differs_in_texts, earlier }, now);
+        self.background.worker.edit(request, EditedDescription { description, folder, differs_unseen, earlier }, now);
     }
 
     /// Receives the edited scene from the worker, and the exact one from the settler.

@@ -17,7 +17,7 @@ impl EarlierScenes {
 
     /// The latest scene with the image of a description.
     pub fn of(&self, description: &SceneDescription) -> Option<Arc<Scene>> {
-        let has_image = |known: &SceneDescription| known == description || description.differs_in_texts(known);
+        let has_image = |known: &SceneDescription| known == description || description.differs_unseen(known);
         self.0.iter().rev().filter(|(known, _)| has_image(known)).find_map(|(_, scene)| scene.upgrade())
     }
 }

@@ -121,7 +121,7 @@ fn while_an_edit_is_compiled_nothing_else_is_requested_and_the_second_view_follo
     };
     worker.update(request.clone(), other(&request), 0.0);
     let (description, folder) = (Arc::new(description("cornell_spheres")), PathBuf::new());
-    worker.edit(request.clone(), EditedDescription { description, folder, differs_in_texts: false, earlier: None }, 1.0);
+    worker.edit(request.clone(), EditedDescription { description, folder, differs_unseen: false, earlier: None }, 1.0);
     worker.update(request.clone(), other(&request), 1.0);
     assert_eq!((worker.generation(), worker.second_generation()), (3, 2));
     let start = Instant::now();

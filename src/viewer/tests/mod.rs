@@ -53,6 +53,7 @@ mod table;
 mod toolbar;
 mod truth;
 mod undo;
+mod unused;
 
 use std::{
     ops::{Deref, DerefMut},

@@ -14,8 +14,8 @@ pub struct EditedDescription {
     pub description: Arc<SceneDescription>,
     /// Folder of its relative file paths.
     pub folder: PathBuf,
-    /// Only title, notes or truth have changed.
-    pub differs_in_texts: bool,
+    /// Only what no image shows has changed: see [`SceneDescription::differs_unseen`].
+    pub differs_unseen: bool,
     /// A scene that was rendered before and has the image of the changed one.
     pub earlier: Option<Arc<Scene>>,
 }
@@ -24,9 +24,9 @@ impl RenderWorkerHandle {
     /// Requests a changed scene. The request holds the scene before the edit. If only texts changed, or nothing, the image continues;
     /// the image of an earlier scene comes back with its samples. Until there is a result, nothing else is requested.
     pub fn edit(&mut self, request: RenderRequest, edited: EditedDescription, now: f64) {
-        let EditedDescription { description, folder, differs_in_texts, earlier } = edited;
+        let EditedDescription { description, folder, differs_unseen, earlier } = edited;
         let generation = self.generation;
-        let has_same_image = differs_in_texts || earlier.as_ref().is_some_and(|earlier| earlier.has_same_image(&request.scene));
+        let has_same_image = differs_unseen || earlier.as_ref().is_some_and(|earlier| earlier.has_same_image(&request.scene));
         let continues = has_same_image && !self.restarts && self.request.as_ref() == Some(&request);
         if !continues {
             self.generation = self.next(now);
