@@ -62,8 +62,7 @@ impl Parameter {
         if !self.title.is_empty() {
             return self.title.to_owned();
         }
-        let words: Vec<_> = self.key.split('_').map(|word| if word == "ior" { "IOR" } else { word }).collect();
-        let words = words.join(" ");
+        let words = key_in_words(self.key);
         let first = words.chars().next().into_iter().flat_map(char::to_uppercase);
         first.chain(words.chars().skip(1)).collect()
     }
@@ -72,6 +71,17 @@ impl Parameter {
     pub fn is_alias(&self, word: &str) -> bool {
         self.aliases.split(' ').any(|alias| alias == word)
     }
+}
+
+/// A key of scene files in the words and the spelling of the window: "base_color" is "base colour".
+pub fn key_in_words(key: &str) -> String {
+    let word = |word| match word {
+        "ior" => "IOR",
+        "color" => "colour",
+        "center" => "centre",
+        other => other,
+    };
+    key.split('_').map(word).collect::<Vec<_>>().join(" ")
 }
 
 /// A closed range of numbers.
@@ -104,7 +114,7 @@ impl Range {
         Range::UNIT.expected("every channel must lie in [0, 1]: a surface cannot reflect more light than it receives");
     /// Roughness and α.
     pub const ROUGHNESS: Range = Range::UNIT.expected("expected a number from 0 to 1");
-    /// W/(m² sr), channel by channel.
+    /// W·sr⁻¹·m⁻², channel by channel.
     pub const RADIANCE: Range = Range::log(0.0, 1e15).expected("every channel must be a number from 0 to 1e15");
     /// Refractive indices of transparent media.
     pub const INDEX: Range = Range::linear(0.05, 20.0);

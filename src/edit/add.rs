@@ -13,7 +13,7 @@ use crate::{
     texture::{TextureKind, noise::Noise},
 };
 
-/// The radiance of new lamps, W/(m² sr), for an image of exposure 0.
+/// The radiance of new lamps, W·sr⁻¹·m⁻², for an image of exposure 0.
 const RADIANCE: f64 = 20.0;
 /// The irradiance of those without surface below them, W/m²: white surfaces are white there and not beyond.
 const IRRADIANCE: f64 = 4.0;

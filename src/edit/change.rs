@@ -1,6 +1,6 @@
 //! The edits of a scene.
 use super::{content::Content, origin::Origin, tree::Tree};
-use crate::declare::{OwnedValue, Path, Step};
+use crate::declare::{OwnedValue, Path};
 
 /// A change of a scene. The [table](super) lists their uses.
 #[derive(Clone, Debug, PartialEq)]
@@ -102,35 +102,6 @@ impl Edit {
             | Edit::Move { path, .. } => vec![path],
             Edit::All(edits) => edits.iter().flat_map(Edit::paths).collect(),
             Edit::Reload(_) => vec![&EVERYTHING],
-        }
-    }
-
-    /// The edit in words for a menu: "Set roughness".
-    pub fn title(&self) -> String {
-        let last = |path: &Path| match path.0.last() {
-            Some(Step::Key(key)) => key.replace('_', " "),
-            Some(Step::Item(_)) => match path.0.first() {
-                Some(Step::Key(key)) if key == "objects" && path.0.len() == 2 => "object".to_owned(),
-                Some(Step::Key(key)) if key == "lamps" && path.0.len() == 2 => "lamp".to_owned(),
-                _ => path
-                    .0
-                    .iter()
-                    .rev()
-                    .find_map(|step| if let Step::Key(key) = step { Some(key.as_str()) } else { None })
-                    .unwrap_or("item")
-                    .to_owned(),
-            },
-            None => "scene".to_owned(),
-        };
-        match self {
-            Edit::Set { path, .. } | Edit::Replace { path, .. } => format!("Set {}", last(path)),
-            Edit::Insert { path, .. } => format!("Add {}", last(path)),
-            Edit::Remove { path } => format!("Delete {}", last(path)),
-            Edit::Choose { choice, name, .. } => format!("Change {choice} to {}", name.replace('_', " ")),
-            Edit::Rename { path, to } => format!("Rename {} to {to}", last(path)),
-            Edit::Move { path, .. } => format!("Move {}", last(path)),
-            Edit::All(edits) => edits.first().map_or_else(|| "Edit".to_owned(), Edit::title),
-            Edit::Reload(_) => "Reload".to_owned(),
         }
     }
 }

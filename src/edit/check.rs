@@ -74,28 +74,13 @@ pub fn in_use(description: &mut SceneDescription, path: &Path) -> Option<Problem
         1 => format!("the {what} `{name}` is in use"),
         count => format!("the {what} `{name}` is used in {count} places"),
     };
-    let mut places: Vec<String> = users.iter().map(|user| format!("`{}`", owner(description, user))).collect();
+    let mut places: Vec<String> = users.iter().map(|user| format!("`{}`", description.part_name(user))).collect();
     places.dedup();
     let others = places.len().saturating_sub(MOST_PLACES);
     places.truncate(MOST_PLACES);
     let more = if others > 0 { format!(" and {others} more") } else { String::new() };
     let problem = Problem::at("", message, "it is used here");
     Some(problem.within(&first).help(format!("use another {what} for {}{more} first", places.join(", "))))
-}
-
-/// The name of the object, of the lamp, of the material or of the texture that contains a path.
-fn owner(description: &SceneDescription, path: &Path) -> String {
-    let name = match &path.0[..] {
-        [Step::Key(list), Step::Item(place), ..] if list == "objects" => {
-            description.objects.get(*place).map(|object| object.name.clone())
-        }
-        [Step::Key(list), Step::Item(place), ..] if list == "lamps" => {
-            description.lamps.get(*place).map(|lamp| lamp.name.clone())
-        }
-        [Step::Key(map), Step::Key(name), ..] if map == "materials" || map == "textures" => Some(name.clone()),
-        _ => None,
-    };
-    name.filter(|name| !name.is_empty()).unwrap_or_else(|| path.to_string())
 }
 
 struct Checker<'p> {

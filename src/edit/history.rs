@@ -50,12 +50,12 @@ impl History {
     }
 
     fn step(&mut self, document: &mut Document, edit: &Edit, gesture: Option<Gesture>) -> Result<(), Problem> {
-        let version = document.version();
+        let (version, title) = (document.version(), edit.title(document.description()));
         let inverse = document.apply(edit)?;
         self.undone.clear();
         match self.done.back_mut() {
             Some(last) if gesture.is_some() && last.gesture == gesture => last.merge(inverse),
-            _ => self.done.push_back(Step { edit: inverse, version, title: edit.title(), gesture }),
+            _ => self.done.push_back(Step { edit: inverse, version, title, gesture }),
         }
         if self.done.len() > MOST {
             self.done.pop_front();

@@ -58,7 +58,7 @@
 //! | file | holds |
 //! |---|---|
 //! | `document.rs`, `content.rs` | the document and its content |
-//! | `change.rs`, `apply.rs` | the edits; applying them |
+//! | `change.rs`, `title.rs`, `apply.rs` | the edits; in words; applying them |
 //! | `tree.rs`, `walk.rs` | a snapshot of a part of a description; following a visitor to a path |
 //! | `set.rs`, `put.rs`, `take.rs`, `choose.rs` | the visitors that change a description |
 //! | `check.rs`, `references.rs` | the reader's checks; names in use |
@@ -97,6 +97,7 @@ mod take;
 mod templates;
 #[cfg(test)]
 mod tests;
+mod title;
 mod tree;
 #[cfg(feature = "reports")]
 mod trial;

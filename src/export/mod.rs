@@ -78,7 +78,7 @@ pub enum ExportError {
     /// A part of the scene is invalid.
     #[error("{place}: {reason}")]
     Invalid {
-        /// Its path in the scene.
+        /// Its name in the scene.
         place: String,
         /// What is wrong.
         reason: String,

@@ -91,9 +91,11 @@ impl SceneDescription {
             }
         }
         let error = |problem: Problem| {
-            let message = format!("`{}`: {}", problem.path, problem.message);
-            let advice = [problem.label, problem.help].into_iter().filter(|text| !text.is_empty()).collect::<Vec<_>>();
-            SceneError::of_file(name, message, advice.join("; "))
+            // A scene of the window is known by its parts, one that was built in code by its paths.
+            let place = if before.is_some() { self.place_name(&problem.path) } else { format!("`{}`", problem.path) };
+            let message = format!("{place}: {}", problem.message);
+            let advice = [problem.label, problem.help].into_iter().filter(|text| !text.is_empty()).collect::<Vec<_>>().join("; ");
+            if before.is_some() { SceneError::of_part(&message, &advice) } else { SceneError::of_file(name, message, advice) }
         };
         let nothing = || SceneError::of_file(name, "it cannot be compiled", "check its values");
         Err(SceneError::of_all(problems.into_iter().map(error).collect()).unwrap_or_else(nothing))
@@ -106,7 +108,7 @@ impl SceneDescription {
 }
 
 impl EmissionDescription {
-    /// Emission of a constant radiance, W/(m² sr), from the front.
+    /// Emission of a constant radiance, W·sr⁻¹·m⁻², from the front.
     pub fn radiance(radiance: [f64; 3]) -> EmissionDescription {
         EmissionDescription { source: Radiance { radiance }.into(), ..EmissionDescription::default() }
     }

@@ -41,10 +41,19 @@ impl SceneError {
 
     /// An error about a file as a whole.
     pub fn of_file(path: &Path, message: impl Into<String>, help: impl Into<String>) -> SceneError {
+        SceneError::without_place(format!("{}: {}", quote::path(path), quote::message(&message.into())), &help.into())
+    }
+
+    /// An error about a part of a scene that is edited. The message names the part.
+    pub fn of_part(message: &str, help: &str) -> SceneError {
+        SceneError::without_place(quote::message(message), help)
+    }
+
+    fn without_place(message: String, help: &str) -> SceneError {
         SceneError(Box::new(Details {
-            message: format!("{}: {}", quote::path(path), quote::message(&message.into())),
+            message,
             label: String::new(),
-            help: Some(quote::message(&help.into())),
+            help: Some(quote::message(help)),
             place: None,
             others: Vec::new(),
         }))

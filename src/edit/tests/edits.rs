@@ -318,9 +318,22 @@ fn references_that_are_not_defined_are_not_opened() {
 }
 
 #[test]
-fn titles_say_what_an_edit_does() {
-    assert_eq!(number("camera.fov", 1.0).title(), "Set fov");
-    assert_eq!(Edit::remove(path("objects.1")).title(), "Delete object");
-    assert_eq!(Edit::insert(path("objects.1.transform.0")).title(), "Add transform");
-    assert_eq!(Edit::choose(path("objects.1.shape"), "shape", "sphere_field").title(), "Change shape to sphere field");
+fn titles_say_what_an_edit_does_and_to_what() {
+    let scene = room().description().clone();
+    for (edit, title) in [
+        (number("camera.fov", 1.0), "change of fov of the camera"),
+        (number("materials.gold.conductor.roughness", 0.5), "change of roughness of gold"),
+        (text("objects.1.name", "globe"), "renaming of ball to globe"),
+        (Edit::remove(path("objects.1")), "removal of ball"),
+        (Edit::remove(path("camera.lens")), "removal of lens from the camera"),
+        (Edit::insert_tree(path("objects.3"), Tree::of(&mut scene.objects[1].clone())), "addition of ball"),
+        (Edit::insert(path("objects.1.transform.0")), "addition of transform 1 to ball"),
+        (Edit::choose(path("objects.1.shape"), "shape", "sphere_field"), "change of ball to sphere field"),
+        (Edit::choose(path("materials.gold"), "material", "mirror"), "change of gold to mirror"),
+        (Edit::Rename { path: path("materials.gold"), to: "brass".to_owned() }, "renaming of gold to brass"),
+    ] {
+        assert_eq!(edit.title(&scene), title);
+    }
+    let bump = Edit::All(vec![Edit::insert(path("textures.noise")), Edit::insert(path("materials.gold.bump"))]);
+    assert_eq!(bump.title(&scene), "addition of bump to gold", "the texture serves the bump");
 }

@@ -32,7 +32,7 @@ use std::path::Path;
 
 use self::context::Export;
 use super::{ExportError, Prepared, Source, geometry};
-use crate::declare::Resources;
+use crate::declare::{self, Resources};
 
 /// Translates a scene to JSON with files beside it.
 pub fn prepare_text(source: Source, path: &Path) -> Result<Prepared, ExportError> {
@@ -49,8 +49,9 @@ fn prepare(source: Source, finish: impl FnOnce(Export) -> Result<Prepared, Expor
     let mut export = Export::new(source, &resources);
     camera::add(&mut export);
     for (place, object) in source.description.objects.iter().enumerate() {
+        let name = || source.description.part_name(&declare::Path::of("objects").item(place));
         let shapes = geometry::shapes(object, &resources)
-            .map_err(|problem| ExportError::Invalid { place: format!("objects[{place}]"), reason: problem.message })?;
+            .map_err(|problem| ExportError::Invalid { place: name(), reason: problem.message })?;
         shapes::object(&mut export, place, object, &shapes)?;
     }
     lights::all(&mut export)?;

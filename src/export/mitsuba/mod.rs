@@ -29,7 +29,7 @@ use std::path::Path;
 
 use self::{context::Export, markup::Element};
 use super::{ExportError, Prepared, Source, files::Files, geometry};
-use crate::declare::Resources;
+use crate::declare::{self, Resources};
 
 /// The version of Mitsuba whose syntax is written.
 const VERSION: &str = "3.0.0";
@@ -40,8 +40,9 @@ pub fn prepare(source: Source, path: &Path) -> Result<Prepared, ExportError> {
     let mut export = Export::new(source, &resources);
     sensor::settings(&mut export);
     for (place, object) in source.description.objects.iter().enumerate() {
+        let name = || source.description.part_name(&declare::Path::of("objects").item(place));
         let shapes = geometry::shapes(object, &resources)
-            .map_err(|problem| ExportError::Invalid { place: format!("objects[{place}]"), reason: problem.message })?;
+            .map_err(|problem| ExportError::Invalid { place: name(), reason: problem.message })?;
         shapes::object(&mut export, place, object, &shapes)?;
     }
     emitters::all(&mut export);

@@ -9,6 +9,7 @@ mod lamp;
 mod light;
 mod material;
 mod object;
+mod places;
 mod presentation;
 mod render;
 
@@ -23,6 +24,7 @@ pub use self::{
     light::{EmissionDescription, TruthDescription},
     material::{Bump, MaterialDescription},
     object::ObjectDescription,
+    places::parameter_name,
     presentation::Presentation,
     render::RenderDescription,
 };

@@ -78,8 +78,9 @@ impl App {
         };
         let Some(mut part) = subject.of(editor.document.description()) else { return };
         let (path, size, object) = (subject.path(), opened.scene.size, self.selection.object());
+        let heading = format!("Parameters of {}", subject.name(editor.document.description()));
         let user = ui.horizontal_wrapped(|ui| {
-            ui.label(RichText::new("Parameters").strong());
+            ui.label(RichText::new(heading).strong()).on_hover_text(format!("In the scene file, this part is {path}."));
             if matches!(subject, Subject::Object(_) | Subject::Lamp(_)) {
                 modes::show(ui, &mut self.selection.gizmo.mode);
             }
@@ -182,6 +183,5 @@ fn inspected(editor: &mut SceneEditor, ui: &mut Ui, part: &mut dyn Declare, path
         [description.textures.keys().cloned().collect(), description.materials.keys().cloned().collect()];
     let count_objects = |name: &str| description.objects.iter().filter(|object| object.material.as_deref() == Some(name)).count();
     let surroundings = Surroundings { textures: &textures, materials: &materials, count_objects: &count_objects, size };
-    ui.label(RichText::new(path.to_string()).weak()).on_hover_text("The path of this part in the scene file.");
     editor.inspector.show(ui, part, path, &surroundings)
 }

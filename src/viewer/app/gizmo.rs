@@ -58,7 +58,8 @@ impl App {
         };
         if is_new {
             self.selection.change = Some(change.clone());
-            self.change_scene(title(change), |editor| {
+            let name = self.editor.as_ref().map_or_else(String::new, |editor| subject.name(editor.document.description()));
+            self.change_scene(&format!("{} of {name}", operation(change)), |editor| {
                 editor.drag_from_start(|scene| match subject {
                     Subject::Object(object) => scene.transformed(*object, change, *pivot),
                     Subject::Lamp(lamp) => scene.transformed_lamp(*lamp, change, *pivot),
@@ -81,12 +82,13 @@ impl App {
     }
 }
 
-fn title(change: &Transform) -> &'static str {
+/// What an operation does, as a noun.
+fn operation(change: &Transform) -> &'static str {
     match change {
-        Transform::Translate(_) => "Move",
-        Transform::Rotate(_) => "Rotate",
-        Transform::Scale(_) => "Scale",
-        Transform::Matrix(_) => "Transform",
+        Transform::Translate(_) => "move",
+        Transform::Rotate(_) => "rotation",
+        Transform::Scale(_) => "scaling",
+        Transform::Matrix(_) => "transformation",
     }
 }
 

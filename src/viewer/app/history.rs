@@ -107,19 +107,20 @@ impl Controls {
 }
 
 impl Step {
-    /// What it changes, for a tooltip.
-    fn name(&self) -> &str {
+    /// What it does, in words that follow "Undo".
+    fn name(&self) -> String {
         let change = match self {
             Step::Controls(change) => change,
-            Step::Edit { title } => return title,
+            Step::Edit { title } => return title.clone(),
         };
-        match change.before.differing(&change.after) {
-            [true, ..] => "camera",
-            [_, _, true, ..] => "comparison",
-            [_, true, ..] => "settings",
-            [.., true, _] => "view",
-            _ => "stop target",
-        }
+        let what = match change.before.differing(&change.after) {
+            [true, ..] => "the camera",
+            [_, _, true, ..] => "the comparison",
+            [_, true, ..] => return format!("change of {}", changed_settings(&change.before.settings, &change.after.settings)),
+            [.., true, _] => "the view",
+            _ => "the stop target",
+        };
+        format!("change of {what}")
     }
 }
 
@@ -205,9 +206,28 @@ impl History {
         restored
     }
 
-    /// What undo and redo would change.
-    pub fn names(&self) -> [Option<&str>; 2] {
+    /// What undo and redo would take back or repeat.
+    pub fn names(&self) -> [Option<String>; 2] {
         [self.done.back(), self.undone.last()].map(|step| step.map(Step::name))
+    }
+}
+
+/// The setting that differs, as the panel calls it, or "the settings" if several differ.
+fn changed_settings(before: &RenderSettings, after: &RenderSettings) -> String {
+    let differs = [
+        (before.estimator != after.estimator, RenderSettings::ESTIMATOR),
+        (before.sampler != after.sampler, RenderSettings::SAMPLER),
+        (before.directions != after.directions, RenderSettings::DIRECTIONS),
+        (before.reuse != after.reuse, RenderSettings::REUSE),
+        (before.adaptive != after.adaptive, RenderSettings::ADAPTIVE),
+        (before.roulette != after.roulette, RenderSettings::ROULETTE),
+        (before.max_bounces != after.max_bounces, RenderSettings::MAX_BOUNCES),
+        (before.seed != after.seed, RenderSettings::SEED),
+    ];
+    let names: Vec<String> = differs.iter().filter(|(differs, _)| *differs).map(|(_, of)| of.label()).collect();
+    match &names[..] {
+        [name] => name.to_lowercase(),
+        _ => "the settings".to_owned(),
     }
 }
 

@@ -146,7 +146,7 @@ impl App {
         let Some(editor) = &self.editor else { return };
         let (before, name) = (editor.description(), file_name(editor));
         self.dialogs.file_error = None;
-        self.history.push_edit("Reload");
+        self.history.push_edit("reload of the file");
         self.step_in_scene(|editor| editor.take_outside(outside), |now| *now != *before);
         self.tell(format!("Reloaded {name}"), false);
     }

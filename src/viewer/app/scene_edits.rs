@@ -11,12 +11,16 @@ use crate::viewer::{panels::subject::Subject, widgets::wording::capitalised};
 impl App {
     /// Makes an edit, as a step of its own. What the reader of scene files would refuse is refused, with its message.
     pub fn edit(&mut self, edit: &Edit) -> bool {
-        self.change_scene(&edit.title(), |editor| editor.apply(edit).map(|()| true))
+        self.change_scene(&self.title_of(edit), |editor| editor.apply(edit).map(|()| true))
     }
 
     /// Makes an edit of a drag, which is one step.
     pub fn drag_edit(&mut self, edit: &Edit) {
-        self.change_scene(&edit.title(), |editor| editor.drag(edit));
+        self.change_scene(&self.title_of(edit), |editor| editor.drag(edit));
+    }
+
+    fn title_of(&self, edit: &Edit) -> String {
+        self.editor.as_ref().map_or_else(String::new, |editor| edit.title(editor.document.description()))
     }
 
     /// Changes the scene by `change`, which returns whether a step of this title begins. Returns whether the change was made.

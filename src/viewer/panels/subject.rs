@@ -41,6 +41,14 @@ impl Subject {
         }
     }
 
+    /// The name of the part as a person reads it: "gold", "object 6", "camera".
+    pub fn name(&self, description: &SceneDescription) -> String {
+        match self {
+            Subject::Presentation => "title and settings".to_owned(),
+            _ => description.part_name(&self.path()),
+        }
+    }
+
     /// The part at a path of a description.
     pub fn at(path: &Path) -> Option<Subject> {
         Some(match &path.0[..] {

@@ -34,8 +34,8 @@ pub struct Toolbar<'a> {
     pub has_region: bool,
     pub can_save: bool,
     pub is_comparing: bool,
-    /// Changes of undo and redo.
-    pub undo: [Option<&'a str>; 2],
+    /// What undo and redo would take back or repeat.
+    pub undo: [Option<String>; 2],
     pub tool: Tool,
     /// Screen pixels per picture pixel, if there is a picture.
     pub zoom: Option<f32>,
@@ -122,11 +122,12 @@ impl Toolbar<'_> {
     fn undo_buttons(&self, ui: &mut Ui) -> Option<Command> {
         let mut command = None;
         let buttons = [("↶", "Undo", "Ctrl+Z", Command::Undo), ("↷", "Redo", "Ctrl+Shift+Z", Command::Redo)];
-        for ((sign, name, keys, asked), what) in buttons.into_iter().zip(self.undo) {
+        for ((sign, name, keys, asked), what) in buttons.into_iter().zip(&self.undo) {
             let button = ui.add_enabled(what.is_some(), Button::new(sign));
             button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, what.is_some(), name));
-            let doc =
-                what.map_or_else(|| format!("Nothing to {}", name.to_lowercase()), |what| format!("{name}: {what} ({keys})"));
+            let doc = what
+                .as_ref()
+                .map_or_else(|| format!("Nothing to {}", name.to_lowercase()), |what| format!("{name} {what} ({keys})"));
             if button.on_hover_text(&doc).on_disabled_hover_text(&doc).clicked() {
                 command = Some(asked);
             }

@@ -17,9 +17,8 @@ pub fn show(ui: &mut Ui, scene: &SceneDescription, subject: &Subject) -> Option<
         ui.weak("no object");
     }
     let mut clicked = None;
-    for (place, object) in users.iter().take(MOST) {
-        let name = if object.name.is_empty() { format!("object {}", place + 1) } else { object.name.clone() };
-        if ui.small_button(name).on_hover_text("Select this object").clicked() {
+    for (place, _) in users.iter().take(MOST) {
+        if ui.small_button(Subject::Object(*place).name(scene)).on_hover_text("Select this object").clicked() {
             clicked = Some(Subject::Object(*place));
         }
     }

@@ -54,6 +54,7 @@ mod toolbar;
 mod truth;
 mod undo;
 mod unused;
+mod wording;
 
 use std::{
     ops::{Deref, DerefMut},

@@ -55,7 +55,7 @@ fn a_change_by_another_program_is_shown_and_camera_and_settings_stay() {
     write(&mut window, &path, &with_radius(&text, "0.21"));
     let app = window.state();
     assert_eq!((radius(app), app.has_unsaved_changes()), (0.21, false));
-    assert!(generation(&window) > before && app.history.names()[0] == Some("Reload"));
+    assert!(generation(&window) > before && app.history.names()[0].as_deref() == Some("reload of the file"));
     assert_eq!((app.session.camera, app.session.settings.seed), (camera, 7));
     let opened = app.session.opened.as_ref().expect("it is open");
     assert_eq!(&*opened.description, description(app), "the new scene is rendered");
@@ -214,7 +214,7 @@ fn our_own_save_is_no_change_by_another_program() {
         w.run_steps(2);
         settle(w);
     });
-    assert!(!window.state().has_unsaved_changes() && window.state().history.names()[0] != Some("Reload"));
+    assert!(!window.state().has_unsaved_changes() && window.state().history.names()[0].as_deref() != Some("reload of the file"));
     undo(&mut window);
     assert!(window.state().has_unsaved_changes() && radius(window.state()) == 0.38, "a save is no step");
 }

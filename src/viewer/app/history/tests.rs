@@ -48,15 +48,15 @@ fn steps_go_back_and_forth_and_a_new_one_forgets_what_was_undone() {
     assert_eq!((undone(&mut history), history.names()), (None, [None, None]));
     history.observe(seeded(1), at(1, false, 1.0));
     history.observe(seeded(2), at(2, false, 1.1));
-    assert_eq!(history.names(), [Some("settings"), None]);
+    assert_eq!(history.names(), [Some("change of seed".to_owned()), None]);
     assert_eq!((undone(&mut history), undone(&mut history), undone(&mut history)), (Some(seeded(1)), Some(controls()), None));
     assert_eq!((redone(&mut history), redone(&mut history), redone(&mut history)), (Some(seeded(1)), Some(seeded(2)), None));
     undone(&mut history);
     // What is restored is no step itself.
     history.observe(seeded(1), at(2, false, 2.0));
-    assert_eq!(history.names(), [Some("settings"); 2]);
+    assert_eq!(history.names(), ["change of seed"; 2].map(|name| Some(name.to_owned())));
     history.observe(moved(30.0), at(3, false, 3.0));
-    assert_eq!(history.names(), [Some("camera"), None]);
+    assert_eq!(history.names(), [Some("change of the camera".to_owned()), None]);
 }
 
 #[test]
@@ -65,7 +65,7 @@ fn the_stop_target_is_a_setting_of_its_own() {
     let stop = StopTarget { spp: Some(64), noise: Some(0.01), ..StopTarget::default() };
     let stopped = Controls { stop, ..controls() };
     history.observe(stopped, at(1, false, 1.0));
-    assert_eq!(history.names(), [Some("stop target"), None]);
+    assert_eq!(history.names(), [Some("change of the stop target".to_owned()), None]);
     assert_eq!((undone(&mut history), redone(&mut history)), (Some(controls()), Some(stopped)));
 }
 
@@ -113,11 +113,14 @@ fn the_oldest_steps_are_dropped() {
 fn edits_of_the_scene_are_steps_between_those_of_controls() {
     let mut history = started();
     history.observe(seeded(1), at(1, true, 1.0));
-    history.push_edit("Move");
+    history.push_edit("move of ball");
     history.observe(seeded(2), at(1, true, 1.1));
-    assert_eq!(history.names(), [Some("settings"), None]);
+    assert_eq!(history.names(), [Some("change of seed".to_owned()), None]);
     assert_eq!(undone(&mut history), Some(seeded(1)), "the drag does not go on over an edit");
-    assert_eq!((history.undo(), history.names()), (Some(Restored::Edit), [Some("settings"), Some("Move")]));
+    assert_eq!(
+        (history.undo(), history.names()),
+        (Some(Restored::Edit), ["change of seed", "move of ball"].map(|name| Some(name.to_owned())))
+    );
     assert_eq!(undone(&mut history), Some(controls()));
     assert_eq!(redone(&mut history), Some(seeded(1)));
     assert_eq!(history.redo(), Some(Restored::Edit));
@@ -126,7 +129,7 @@ fn edits_of_the_scene_are_steps_between_those_of_controls() {
     assert_eq!((undone(&mut history), undone(&mut history), history.undo()), (Some(seeded(1)), Some(controls()), None));
     // Controls that follow an edit are no step.
     let mut history = started();
-    history.push_edit("Set fov");
+    history.push_edit("change of fov of the camera");
     history.adopt(moved(30.0));
     history.observe(moved(30.0), at(1, false, 1.0));
     assert_eq!((history.undo(), history.undo()), (Some(Restored::Edit), None));

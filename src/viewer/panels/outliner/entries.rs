@@ -28,7 +28,7 @@ pub fn groups(description: &SceneDescription, search: &str) -> Vec<Group> {
     let group = |title, entries: &mut dyn Iterator<Item = Entry>| Group { title, entries: entries.filter(matches).collect() };
     let objects = |emits: bool| {
         let objects = description.objects.iter().enumerate().filter(move |(_, object)| object.emission.is_some() == emits);
-        objects.map(|(place, object)| of_object(place, object))
+        objects.map(|(place, object)| of_object(description, place, object))
     };
     let background = description.background.as_ref().map_or("none", |background| background.name());
     let single = [
@@ -36,7 +36,7 @@ pub fn groups(description: &SceneDescription, search: &str) -> Vec<Group> {
         Entry::single(Subject::Background, "Background", background),
         Entry::single(Subject::Presentation, "Title and settings", ""),
     ];
-    let lamps = description.lamps.iter().enumerate().map(|(place, lamp)| of_lamp(place, lamp));
+    let lamps = description.lamps.iter().enumerate().map(|(place, lamp)| of_lamp(description, place, lamp));
     let materials = description.materials.iter();
     let textures = description.textures.iter();
     let groups = [
@@ -52,16 +52,17 @@ pub fn groups(description: &SceneDescription, search: &str) -> Vec<Group> {
     groups.into_iter().filter(|group| !group.entries.is_empty()).collect()
 }
 
-fn of_object(place: usize, object: &ObjectDescription) -> Entry {
-    let name = if object.name.is_empty() { format!("object {}", place + 1) } else { object.name.clone() };
+fn of_object(description: &SceneDescription, place: usize, object: &ObjectDescription) -> Entry {
+    let subject = Subject::Object(place);
     let material = object.material.as_deref().unwrap_or("no material");
     let kind = format!("{}, {material}", object.shape.name().replace('_', " "));
-    Entry { subject: Subject::Object(place), name, given_name: object.name.clone(), kind }
+    Entry { name: subject.name(description), subject, given_name: object.name.clone(), kind }
 }
 
-fn of_lamp(place: usize, lamp: &LampDescription) -> Entry {
-    let name = if lamp.name.is_empty() { format!("lamp {}", place + 1) } else { lamp.name.clone() };
-    Entry { given_name: lamp.name.clone(), ..Entry::named(Subject::Lamp(place), &name, lamp.kind.name()) }
+fn of_lamp(description: &SceneDescription, place: usize, lamp: &LampDescription) -> Entry {
+    let subject = Subject::Lamp(place);
+    let name = subject.name(description);
+    Entry { given_name: lamp.name.clone(), ..Entry::named(subject, &name, lamp.kind.name()) }
 }
 
 fn of_material(name: &str, material: &MaterialDescription) -> Entry {
