@@ -30,8 +30,11 @@ pub struct MaterialDescription {
 
 impl Declare for MaterialDescription {
     fn parameters(&mut self, p: &mut dyn Parameters) {
-        const BUMP: Parameter =
-            Parameter::new("bump", "Height field that tilts the shading normal.").aliases("bump_map displacement");
+        const BUMP: Parameter = Parameter::new(
+            "bump",
+            "Makes the surface look uneven: heights from a texture tilt the shading normal; outlines stay smooth.",
+        )
+        .aliases("bump_map displacement");
         const NORMAL_MAP: Parameter = Parameter::new("normal_map", "A linear image of shading normals.").aliases("normals");
         const SHADOWING: Parameter = Parameter::new(
             "normal_shadowing",

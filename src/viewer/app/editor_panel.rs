@@ -7,7 +7,7 @@ use noisefall::{
     texture::TextureKind,
 };
 
-use super::{scene_editor::SceneEditor, state::App};
+use super::{new_bump::new_bump, scene_editor::SceneEditor, state::App};
 use crate::viewer::background::loader::OpenedScene;
 use crate::viewer::dialogs::{
     choose_file::{FileDialog, FilePurpose, texture_in_place},
@@ -111,8 +111,9 @@ impl App {
                     edit
                 }
                 Request::Insert { path } => {
-                    let Some(editor) = &self.editor else { return };
-                    let edit = editor.document.insert(&path);
+                    let (Some(editor), Some(opened)) = (&self.editor, &self.session.opened) else { return };
+                    let bump = new_bump(&editor.document, &opened.scene, &path);
+                    let edit = bump.unwrap_or_else(|| editor.document.insert(&path));
                     if let Some(file) = editor.document.missing_file(&edit, &path) {
                         self.ask_for_file(FilePurpose::After(edit, file));
                         continue;

@@ -18,6 +18,7 @@ mod input_order;
 mod keeping;
 mod lamps;
 mod loading;
+mod new_bump;
 mod outliner_actions;
 mod outside;
 mod picture_notices;

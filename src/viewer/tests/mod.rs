@@ -26,6 +26,7 @@ mod manners;
 mod messages;
 mod minified;
 mod mouse;
+mod new_bump;
 mod open_dialog;
 mod opening;
 mod painted;
