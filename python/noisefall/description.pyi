@@ -49,9 +49,9 @@ class Background:
     image: str | None = None
     """Equirectangular image, such as EXR or HDR; its centre is towards −z."""
     radiance: Sequence[float] | float | None = None
-    """Radiance of each channel. (W/(m² sr))"""
+    """Radiance of each channel. (W·sr⁻¹·m⁻²)"""
     rotate: float | None = None
-    """Rotation of the image, counter-clockwise seen from above. (degrees)"""
+    """Rotation of the image, counter-clockwise seen from above. (°)"""
     scale: float | None = None
     """Factor that multiplies the radiance."""
     sky: Sky | Mapping[str, Any] | None = None
@@ -152,14 +152,14 @@ class Directional:
     direction: Sequence[float] | None = None
     """Direction in which the light travels, of any length."""
     irradiance: Sequence[float] | float | None = None
-    """Irradiance of a surface that faces the light. (W/m²)"""
+    """Irradiance of a surface that faces the light. (W·m⁻²)"""
 
 @dataclass(kw_only=True)
 class Point:
     """A lamp without size that shines equally in all directions."""
 
     intensity: Sequence[float] | float | None = None
-    """Radiant intensity of each channel. (W/sr)"""
+    """Radiant intensity of each channel. (W·sr⁻¹)"""
     position: Sequence[float] | None = None
     """Where it stands. (m)"""
 
@@ -168,7 +168,7 @@ class Projector:
     """An image that is cast from a point."""
 
     angle: float | None = None
-    """Angle between the axis and the edge of a cone, where the light ends; 180 for no cone. (degrees)"""
+    """Angle between the axis and the edge of a cone, where the light ends; 180 for no cone. (°)"""
     aspect: float | None = None
     """Width of the image over its height; 0 for that of the file."""
     encoding: Literal['srgb', 'linear'] | None = None
@@ -176,19 +176,19 @@ class Projector:
     flat: bool | None = None
     """Whether a screen that faces it is lit evenly; otherwise the intensity is the same in all directions."""
     fov: float | None = None
-    """Angle across the width of the image. (degrees)"""
+    """Angle across the width of the image. (°)"""
     image: str | None = None
     """The image file, relative to the scene; a white square if it is empty."""
     inner: float | None = None
-    """Angle up to which a cone does not dim the image; between it and `angle`, the light falls linearly. (degrees)"""
+    """Angle up to which a cone does not dim the image; between it and `angle`, the light falls linearly. (°)"""
     position: Sequence[float] | None = None
     """Where it stands. (m)"""
     scale: float | None = None
-    """Radiant intensity on the axis where the image is 1. (W/sr)"""
+    """Radiant intensity on the axis where the image is 1. (W·sr⁻¹)"""
     target: Sequence[float] | None = None
     """A point on its axis. (m)"""
     tint: Sequence[float] | float | None = None
-    """Factor of the colors of the image."""
+    """Factor of the colours of the image."""
     up: Sequence[float] | None = None
     """Upwards in the image."""
 
@@ -197,13 +197,13 @@ class Spot:
     """A lamp without size that shines within a cone."""
 
     angle: float | None = None
-    """Angle between the axis and the edge of the cone, where the light ends. (degrees)"""
+    """Angle between the axis and the edge of the cone, where the light ends. (°)"""
     falloff: Literal['smooth', 'linear', 'square'] | None = None
     """How the intensity falls between the two angles."""
     inner: float | None = None
-    """Angle up to which the intensity is that of the axis; at most `angle`. (degrees)"""
+    """Angle up to which the intensity is that of the axis; at most `angle`. (°)"""
     intensity: Sequence[float] | float | None = None
-    """Radiant intensity on the axis. (W/sr)"""
+    """Radiant intensity on the axis. (W·sr⁻¹)"""
     position: Sequence[float] | None = None
     """Where it stands. (m)"""
     target: Sequence[float] | None = None
@@ -239,7 +239,7 @@ class Blend:
 
 @dataclass(kw_only=True)
 class Bump:
-    """Height field that tilts the shading normal."""
+    """Makes the surface look uneven: heights from a texture tilt the shading normal; outlines stay smooth."""
 
     height: float
     """Height of luminance 1 above luminance 0. (m)"""
@@ -269,7 +269,7 @@ class Conductor:
     roughness: float | Mapping[str, str] | None = None
     """Square root of α; 0 is smooth."""
     tangent_rotation: float | None = None
-    """Rotation of the tangent about the normal. (degrees)"""
+    """Rotation of the tangent about the normal. (°)"""
 
 @dataclass(kw_only=True)
 class Dielectric:
@@ -294,7 +294,7 @@ class Dielectric:
     specular_transmittance: Sequence[float] | float | Mapping[str, str] | None = None
     """Factor of the light that passes the surface; 1 for a physical one."""
     tangent_rotation: float | None = None
-    """Rotation of the tangent about the normal. (degrees)"""
+    """Rotation of the tangent about the normal. (°)"""
     transmittance: Sequence[float] | float | None = None
     """Fraction of the light that one metre of the interior transmits."""
 
@@ -330,9 +330,9 @@ class Disney:
     sheen: float | Mapping[str, str] | None = None
     """Amount of light that fibres reflect at grazing angles."""
     sheen_tint: float | Mapping[str, str] | None = None
-    """How far the sheen has the hue of the base color."""
+    """How far the sheen has the hue of the base colour."""
     spec_tint: float | Mapping[str, str] | None = None
-    """How far the interface reflects in the hue of the base color."""
+    """How far the interface reflects in the hue of the base colour."""
     spec_trans: float | Mapping[str, str] | None = None
     """Fraction of the base, besides metal, that is clear and refracts."""
 
@@ -379,7 +379,7 @@ class Principled:
     base_metalness: float | Mapping[str, str] | None = None
     """Fraction of the base that is metal."""
     base_weight: float | Mapping[str, str] | None = None
-    """Factor of the base color."""
+    """Factor of the base colour."""
     coat_color: Sequence[float] | float | Mapping[str, str] | None = None
     """Fraction of the light that the coat transmits, in and out."""
     coat_darkening: float | Mapping[str, str] | None = None
@@ -409,7 +409,7 @@ class Principled:
     specular_weight: float | Mapping[str, str] | None = None
     """Factor of the reflectance of the interface; of metals, at grazing angles too."""
     tangent_rotation: float | None = None
-    """Rotation of the tangent about the normal. (degrees)"""
+    """Rotation of the tangent about the normal. (°)"""
     thin_film_ior: float | None = None
     """Index of refraction of the film."""
     thin_film_thickness: float | Mapping[str, str] | None = None
@@ -419,9 +419,9 @@ class Principled:
     thin_walled: bool | None = None
     """Whether the surface is a thin sheet, which refracts nothing."""
     transmission_color: Sequence[float] | float | Mapping[str, str] | None = None
-    """Color of the light that passes: at each interface, or after the depth."""
+    """Colour of the light that passes: at each interface, or after the depth."""
     transmission_depth: float | None = None
-    """Distance after which the inside has its color; 0 tints the interface. (m)"""
+    """Distance after which the inside has its colour; 0 tints the interface. (m)"""
     transmission_weight: float | Mapping[str, str] | None = None
     """Fraction of the base, besides metal, that is clear and refracts."""
 
@@ -440,7 +440,7 @@ class RoughPlastic:
     ior: float
     """Index of refraction of the coat."""
     nonlinear: bool | None = None
-    """Whether reflections between base and coat make the color more saturated."""
+    """Whether reflections between base and coat make the colour more saturated."""
     roughness: float | Mapping[str, str] | None = None
     """Square root of α; 0 is smooth."""
     specular_reflectance: Sequence[float] | float | None = None
@@ -466,7 +466,7 @@ class Material:
     blend: Blend | Mapping[str, Any] | None = None
     """A mixture of two materials, each of which may be a blend or `null`."""
     bump: Bump | Mapping[str, Any] | None = None
-    """Height field that tilts the shading normal."""
+    """Makes the surface look uneven: heights from a texture tilt the shading normal; outlines stay smooth."""
     conductor: Conductor | Mapping[str, Any] | None = None
     """Metal, smooth or rough: microfacets with Fresnel's reflectance."""
     dielectric: Dielectric | Mapping[str, Any] | None = None
@@ -501,7 +501,7 @@ class Emission:
     """Light that the surface emits."""
 
     radiance: Sequence[float] | float | None = None
-    """Radiance of each channel. (W/(m² sr))"""
+    """Radiance of each channel. (W·sr⁻¹·m⁻²)"""
     scale: float | None = None
     """Factor that multiplies the radiance."""
     texture: str | None = None
@@ -744,7 +744,7 @@ class Image:
     path: str
     """PNG, JPEG, TGA, WebP, EXR or HDR file."""
     rotate: float | None = None
-    """Rotation of u towards v, applied second. (degrees)"""
+    """Rotation of u towards v, applied second. (°)"""
     scale: Sequence[float] | None = None
     """Factors of u and of v, which points downwards; applied first."""
     wrap_u: Literal['repeat', 'mirror', 'clamp', 'black'] | None = None
@@ -754,14 +754,14 @@ class Image:
 
 @dataclass(kw_only=True)
 class Mix:
-    """A mixture of two colors or textures."""
+    """A mixture of two colours or textures."""
 
     a: Sequence[float] | float | Mapping[str, str]
-    """Color where the weight is 0."""
+    """Colour where the weight is 0."""
     b: Sequence[float] | float | Mapping[str, str]
-    """Color where the weight is 1."""
+    """Colour where the weight is 1."""
     weight: float | Mapping[str, str] | None = None
-    """Fraction of the second color; a texture counts by its luminance."""
+    """Fraction of the second colour; a texture counts by its luminance."""
 
 @dataclass(kw_only=True)
 class Noise:
@@ -774,11 +774,11 @@ class Noise:
     octaves: int
     """Layers of noise, each of twice the frequency and half the amplitude."""
     scale: float
-    """Cells of the first octave per metre. (1/m)"""
+    """Cells of the first octave per metre. (m⁻¹)"""
 
 @dataclass(kw_only=True)
 class Product:
-    """The product of two colors or textures."""
+    """The product of two colours or textures."""
 
     a: Sequence[float] | float | Mapping[str, str]
     """First factor."""
@@ -792,20 +792,20 @@ class Stop:
     at: float
     """Place on the scale."""
     color: Sequence[float] | float
-    """The color there."""
+    """The colour there."""
 
 @dataclass(kw_only=True)
 class Ramp:
-    """Colors along a scale, interpolated between stops."""
+    """Colours along a scale, interpolated between stops."""
 
     input: float | Mapping[str, str]
     """Place on the scale; a texture counts by its luminance."""
     stops: Sequence[Stop | Mapping[str, Any]] | None = None
-    """Colors by place, in ascending order."""
+    """Colours by place, in ascending order."""
 
 @dataclass(kw_only=True)
 class VertexColor:
-    """The colors of a mesh’s vertices, interpolated; white without them."""
+    """The colours of a mesh’s vertices, interpolated; white without them."""
 
     channel: Literal['rgb', 'red', 'green', 'blue', 'alpha'] | None = None
     """The channels that are used."""
@@ -819,15 +819,15 @@ class Texture:
     image: Image | Mapping[str, Any] | None = None
     """An image over the unit square of u and v."""
     mix: Mix | Mapping[str, Any] | None = None
-    """A mixture of two colors or textures."""
+    """A mixture of two colours or textures."""
     noise: Noise | Mapping[str, Any] | None = None
     """Perlin noise in world space, between two colours."""
     product: Product | Mapping[str, Any] | None = None
-    """The product of two colors or textures."""
+    """The product of two colours or textures."""
     ramp: Ramp | Mapping[str, Any] | None = None
-    """Colors along a scale, interpolated between stops."""
+    """Colours along a scale, interpolated between stops."""
     vertex_color: VertexColor | Mapping[str, Any] | None = None
-    """The colors of a mesh’s vertices, interpolated; white without them."""
+    """The colours of a mesh’s vertices, interpolated; white without them."""
 
 @dataclass(kw_only=True)
 class Truth:
@@ -836,7 +836,7 @@ class Truth:
     image: str | None = None
     """Reference image, of the resolution of the camera."""
     radiance: Sequence[float] | float | None = None
-    """Radiance of each channel. (W/(m² sr))"""
+    """Radiance of each channel. (W·sr⁻¹·m⁻²)"""
 
 @dataclass(kw_only=True)
 class Description:

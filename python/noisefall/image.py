@@ -23,7 +23,7 @@ class Image:
 
     @cached_property
     def radiance(self) -> NDArray[np.float32]:
-        """Linear Rec. 709 radiance in W/(m² sr): height × width × 3."""
+        """Linear Rec. 709 radiance in W·sr⁻¹·m⁻²: height × width × 3."""
         return np.asarray(self._native.radiance)
 
     @cached_property

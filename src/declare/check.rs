@@ -32,8 +32,8 @@ pub fn check_value(parameter: &Parameter, value: &Value<'_>) -> Option<Problem> 
     match value {
         Value::TexturedNumber(Textured::Constant(wrong), range) if !range.contains(*wrong) => Some(number(*wrong, range)),
         Value::Number(wrong, range) if !range.contains(**wrong) && *range == Range::FINITE => {
-            let unit = if parameter.unit.is_empty() { "a number" } else { parameter.unit };
-            Some(Problem::at("", format!("`{key}` is not a finite number: {wrong}"), format!("expected {unit}")))
+            let unit = if parameter.unit.is_empty() { String::new() } else { format!(", in {}", parameter.unit) };
+            Some(Problem::at("", format!("`{key}` is not a finite number: {wrong}"), format!("expected a number{unit}")))
         }
         Value::Number(wrong, range) if !range.contains(**wrong) => Some(number(**wrong, range)),
         Value::Count(count, range) if !(range.least..=range.most).contains(*count) => {

@@ -66,7 +66,7 @@ pub(super) const ENERGY_COMPENSATION: Parameter =
 pub(super) const ANISOTROPY: Parameter =
     Parameter::new("anisotropy", "How much longer the highlight is along the tangent ∂p/∂u; 0 is round.");
 pub(super) const TANGENT_ROTATION: Parameter =
-    Parameter::new("tangent_rotation", "Rotation of the tangent about the normal.").unit("degrees");
+    Parameter::new("tangent_rotation", "Rotation of the tangent about the normal.").unit("°");
 
 impl Kind for Conductor {
     const KIND: Parameter = Parameter::new("conductor", "Metal, smooth or rough: microfacets with Fresnel's reflectance.")

@@ -78,7 +78,7 @@ impl Declare for RoughPlastic {
         )
         .symbol("R");
         const NONLINEAR: Parameter =
-            Parameter::new("nonlinear", "Whether reflections between base and coat make the color more saturated.");
+            Parameter::new("nonlinear", "Whether reflections between base and coat make the colour more saturated.");
         p.textured(&ALBEDO, &mut self.albedo, Range::REFLECTANCE);
         p.number(&IOR, &mut self.ior, Range::linear(1.0, 20.0));
         p.one_of(&mut self.roughness);

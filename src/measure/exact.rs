@@ -55,7 +55,7 @@ pub struct Lamp {
     pub center: DVec3,
     /// Radius, metres.
     pub radius: f64,
-    /// Radiance, W/(m² sr).
+    /// Radiance, W·sr⁻¹·m⁻².
     pub radiance: f64,
 }
 

@@ -2,7 +2,7 @@
 //!
 //! | layer | channels | contents |
 //! |---|---|---|
-//! | `bounces` | `Bounce0.R` … `Bounce6.B`, `Bounce7AndMore.R` … | radiance reflected exactly k times, W/(sr·m²) |
+//! | `bounces` | `Bounce0.R` … `Bounce6.B`, `Bounce7AndMore.R` … | radiance reflected exactly k times, W·sr⁻¹·m⁻² |
 //! | `albedo` | `Albedo.R`, `Albedo.G`, `Albedo.B` | scale of the BSDF at the first surface |
 //! | `normal` | `Normal.X`, `Normal.Y`, `Normal.Z` | its shading normal on the viewer's side, world space, unit length |
 //! | `depth` | `Depth.Z` | its distance along the camera ray, metres; infinite without a surface |

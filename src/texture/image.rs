@@ -85,7 +85,7 @@ impl Declare for Image {
         const WRAP_V: Parameter = Parameter::new("wrap_v", "What continues the image in v.");
         const FILTER: Parameter = Parameter::new("filter", "Interpolation between texels.");
         const SCALE: Parameter = Parameter::new("scale", "Factors of u and of v, which points downwards; applied first.");
-        const ROTATE: Parameter = Parameter::new("rotate", "Rotation of u towards v, applied second.").unit("degrees");
+        const ROTATE: Parameter = Parameter::new("rotate", "Rotation of u towards v, applied second.").unit("°");
         const OFFSET: Parameter = Parameter::new("offset", "Added to u and v at last.");
         p.value(&PATH, Value::File(&mut self.path));
         p.word(&ENCODING, &mut self.encoding);

@@ -28,14 +28,14 @@ impl Default for Mix {
 }
 
 impl Kind for Mix {
-    const KIND: Parameter = Parameter::new("mix", "A mixture of two colors or textures.").aliases("lerp blend_texture");
+    const KIND: Parameter = Parameter::new("mix", "A mixture of two colours or textures.").aliases("lerp blend_texture");
 }
 
 impl Declare for Mix {
     fn parameters(&mut self, p: &mut dyn Parameters) {
-        const A: Parameter = Parameter::new("a", "Color where the weight is 0.").required();
-        const B: Parameter = Parameter::new("b", "Color where the weight is 1.").required();
-        const WEIGHT: Parameter = Parameter::new("weight", "Fraction of the second color; a texture counts by its luminance.");
+        const A: Parameter = Parameter::new("a", "Colour where the weight is 0.").required();
+        const B: Parameter = Parameter::new("b", "Colour where the weight is 1.").required();
+        const WEIGHT: Parameter = Parameter::new("weight", "Fraction of the second colour; a texture counts by its luminance.");
         p.textured(&A, &mut self.a, Range::RADIANCE);
         p.textured(&B, &mut self.b, Range::RADIANCE);
         p.textured_number(&WEIGHT, &mut self.weight, Range::UNIT);

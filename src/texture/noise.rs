@@ -35,7 +35,7 @@ impl Kind for Noise {
 
 impl Declare for Noise {
     fn parameters(&mut self, p: &mut dyn Parameters) {
-        const SCALE: Parameter = Parameter::new("scale", "Cells of the first octave per metre.").unit("1/m").required();
+        const SCALE: Parameter = Parameter::new("scale", "Cells of the first octave per metre.").unit("m⁻¹").required();
         const OCTAVES: Parameter =
             Parameter::new("octaves", "Layers of noise, each of twice the frequency and half the amplitude.").required();
         const LOW: Parameter = Parameter::new("low", "The colour at 0.").required();

@@ -23,7 +23,7 @@ impl Default for Product {
 }
 
 impl Kind for Product {
-    const KIND: Parameter = Parameter::new("product", "The product of two colors or textures.").aliases("multiply scale");
+    const KIND: Parameter = Parameter::new("product", "The product of two colours or textures.").aliases("multiply scale");
 }
 
 impl Declare for Product {

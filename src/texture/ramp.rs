@@ -29,7 +29,7 @@ pub struct Stop {
 impl Declare for Stop {
     fn parameters(&mut self, p: &mut dyn Parameters) {
         const AT: Parameter = Parameter::new("at", "Place on the scale.").required();
-        const COLOR: Parameter = Parameter::new("color", "The color there.").required();
+        const COLOR: Parameter = Parameter::new("color", "The colour there.").required();
         p.number(&AT, &mut self.at, Range::UNIT);
         p.colour(&COLOR, &mut self.color, Range::RADIANCE);
     }
@@ -43,13 +43,13 @@ impl Default for Ramp {
 
 impl Kind for Ramp {
     const KIND: Parameter =
-        Parameter::new("ramp", "Colors along a scale, interpolated between stops.").aliases("gradient color_ramp");
+        Parameter::new("ramp", "Colours along a scale, interpolated between stops.").aliases("gradient color_ramp");
 }
 
 impl Declare for Ramp {
     fn parameters(&mut self, p: &mut dyn Parameters) {
         const INPUT: Parameter = Parameter::new("input", "Place on the scale; a texture counts by its luminance.").required();
-        const STOPS: Parameter = Parameter::new("stops", "Colors by place, in ascending order.");
+        const STOPS: Parameter = Parameter::new("stops", "Colours by place, in ascending order.");
         p.textured_number(&INPUT, &mut self.input, Range::UNIT);
         p.list(&STOPS, &mut self.stops);
     }

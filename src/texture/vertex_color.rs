@@ -19,7 +19,7 @@ impl Default for VertexColor {
 }
 
 impl Kind for VertexColor {
-    const KIND: Parameter = Parameter::new("vertex_color", "The colors of a mesh’s vertices, interpolated; white without them.")
+    const KIND: Parameter = Parameter::new("vertex_color", "The colours of a mesh’s vertices, interpolated; white without them.")
         .aliases("mesh_attribute vertex_colour");
 }
 

@@ -12,7 +12,7 @@ use crate::{
 /// The same radiance from all directions.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Constant {
-    /// W/(m² sr), linear Rec. 709.
+    /// W·sr⁻¹·m⁻², linear Rec. 709.
     pub radiance: [f64; 3],
 }
 

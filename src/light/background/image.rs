@@ -65,8 +65,7 @@ impl Kind for Image {
 
 impl Declare for Image {
     fn parameters(&mut self, p: &mut dyn Parameters) {
-        const ROTATE: Parameter =
-            Parameter::new("rotate", "Rotation of the image, counter-clockwise seen from above.").unit("degrees");
+        const ROTATE: Parameter = Parameter::new("rotate", "Rotation of the image, counter-clockwise seen from above.").unit("°");
         const SCALE: Parameter = Parameter::new("scale", "Factor that multiplies the radiance.");
         const POLE_ROWS: Parameter = Parameter::new(
             "pole_rows",

@@ -9,7 +9,7 @@ use crate::{
 /// A constant radiance.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Radiance {
-    /// W/(m² sr), linear Rec. 709.
+    /// W·sr⁻¹·m⁻², linear Rec. 709.
     pub radiance: [f64; 3],
 }
 

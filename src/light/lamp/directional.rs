@@ -27,7 +27,7 @@ impl Kind for Directional {
 impl Declare for Directional {
     fn parameters(&mut self, p: &mut dyn Parameters) {
         const DIRECTION: Parameter = Parameter::new("direction", "Direction in which the light travels, of any length.");
-        const IRRADIANCE: Parameter = Parameter::new("irradiance", "Irradiance of a surface that faces the light.").unit("W/m²");
+        const IRRADIANCE: Parameter = Parameter::new("irradiance", "Irradiance of a surface that faces the light.").unit("W·m⁻²");
         p.value(&DIRECTION, Value::Vector(&mut self.direction));
         p.colour(&IRRADIANCE, &mut self.irradiance, Range::RADIANCE);
     }

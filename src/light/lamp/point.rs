@@ -27,7 +27,7 @@ impl Kind for Point {
 impl Declare for Point {
     fn parameters(&mut self, p: &mut dyn Parameters) {
         const POSITION: Parameter = Parameter::new("position", "Where it stands.").unit("m");
-        const INTENSITY: Parameter = Parameter::new("intensity", "Radiant intensity of each channel.").unit("W/sr");
+        const INTENSITY: Parameter = Parameter::new("intensity", "Radiant intensity of each channel.").unit("W·sr⁻¹");
         p.point(&POSITION, &mut self.position);
         p.colour(&INTENSITY, &mut self.intensity, Range::RADIANCE);
     }

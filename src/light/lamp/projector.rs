@@ -67,18 +67,18 @@ impl Declare for Projector {
         const UP: Parameter = Parameter::new("up", "Upwards in the image.");
         const IMAGE: Parameter = Parameter::new("image", "The image file, relative to the scene; a white square if it is empty.");
         const ENCODING: Parameter = Parameter::new("encoding", "Encoding of the file's numbers; EXR and HDR are always linear.");
-        const FOV: Parameter = Parameter::new("fov", "Angle across the width of the image.").unit("degrees");
+        const FOV: Parameter = Parameter::new("fov", "Angle across the width of the image.").unit("°");
         const ASPECT: Parameter = Parameter::new("aspect", "Width of the image over its height; 0 for that of the file.");
-        const TINT: Parameter = Parameter::new("tint", "Factor of the colors of the image.");
+        const TINT: Parameter = Parameter::new("tint", "Factor of the colours of the image.");
         const ANGLE: Parameter =
             Parameter::new("angle", "Angle between the axis and the edge of a cone, where the light ends; 180 for no cone.")
-                .unit("degrees");
+                .unit("°");
         const INNER: Parameter = Parameter::new(
             "inner",
             "Angle up to which a cone does not dim the image; between it and `angle`, the light falls linearly.",
         )
-        .unit("degrees");
-        const SCALE: Parameter = Parameter::new("scale", "Radiant intensity on the axis where the image is 1.").unit("W/sr");
+        .unit("°");
+        const SCALE: Parameter = Parameter::new("scale", "Radiant intensity on the axis where the image is 1.").unit("W·sr⁻¹");
         const FLAT: Parameter = Parameter::new(
             "flat",
             "Whether a screen that faces it is lit evenly; otherwise the intensity is the same in all directions.",

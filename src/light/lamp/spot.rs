@@ -44,11 +44,11 @@ impl Declare for Spot {
     fn parameters(&mut self, p: &mut dyn Parameters) {
         const POSITION: Parameter = Parameter::new("position", "Where it stands.").unit("m");
         const TARGET: Parameter = Parameter::new("target", "A point on its axis.").unit("m");
-        const INTENSITY: Parameter = Parameter::new("intensity", "Radiant intensity on the axis.").unit("W/sr");
+        const INTENSITY: Parameter = Parameter::new("intensity", "Radiant intensity on the axis.").unit("W·sr⁻¹");
         const ANGLE: Parameter =
-            Parameter::new("angle", "Angle between the axis and the edge of the cone, where the light ends.").unit("degrees");
+            Parameter::new("angle", "Angle between the axis and the edge of the cone, where the light ends.").unit("°");
         const INNER: Parameter =
-            Parameter::new("inner", "Angle up to which the intensity is that of the axis; at most `angle`.").unit("degrees");
+            Parameter::new("inner", "Angle up to which the intensity is that of the axis; at most `angle`.").unit("°");
         const FALLOFF: Parameter = Parameter::new("falloff", "How the intensity falls between the two angles.");
         p.point(&POSITION, &mut self.position);
         p.point(&TARGET, &mut self.target);

@@ -13,14 +13,14 @@ pub(super) const ANISOTROPIC: Parameter =
 pub(super) const IOR: Parameter =
     Parameter::new("ior", "Index of refraction; 1 reflects nothing, not even as metal.").symbol("η").aliases("eta index");
 pub(super) const SPEC_TINT: Parameter =
-    Parameter::new("spec_tint", "How far the interface reflects in the hue of the base color.").aliases("specular_tint");
+    Parameter::new("spec_tint", "How far the interface reflects in the hue of the base colour.").aliases("specular_tint");
 pub(super) const SPEC_TRANS: Parameter =
     Parameter::new("spec_trans", "Fraction of the base, besides metal, that is clear and refracts.")
         .aliases("transmission specular_transmission");
 pub(super) const FLATNESS: Parameter =
     Parameter::new("flatness", "How far the diffuse lobe is that of thin subsurface scattering.");
 pub(super) const SHEEN: Parameter = Parameter::new("sheen", "Amount of light that fibres reflect at grazing angles.");
-pub(super) const SHEEN_TINT: Parameter = Parameter::new("sheen_tint", "How far the sheen has the hue of the base color.");
+pub(super) const SHEEN_TINT: Parameter = Parameter::new("sheen_tint", "How far the sheen has the hue of the base colour.");
 pub(super) const CLEARCOAT: Parameter =
     Parameter::new("clearcoat", "Amount of the clear coat, which takes no light from the base.");
 pub(super) const CLEARCOAT_GLOSS: Parameter =

@@ -2,7 +2,7 @@
 use super::Principled;
 use crate::declare::{Declare, Parameter, Parameters, Range};
 
-pub(super) const BASE_WEIGHT: Parameter = Parameter::new("base_weight", "Factor of the base color.");
+pub(super) const BASE_WEIGHT: Parameter = Parameter::new("base_weight", "Factor of the base colour.");
 pub(super) const BASE_COLOR: Parameter =
     Parameter::new("base_color", "Albedo of the diffuse base, and reflectance of the metal at normal incidence.");
 pub(super) const BASE_DIFFUSE_ROUGHNESS: Parameter =
@@ -20,9 +20,9 @@ pub(super) const SPECULAR_IOR: Parameter = Parameter::new("specular_ior", "Index
 pub(super) const TRANSMISSION_WEIGHT: Parameter =
     Parameter::new("transmission_weight", "Fraction of the base, besides metal, that is clear and refracts.");
 pub(super) const TRANSMISSION_COLOR: Parameter =
-    Parameter::new("transmission_color", "Color of the light that passes: at each interface, or after the depth.");
+    Parameter::new("transmission_color", "Colour of the light that passes: at each interface, or after the depth.");
 pub(super) const TRANSMISSION_DEPTH: Parameter =
-    Parameter::new("transmission_depth", "Distance after which the inside has its color; 0 tints the interface.").unit("m");
+    Parameter::new("transmission_depth", "Distance after which the inside has its colour; 0 tints the interface.").unit("m");
 pub(super) const COAT_WEIGHT: Parameter = Parameter::new("coat_weight", "Fraction of the surface under a clear coat.");
 pub(super) const COAT_COLOR: Parameter =
     Parameter::new("coat_color", "Fraction of the light that the coat transmits, in and out.");
@@ -39,7 +39,7 @@ pub(super) const THIN_FILM_WEIGHT: Parameter = Parameter::new("thin_film_weight"
 pub(super) const THIN_FILM_THICKNESS: Parameter = Parameter::new("thin_film_thickness", "Thickness of the film.").unit("µm");
 pub(super) const THIN_FILM_IOR: Parameter = Parameter::new("thin_film_ior", "Index of refraction of the film.");
 pub(super) const TANGENT_ROTATION: Parameter =
-    Parameter::new("tangent_rotation", "Rotation of the tangent about the normal.").unit("degrees");
+    Parameter::new("tangent_rotation", "Rotation of the tangent about the normal.").unit("°");
 pub(super) const THIN_WALLED: Parameter =
     Parameter::new("thin_walled", "Whether the surface is a thin sheet, which refracts nothing.");
 

@@ -191,7 +191,7 @@ fn a_scale_has_the_unit_of_its_view_and_what_is_missing_is_asked_for() {
         draw(DisplaySettings { view, ..DisplaySettings::default() }, sources, &mut Vec::new()).expect("a legend").0
     };
     for (view, unit, high) in [
-        (View::StandardError, "W/(sr·m²)", 1.0),
+        (View::StandardError, "W·sr⁻¹·m⁻²", 1.0),
         (View::SampleCount, "samples", 7.0),
         (View::ZScore, "σ", 4.0),
         (View::Difference, "relative to pinned image or B", 0.001),

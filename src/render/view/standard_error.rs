@@ -12,7 +12,7 @@ impl Quantity for StandardError {
     };
 
     fn unit() -> &'static str {
-        "W/(sr·m²)"
+        "W·sr⁻¹·m⁻²"
     }
 
     const IS_LOG: bool = true;

@@ -40,7 +40,7 @@ impl Declare for EmissionDescription {
 /// What the image converges to.
 #[derive(Clone, Debug, PartialEq)]
 pub enum TruthDescription {
-    /// The same radiance at every pixel, W/(m² sr).
+    /// The same radiance at every pixel, W·sr⁻¹·m⁻².
     Radiance([f64; 3]),
     /// An image file of the resolution of the camera.
     Image(String),

@@ -18,7 +18,7 @@ pub enum Channel {
 
 words! {
     Channel {
-        Rgb: "rgb", "RGB", "The color.";
+        Rgb: "rgb", "RGB", "The colour.";
         Red: "red", "Red", "The first channel, as grey.";
         Green: "green", "Green", "The second channel, as grey.";
         Blue: "blue", "Blue", "The third channel, as grey.";

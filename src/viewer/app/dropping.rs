@@ -87,7 +87,7 @@ impl App {
         };
         let color = document.colour_of_material(material);
         if color.is_none() {
-            self.tell(format!("The material {material} has no color that a texture could replace."), true);
+            self.tell(format!("The material {material} has no colour that a texture could replace."), true);
         }
         color
     }

@@ -32,7 +32,7 @@ pub fn show(ui: &mut egui::Ui, camera: &mut Camera, scene: Option<&Scene>) -> bo
         });
         projection(ui, camera);
         lens(ui, camera, speed);
-        row(ui, &CameraDescription::FILTER.label(), "Weight of the light around the center of a pixel.", |ui, _| {
+        row(ui, &CameraDescription::FILTER.label(), "Weight of the light around the centre of a pixel.", |ui, _| {
             ui.horizontal(|ui| kinds(ui, &mut camera.filter));
         });
         number_rows(ui, &mut camera.filter);

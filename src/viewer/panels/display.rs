@@ -32,7 +32,7 @@ pub fn show(ui: &mut Ui, display: &mut Display) {
 /// One row: the panel has no room for more.
 fn white_balance(ui: &mut Ui, balance: &mut WhiteBalance) {
     let range = |[low, high]: [f32; 2]| low..=high;
-    let doc = "The light that appears white: its color temperature and its tint. Applied before the tone map.";
+    let doc = "The light that appears white: its colour temperature and its tint. Applied before the tone map.";
     row(ui, "White balance", doc, |ui, label| {
         ui.horizontal(|ui| {
             let now = balance.kelvin.into();
@@ -44,7 +44,7 @@ fn white_balance(ui: &mut Ui, balance: &mut WhiteBalance) {
             let tint = ui.add(Explained::new(tint, now)).labelled_by(label);
             tint.on_hover_text("Tint. Shifts the image from green (negative) to magenta (positive).");
             let reset = ui.add_enabled(*balance != WhiteBalance::NEUTRAL, Button::new("Neutral"));
-            if reset.on_hover_text("Resets the white balance: colors stay as they are.").clicked() {
+            if reset.on_hover_text("Resets the white balance: colours stay as they are.").clicked() {
                 *balance = WhiteBalance::NEUTRAL;
             }
         });

@@ -76,7 +76,7 @@ fn details(scene: &Scene, object: &Object) -> String {
     }
     if let Some(emission) = &object.emission {
         let [r, g, b] = emission.mean;
-        lines.push(format!("emits {r:.3} {g:.3} {b:.3} W/(sr·m²) on average"));
+        lines.push(format!("emits {r:.3} {g:.3} {b:.3} W·sr⁻¹·m⁻² on average"));
     }
     if lines.is_empty() { "reflects nothing".to_owned() } else { lines.join("\n") }
 }
@@ -132,7 +132,7 @@ mod tests {
         assert_eq!(kind, "plastic, lamp");
         assert_eq!(
             more,
-            "material “mine”\nalbedo ρ: 0.1 0.2 0.3\nior η: 1.4\nalpha α: 0.25\nemits 1.000 2.000 3.000 W/(sr·m²) on average"
+            "material “mine”\nalbedo ρ: 0.1 0.2 0.3\nior η: 1.4\nalpha α: 0.25\nemits 1.000 2.000 3.000 W·sr⁻¹·m⁻² on average"
         );
         let (kind, more) = of("dielectric = { ior = 1.5, ior_outside = 1.3, transmittance = [0.1, 0.6, 0.4] }", "");
         assert_eq!(kind, "dielectric");

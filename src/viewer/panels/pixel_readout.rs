@@ -54,7 +54,7 @@ impl Pixel<'_> {
         let error = if error.is_nan() || term.is_some() { String::new() } else { format!(" ± {error:.3}") };
         let radiance @ [r, g, b] = *term.unwrap_or(&self.frame.radiance[index]);
         let y_value = luminance(radiance);
-        format!("RGB {r:.3} {g:.3} {b:.3}  Y {y_value:.3}{error} W/(sr·m²)")
+        format!("RGB {r:.3} {g:.3} {b:.3}  Y {y_value:.3}{error} W·sr⁻¹·m⁻²")
     }
 
     fn feature(&self, view: View, features: &Features) -> Option<String> {
@@ -110,9 +110,9 @@ mod tests {
 
     #[test]
     fn radiance_is_read_with_its_error_and_a_term_without() {
-        assert_eq!(said(&PixelValues::default(), None), "(1, 0)  RGB 0.100 0.200 0.300  Y 0.186 ± 0.050 W/(sr·m²)");
+        assert_eq!(said(&PixelValues::default(), None), "(1, 0)  RGB 0.100 0.200 0.300  Y 0.186 ± 0.050 W·sr⁻¹·m⁻²");
         let term = PixelValues { radiance: Some(vec![[0.0; 3], [0.5; 3]]), ..PixelValues::default() };
-        assert_eq!(said(&term, None), "(1, 0)  RGB 0.500 0.500 0.500  Y 0.500 W/(sr·m²)");
+        assert_eq!(said(&term, None), "(1, 0)  RGB 0.500 0.500 0.500  Y 0.500 W·sr⁻¹·m⁻²");
     }
 
     #[test]

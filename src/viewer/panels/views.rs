@@ -37,7 +37,7 @@ pub fn rows(
 ) -> bool {
     let mut drops = false;
     controls(ui, "views", |ui| {
-        row(ui, "Colors", "Color map of numeric views. Differences and z-scores have their own.", |ui, _| {
+        row(ui, "Colours", "Colour map of numeric views. Differences and z-scores have their own.", |ui, _| {
             choices(ui, map, &ColourMap::CHOICE);
         });
         row(ui, "Pinned", "The view Difference subtracts the pinned image.", |ui, _| {

@@ -95,7 +95,7 @@ fn the_number_under_the_pointer_is_that_of_the_view_and_has_its_unit() {
     click(&mut window, "Pin this");
     window.hover_at(Pos2::new(472.0, 600.0));
     for (view, says, unit) in [
-        (Shown::StandardError, "Standard error ", "W/(sr·m²)"),
+        (Shown::StandardError, "Standard error ", "W·sr⁻¹·m⁻²"),
         (Shown::SampleCount, "Sample count ", "samples"),
         (Shown::ZScore, "Z-score ", "σ"),
         (Shown::Difference, "Difference ", ""),
@@ -104,7 +104,7 @@ fn the_number_under_the_pointer_is_that_of_the_view_and_has_its_unit() {
         (Shown::Depth, "Depth ", "m"),
         (Shown::HitCost, "Hit cost ", "ns per ray"),
         (Shown::Materials, "Material ", ""),
-        (Shown::Radiance, "RGB ", "W/(sr·m²)"),
+        (Shown::Radiance, "RGB ", "W·sr⁻¹·m⁻²"),
     ] {
         window.state_mut().session.look.view = view;
         let is_said = |window: &Window| {

@@ -19,7 +19,7 @@ use super::{
 /// Shows the button. Changes of `rgb`, linear Rec. 709, keep its brightness where it is above 1; `most` bounds every channel.
 pub fn show(ui: &mut Ui, label: Id, rgb: &mut [f64; 3], most: f64, is_light: bool) -> Response {
     let [r, g, b] = bytes(*rgb);
-    let button = button(ui, Color32::from_rgb(r, g, b)).labelled_by(label).on_hover_text("Pick a color");
+    let button = button(ui, Color32::from_rgb(r, g, b)).labelled_by(label).on_hover_text("Pick a colour");
     Popup::menu(&button).close_behavior(PopupCloseBehavior::CloseOnClickOutside).show(|ui| {
         ui.spacing_mut().slider_width = 180.0;
         let changed = [picker(ui, rgb), hex_field(ui, rgb), is_light && kelvin(ui, rgb)];
@@ -65,7 +65,7 @@ fn picker(ui: &mut Ui, rgb: &mut [f64; 3]) -> bool {
 
 fn hex_field(ui: &mut Ui, rgb: &mut [f64; 3]) -> bool {
     let field = ui.horizontal(|ui| {
-        let label = ui.label("sRGB").on_hover_text("Sets the color from its hexadecimal sRGB value and keeps the brightness.");
+        let label = ui.label("sRGB").on_hover_text("Sets the colour from its hexadecimal sRGB value and keeps the brightness.");
         committed_text::show(ui, label.id, &hex(*rgb), 80.0)
     });
     let field = field.inner;
@@ -85,7 +85,7 @@ fn kelvin(ui: &mut Ui, rgb: &mut [f64; 3]) -> bool {
     let found = temperature(*rgb);
     let mut kelvin = found.unwrap_or(6504.0).round();
     let slider = ui.horizontal(|ui| {
-        let label = ui.label("Temperature").on_hover_text("Sets the color to that of a black body and keeps the luminance.");
+        let label = ui.label("Temperature").on_hover_text("Sets the colour to that of a black body and keeps the luminance.");
         let now = kelvin;
         let slider = Slider::new(&mut kelvin, COLDEST..=HOTTEST).logarithmic(true).fixed_decimals(0);
         let slider = ui.add(Explained::new(slider, now).suffix(" K")).labelled_by(label.id);

@@ -5,7 +5,7 @@ use glam::DVec3;
 
 use crate::math::temperature::{REC_709, times};
 
-/// Lumens of a watt of light whose spectrum is constant over the visible range: it makes radiances, W/(m² sr), of luminances, cd/m²
+/// Lumens of a watt of light whose spectrum is constant over the visible range: it makes radiances, W·sr⁻¹·m⁻², of luminances, cd/m²
 /// (G. Ward, "The RADIANCE Lighting Simulation and Rendering System", SIGGRAPH 1994).
 pub const LUMENS_PER_WATT: f64 = 179.0;
 
@@ -46,7 +46,7 @@ impl Daylight {
         Daylight { sun, zenith, coefficients }
     }
 
-    /// The radiance from a unit direction above the horizon, W/(m² sr), linear Rec. 709. Channels outside the gamut are 0.
+    /// The radiance from a unit direction above the horizon, W·sr⁻¹·m⁻², linear Rec. 709. Channels outside the gamut are 0.
     pub fn radiance(&self, direction: DVec3) -> [f64; 3] {
         /// Cosine to the zenith of the lowest direction that is told from the horizon.
         const LOWEST: f64 = 1e-4;

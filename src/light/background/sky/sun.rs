@@ -32,7 +32,7 @@ const OZONE: [f64; 38] = [
 /// Lumens of a watt at the maximum of the eye's sensitivity.
 const MOST_LUMENS: f64 = 683.0;
 
-/// The radiance of the sun in a unit direction, W/(m² sr), linear Rec. 709. Channels outside the gamut are 0. A sun below the horizon
+/// The radiance of the sun in a unit direction, W·sr⁻¹·m⁻², linear Rec. 709. Channels outside the gamut are 0. A sun below the horizon
 /// counts as one on it.
 pub fn radiance(sun: DVec3, turbidity: f64) -> [f64; 3] {
     let cos = sun.y.clamp(0.0, 1.0);

@@ -43,7 +43,7 @@ const COLUMNS: [(&str, &str); 9] = [
     ("light", "Emission that the path hits, or the lamp of a light sample and whether it is visible"),
     ("β", "Throughput: the product of τ f cos θ / (p q) so far, times the transmittance τ of this segment"),
     ("f cos θ", "BSDF and cosine towards the lamp"),
-    ("L_e", "Emitted radiance, W/(sr·m²)"),
+    ("L_e", "Emitted radiance, W·sr⁻¹·m⁻²"),
     ("τ", "Transmittance of media towards the lamp, times its texture; 0 if the lamp is occluded"),
     ("w", "Weight of multiple importance sampling"),
     ("p", "Pdf of the direction to the lamp, per solid angle; of a lamp without surface, the probability of choosing it"),

@@ -49,7 +49,7 @@ impl Numbers<'_> {
             }
         }
         let check = |mut x: f64| check_value(parameter, &value(&mut x)).map(message);
-        let unit = if self.parameter.unit.chars().count() <= 3 { self.parameter.unit } else { "" };
+        let unit = if fits_field(self.parameter.unit) { self.parameter.unit } else { "" };
         self.field(ui, &mut new, (range.least, range.most), speed(old, range), Look { unit, ..Look::of(ALONE) }, &check);
         Some(new).filter(|new| *new != old)
     }
@@ -159,6 +159,11 @@ impl Numbers<'_> {
             *self.refused = refusal;
         }
     }
+}
+
+/// Whether a unit is short enough to stand behind the number in its field.
+pub fn fits_field(unit: &str) -> bool {
+    unit.chars().count() <= 3
 }
 
 /// Format of a field.

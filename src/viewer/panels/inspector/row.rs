@@ -30,8 +30,14 @@ impl Heading {
     pub fn of(parameter: &Parameter, mark: Mark) -> Heading {
         let symbol = if parameter.symbol.is_empty() { String::new() } else { format!(" {}", parameter.symbol) };
         let unit = if parameter.unit.is_empty() { String::new() } else { format!("\nUnit: {}", parameter.unit) };
-        let degrees = if parameter.unit == "°" { " (°)" } else { "" };
-        Heading { title: parameter.label() + &symbol + degrees, tooltip: format!("{}{unit}", parameter.doc), mark }
+        Heading { title: parameter.label() + &symbol, tooltip: format!("{}{unit}", parameter.doc), mark }
+    }
+
+    /// The same with the unit, for controls that do not show it.
+    pub fn with_unit(parameter: &Parameter, mark: Mark) -> Heading {
+        let heading = Heading::of(parameter, mark);
+        let unit = if parameter.unit.is_empty() { String::new() } else { format!(" ({})", parameter.unit) };
+        Heading { title: heading.title + &unit, ..heading }
     }
 
     /// Shows the label with its mark in a row, with a control behind it. Returns whether the mark was clicked.

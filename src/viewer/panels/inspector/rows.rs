@@ -1,10 +1,11 @@
 //! The visitor that makes rows of parameters.
 use egui::{ComboBox, Ui};
-use noisefall::declare::{Alternative, Choice, Form, Parameter, Parameters, Path, Value};
+use noisefall::declare::{Alternative, Choice, Form, Parameter, Parameters, Path, Textured, Value};
 
 use super::{
     Request, Surroundings,
     cell::Cell,
+    numbers::fits_field,
     references,
     row::{Heading, Mark, capital},
 };
@@ -62,7 +63,9 @@ impl Parameters for Rows<'_> {
         let (path, mark) = (self.path.key(parameter.key), self.mark(parameter));
         // A name that is absent is an entry of the menu of names.
         let is_optional_name = mark != Mark::None && matches!(value, Value::Name(..));
-        let heading = Heading::of(parameter, if is_optional_name { Mark::None } else { mark });
+        let is_number = matches!(value, Value::Number(..) | Value::TexturedNumber(Textured::Constant(_), _));
+        let heading = if is_number && fits_field(parameter.unit) { Heading::of } else { Heading::with_unit };
+        let heading = heading(parameter, if is_optional_name { Mark::None } else { mark });
         let surroundings = self.surroundings;
         let row = self.ui.push_id(&path, |ui| {
             let mut cell = Cell { parameter, path: &path, surroundings, is_optional_name, refusal: None, request: None };

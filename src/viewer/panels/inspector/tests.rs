@@ -10,6 +10,7 @@ use noisefall::{
 };
 
 use super::{Asked, Drag, Inspector, Request, Surroundings};
+use crate::viewer::widgets::palette::set_fonts;
 
 struct State<T> {
     part: T,
@@ -21,7 +22,12 @@ type Panel<T> = Harness<'static, State<T>>;
 /// The inspector of a part of a scene at the path `part`.
 fn inspect<T: Declare + 'static>(part: T) -> Panel<T> {
     let (names, mut inspector) = (["gold", "white"].map(str::to_owned), Inspector::default());
+    let mut has_fonts = false;
     let draw = move |ui: &mut egui::Ui, state: &mut State<T>| {
+        // Units have letters that only the fonts of the window have, from the next frame on.
+        if !std::mem::replace(&mut has_fonts, true) {
+            return set_fonts(ui.ctx());
+        }
         let surroundings = Surroundings { textures: &names, materials: &names, count_objects: &|_| 2, size: 1.0 };
         let asked = inspector.show(ui, &mut state.part, &Path::of("part"), &surroundings);
         if asked != Asked::default() {
