@@ -70,6 +70,7 @@ impl Settings {
             adaptive: self.adaptive.unwrap_or(of_scene.adaptive),
             seed: self.seed.unwrap_or(of_scene.seed),
             roulette,
+            strategy: of_scene.strategy,
             max_bounces,
         })
     }

@@ -40,6 +40,8 @@ mod stop;
 mod study;
 mod summary;
 #[cfg(feature = "reports")]
+mod triangle;
+#[cfg(feature = "reports")]
 mod validate;
 
 use std::{

@@ -18,12 +18,18 @@ use super::{
     options::{self as parse, DisplayOptions},
     scene_file::SceneOptions,
     stop::{INTERRUPTED, stop_signal},
+    triangle,
 };
 
 const NOTES: &str = "\
 Each combination of the lists is one image. A list that is not given takes the scene's value. All images have the same seed.
 
-Example: noisefall sheet scenes/cornell_box.toml -o sheet.png --spp 1,4,16,64 --estimators path,mis";
+Example: noisefall sheet scenes/cornell_box.toml -o sheet.png --spp 1,4,16,64 --estimators path,mis
+
+--strategies N is the triangle of bidirectional path tracing (Veach 1997, section 10.3): a row for each number of bounces, and in it an image
+for each strategy (s, t), with s vertices from the light and t from the camera. Weighted, all images add up to the image of N bounces.
+
+Example: noisefall sheet scenes/glass_ball_caustic.toml -o strategies.png --strategies 4 --spp 64";
 
 #[derive(clap::Args)]
 #[command(after_help = NOTES)]
@@ -40,6 +46,13 @@ pub struct Arguments {
     spp: Vec<u32>,
     #[command(flatten)]
     lists: ListOptions,
+    /// Each strategy (s, t) of bidirectional paths of up to N bounces, in place of the lists
+    #[arg(long, value_name = "N", value_parser = parse::strategy_bounces,
+          conflicts_with_all = ["estimators", "directions", "samplers", "roulette", "max_bounces", "reuse", "adaptive", "columns"])]
+    strategies: Option<u32>,
+    /// With --strategies: all light that each strategy finds, without its weight among the others
+    #[arg(long, requires = "strategies")]
+    unweighted: bool,
     /// Resolution of each image [default: the scene's, scaled down to 256 along the longer side]
     #[arg(long, value_name = "WxH", value_parser = parse::resolution, allow_hyphen_values = true)]
     size: Option<[u32; 2]>,
@@ -65,13 +78,20 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let camera = Camera { resolution: arguments.size.unwrap_or(study_size(scene.camera.resolution)), ..scene.camera };
     camera.check().map_err(|error| error.to_string())?;
     let base = RenderSettings { seed: arguments.seed.unwrap_or(scene.settings.seed), ..scene.settings };
-    let combinations = arguments.lists.lists(Lists::default()).combinations(base);
+    let combinations = match arguments.strategies {
+        Some(bounces) => triangle::strategies(&scene, base, bounces, !arguments.unweighted)?,
+        None => arguments.lists.lists(Lists::default()).combinations(base),
+    };
     let mut spp = arguments.spp.clone();
+    if arguments.strategies.is_some() && spp.len() > 1 {
+        return Ok(wrong_usage("--strategies takes one number of samples: give --spp a single one"));
+    }
     spp.sort_unstable();
     spp.dedup();
     let [width, height] = camera.resolution;
     let pictures = (combinations.len() * spp.len()) as u64;
     let columns = arguments.columns.unwrap_or(if spp.len() > 1 { spp.len() as u32 } else { 4 });
+    let columns = arguments.strategies.map_or(columns, |bounces| bounces + 2);
     sheet::check(camera.resolution, columns, u32::try_from(pictures).unwrap_or(u32::MAX))?;
     // 10 bytes per pixel: the cells, and the sheet with its margins.
     let _memory =
@@ -84,6 +104,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let bench = Bench { scene: &scene, camera: &camera, threads: &threads, stop: &stopped };
     match cells(arguments, &bench, &combinations, &spp) {
         Ok(cells) => {
+            let cells = if arguments.strategies.is_some() { triangle::padded(cells, &combinations) } else { cells };
             let (common, _) = differing_labels(&combinations);
             let title = [scene.title.clone(), common].into_iter().filter(|line| !line.is_empty()).collect::<Vec<_>>();
             let png = threads.install(|| sheet::sheet(camera.resolution, columns, &title, &cells))?;
@@ -102,6 +123,8 @@ fn cells(arguments: &Arguments, bench: &Bench, combinations: &[RenderSettings], 
     let bar = ProgressBar::new((combinations.len() * spp.len()) as u64);
     bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
     let (_, labels) = differing_labels(combinations);
+    let labels: Vec<String> =
+        combinations.iter().zip(labels).map(|(settings, label)| triangle::label(settings).unwrap_or(label)).collect();
     let mut cells = Vec::new();
     for (settings, label) in combinations.iter().zip(labels) {
         let (mut film, mut elapsed) = (bench.film(), Duration::ZERO);

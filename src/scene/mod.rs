@@ -29,6 +29,7 @@ mod same_image;
 mod settings;
 mod shipped;
 mod shutter;
+mod strategy;
 pub mod surface;
 mod syntax;
 mod turntable;
@@ -69,6 +70,7 @@ pub use self::{
     settings::{RenderSettings, Reuse},
     shipped::ShippedScene,
     shutter::{Moments, Shutter},
+    strategy::Strategy,
 };
 use crate::{
     declare::{Assets, Memo},

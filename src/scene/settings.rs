@@ -1,7 +1,7 @@
 //! Settings of the estimate: everything that a sample depends on besides scene and camera.
 use serde::{Deserialize, Serialize};
 
-use super::{Estimator, Roulette};
+use super::{Estimator, Roulette, Strategy};
 use crate::{
     declare::{CountRange, Declare, Form, Parameter, Parameters},
     sampling::{Directions, Sampler},
@@ -26,14 +26,13 @@ pub struct RenderSettings {
     pub adaptive: bool,
     /// Seed of all random numbers.
     pub seed: u32,
+    /// The only strategy of the estimator `bidirectional` that finds light; `None` for all of them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub strategy: Option<Strategy>,
     /// A mistake that the validation must notice.
     #[cfg(test)]
     #[serde(skip)]
     pub fault: Option<InjectedFault>,
-    /// The only strategy (s, t) of the estimator `bidirectional` that finds light, without a weight.
-    #[cfg(test)]
-    #[serde(skip)]
-    pub strategy: Option<[u32; 2]>,
 }
 
 /// Mistakes that tests inject into the integrator.
@@ -138,6 +137,7 @@ impl RenderSettings {
 
     /// Why the expected picture differs from the solution of the equation; `None` when it does not.
     pub fn bias(&self) -> Option<String> {
-        self.max_bounces.map(|cap| format!("cap at {cap}"))
+        let part = self.strategy.map(|Strategy { s, t, .. }| format!("strategy ({s}, {t}) alone"));
+        part.or_else(|| self.max_bounces.map(|cap| format!("cap at {cap}")))
     }
 }

@@ -83,10 +83,9 @@ impl Validation {
             reuse: Reuse::Off,
             adaptive: false,
             seed: self.next_seed(),
+            strategy: None,
             #[cfg(test)]
             fault: self.fault,
-            #[cfg(test)]
-            strategy: None,
         }
     }
 

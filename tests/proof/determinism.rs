@@ -28,6 +28,7 @@ fn settings(sampler: Sampler, reuse: Reuse) -> RenderSettings {
         reuse,
         adaptive: true,
         seed: 5,
+        strategy: None,
     }
 }
 

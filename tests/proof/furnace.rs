@@ -27,6 +27,7 @@ fn settings(directions: Directions) -> RenderSettings {
         reuse: Reuse::Off,
         adaptive: false,
         seed: 11,
+        strategy: None,
     }
 }
 

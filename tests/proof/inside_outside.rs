@@ -37,6 +37,7 @@ fn render(scene: &Scene, directions: Directions, spp: u32) -> Vec<Estimate> {
         reuse: Reuse::Off,
         adaptive: true,
         seed: 3,
+        strategy: None,
     };
     let mut film = Film::new(camera.resolution);
     let threads = Threads::new(2, SimdLevel::best()).expect("two threads can be had");

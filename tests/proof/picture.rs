@@ -25,6 +25,7 @@ pub fn settings(estimator: Estimator) -> RenderSettings {
         adaptive: false,
         // Estimators that are compared with each other share no random numbers.
         seed: 17 + estimator as u32,
+        strategy: None,
     }
 }
 

@@ -82,6 +82,7 @@ impl Arguments {
             reuse: self.reuse.unwrap_or(of_scene.reuse),
             adaptive: self.adaptive.unwrap_or(of_scene.adaptive),
             seed: self.seed.unwrap_or(of_scene.seed),
+            strategy: of_scene.strategy,
         }
     }
 }

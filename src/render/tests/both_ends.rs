@@ -7,7 +7,7 @@ use crate::{
         threads::{PassJob, Threads},
     },
     sampling::Sampler,
-    scene::{Estimator, RenderSettings, Reuse, Roulette, Scene, parse},
+    scene::{Estimator, RenderSettings, Reuse, Roulette, Scene, Strategy, parse},
 };
 
 /// Two panels, a ball and a lamp that do not touch each other: near an edge, a strategy alone would have no variance.
@@ -80,7 +80,12 @@ fn every_strategy_alone_finds_the_light_of_its_number_of_reflections() {
                 let t = reflections + 2 - s;
                 mean(
                     &scene,
-                    &RenderSettings { strategy: Some([s, t]), max_bounces: Some(reflections), seed: 7 + s, ..SETTINGS },
+                    &RenderSettings {
+                        strategy: Some(Strategy { s, t, weighted: false }),
+                        max_bounces: Some(reflections),
+                        seed: 7 + s,
+                        ..SETTINGS
+                    },
                     2000,
                 )
             };
