@@ -34,7 +34,7 @@ impl SceneDescription {
     pub fn build(&self, folder: &Path) -> Result<Scene, SceneError> {
         let text = self.to_text();
         let files = Files { folder, ..Files::default() };
-        self.compiled(SceneText::new(Box::new(move || text)), Path::new("scene"), files, None)
+        self.compiled(SceneText::new(Box::new(move || text)), None, files, None)
     }
 
     /// The same for the scene of a file in another format, which errors name. Files are looked for in `assets` and in the folder of the
@@ -46,7 +46,7 @@ impl SceneDescription {
     /// The same, with progress and cancellation.
     pub fn build_watched(self: &Arc<Self>, file: &Path, assets: Assets, progress: &Progress) -> Result<Scene, SceneError> {
         let files = Files { folder: file.parent().unwrap_or(Path::new("")), assets, progress: progress.clone() };
-        self.compiled(self.later_text(), file, files, None)
+        self.compiled(self.later_text(), Some(file), files, None)
     }
 
     /// The same after a change. Parts that did not change are reused from `before`, which can be any scene of the same folder and the same files in memory. With
@@ -70,7 +70,7 @@ impl SceneDescription {
     /// ```
     pub fn rebuild(self: &Arc<Self>, folder: &Path, before: &Scene, precision: Precision) -> Result<Scene, SceneError> {
         let files = Files { folder, assets: before.assets.clone(), ..Files::default() };
-        self.compiled(self.later_text(), Path::new("scene"), files, Some(Before { scene: before, precision }))
+        self.compiled(self.later_text(), None, files, Some(Before { scene: before, precision }))
     }
 
     fn later_text(self: &Arc<Self>) -> SceneText {
@@ -78,7 +78,8 @@ impl SceneDescription {
         SceneText::new(Box::new(move || description.to_text()))
     }
 
-    fn compiled(&self, text: SceneText, name: &Path, files: Files, before: Option<Before>) -> Result<Scene, SceneError> {
+    /// Errors begin with the name of the file, if the scene has one.
+    fn compiled(&self, text: SceneText, file: Option<&Path>, files: Files, before: Option<Before>) -> Result<Scene, SceneError> {
         let start = Instant::now();
         let mut problems = declare::check(&mut self.clone());
         if problems.is_empty() {
@@ -91,13 +92,14 @@ impl SceneDescription {
             }
         }
         let error = |problem: Problem| {
-            // A scene of the window is known by its parts, one that was built in code by its paths.
-            let place = if before.is_some() { self.place_name(&problem.path) } else { format!("`{}`", problem.path) };
-            let message = format!("{place}: {}", problem.message);
+            let message = format!("{}: {}", self.place_name(&problem.path), problem.message);
             let advice = [problem.label, problem.help].into_iter().filter(|text| !text.is_empty()).collect::<Vec<_>>().join("; ");
-            if before.is_some() { SceneError::of_part(&message, &advice) } else { SceneError::of_file(name, message, advice) }
+            match file {
+                Some(file) => SceneError::of_file(file, message, advice),
+                None => SceneError::of_part(&message, &advice),
+            }
         };
-        let nothing = || SceneError::of_file(name, "it cannot be compiled", "check its values");
+        let nothing = || SceneError::of_part("the scene cannot be compiled", "check its values");
         Err(SceneError::of_all(problems.into_iter().map(error).collect()).unwrap_or_else(nothing))
     }
 

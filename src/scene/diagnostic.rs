@@ -44,7 +44,7 @@ impl SceneError {
         SceneError::without_place(format!("{}: {}", quote::path(path), quote::message(&message.into())), &help.into())
     }
 
-    /// An error about a part of a scene that is edited. The message names the part.
+    /// An error about a part of a scene without a file. The message names the part.
     pub fn of_part(message: &str, help: &str) -> SceneError {
         SceneError::without_place(quote::message(message), help)
     }

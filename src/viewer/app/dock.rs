@@ -11,7 +11,8 @@ use super::state::App;
 use crate::viewer::dialogs::save_target::SaveTarget;
 use crate::viewer::instruments::{
     bounces, compare::comparison::CompareLayout, compare::comparison::Comparison, compare::figures::SideStatus,
-    compare::tab as compare, convergence::plot, convergence::plot::CurveFile, path::tab as path, tabs, tabs::InstrumentTab,
+    compare::tab as compare, convergence::plot, convergence::plot::CurveFile, light_paths, path::tab as path, tabs,
+    tabs::InstrumentTab,
 };
 use crate::viewer::panels::views;
 
@@ -52,8 +53,11 @@ impl App {
             InstrumentTab::Convergence => self.convergence_tab(ui),
             InstrumentTab::Compare => _ = ScrollArea::vertical().auto_shrink(false).show(ui, |ui| self.compare_tab(ui)),
             InstrumentTab::Bounces => {
+                let opened = self.session.opened.as_ref();
+                let has_light_paths = opened.is_some_and(|opened| light_paths::are_traced(&opened.scene, &self.session.settings));
                 let (frame, view) = (self.results.second_frame.as_deref(), self.session.look.view);
-                let show = |ui: &mut Ui| bounces::show(ui, &mut self.session.bounces, frame, view, resolution);
+                let subject = bounces::Subject { frame, view, resolution, has_light_paths };
+                let show = |ui: &mut Ui| bounces::show(ui, &mut self.session.bounces, subject);
                 ScrollArea::vertical().auto_shrink(false).show(ui, show);
             }
             InstrumentTab::Path => {

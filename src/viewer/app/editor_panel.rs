@@ -78,9 +78,9 @@ impl App {
         };
         let Some(mut part) = subject.of(editor.document.description()) else { return };
         let (path, size, object) = (subject.path(), opened.scene.size, self.selection.object());
-        let heading = format!("Parameters of {}", subject.name(editor.document.description()));
+        let name = subject.name(editor.document.description());
         let user = ui.horizontal_wrapped(|ui| {
-            ui.label(RichText::new(heading).strong()).on_hover_text(format!("In the scene file, this part is {path}."));
+            ui.label(RichText::new(name).strong()).on_hover_text(place_in_file(&path));
             if matches!(subject, Subject::Object(_) | Subject::Lamp(_)) {
                 modes::show(ui, &mut self.selection.gizmo.mode);
             }
@@ -175,6 +175,11 @@ impl App {
         let folder = std::path::absolute(folder).unwrap_or_default();
         file.strip_prefix(&folder).unwrap_or(file).display().to_string()
     }
+}
+
+/// How a scene file names a part.
+fn place_in_file(path: &Path) -> String {
+    if path.0.is_empty() { "The top of the scene file.".to_owned() } else { format!("In the scene file, this part is {path}.") }
 }
 
 /// Shows the inspector of a part at a path.

@@ -33,8 +33,21 @@ pub fn has_room_for_series(resolution: [u32; 2]) -> bool {
     resolution.map(u64::from).iter().product::<u64>() <= MOST_PIXELS
 }
 
-/// Shows the bars and the choice of a term. `frame` has the series; `view` is the view of the canvas.
-pub fn show(ui: &mut Ui, bounces: &mut Bounces, frame: Option<&Frame>, view: View, resolution: [u32; 2]) {
+/// The picture whose series is shown.
+#[derive(Clone, Copy)]
+pub struct Subject<'a> {
+    /// The frame that has the series.
+    pub frame: Option<&'a Frame>,
+    /// The view of the canvas.
+    pub view: View,
+    pub resolution: [u32; 2],
+    /// The image beside takes paths from lights, too.
+    pub has_light_paths: bool,
+}
+
+/// Shows the bars and the choice of a term.
+pub fn show(ui: &mut Ui, bounces: &mut Bounces, subject: Subject<'_>) {
+    let Subject { frame, view, resolution, has_light_paths } = subject;
     if !has_room_for_series(resolution) {
         let [width, height] = resolution;
         ui.label(format!("{width} × {height} pixels are too many. Choose a resolution of at most 4 million pixels (Camera)."));
@@ -46,7 +59,7 @@ pub fn show(ui: &mut Ui, bounces: &mut Bounces, frame: Option<&Frame>, view: Vie
         ui.selectable_value(&mut bounces.up_to, true, "Bounces up to k")
             .on_hover_text("Shows L_e + T L_e + … + T^k L_e, the image with a cap of k bounces.");
         ui.separator();
-        let label = ui.label("k").on_hover_text("Number of bounces, reflections and refractions alike");
+        let label = ui.label("k").on_hover_text("k is the number of bounces, reflections and refractions alike.");
         ui.add(Slider::new(&mut bounces.k, 0..=LAST)).labelled_by(label.id);
         ui.add(Label::new(RichText::new(meaning(*bounces)).weak()).truncate());
     });
@@ -67,7 +80,8 @@ pub fn show(ui: &mut Ui, bounces: &mut Bounces, frame: Option<&Frame>, view: Vie
     let remark = match known {
         Some((frame, _)) => {
             let samples = counted(frame.spp, "sample");
-            format!("After {samples} per pixel without path sharing. Shares are fractions of the luminance of the image.")
+            let how = if has_light_paths { "by paths from the camera (MIS)" } else { "without path sharing" };
+            format!("After {samples} per pixel {how}. Shares are fractions of the luminance of the image.")
         }
         None => "Available after one sample per pixel.".to_owned(),
     };

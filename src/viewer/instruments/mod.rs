@@ -2,5 +2,6 @@
 pub mod bounces;
 pub mod compare;
 pub mod convergence;
+pub mod light_paths;
 pub mod path;
 pub mod tabs;

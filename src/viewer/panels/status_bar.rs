@@ -48,7 +48,8 @@ impl StatusBar<'_> {
             let (colour, state) = self.state_text(ui);
             let (dot, _) = ui.allocate_exact_size(egui::vec2(10.0, 10.0), egui::Sense::hover());
             ui.painter().circle_filled(dot.center(), 4.5, colour);
-            ui.label(RichText::new(state).strong()).on_hover_text("What the renderer does, or the target that it has reached");
+            ui.label(RichText::new(state).strong())
+                .on_hover_text("This is what the renderer does, or the target that it has reached.");
             if self.opened.is_none() {
                 return;
             }
@@ -108,9 +109,9 @@ impl StatusBar<'_> {
         } else {
             ui.label(samples + &region).on_hover_text(SAMPLES);
             ui.separator();
-            ui.label(speed).on_hover_text("Millions of camera samples per second of render time");
+            ui.label(speed).on_hover_text("The renderer takes this many million camera samples per second.");
             ui.separator();
-            ui.label(time).on_hover_text("Render time of this image");
+            ui.label(time).on_hover_text("The image has been rendered for this time.");
         }
         ui.separator();
     }

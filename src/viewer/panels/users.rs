@@ -18,7 +18,7 @@ pub fn show(ui: &mut Ui, scene: &SceneDescription, subject: &Subject) -> Option<
     }
     let mut clicked = None;
     for (place, _) in users.iter().take(MOST) {
-        if ui.small_button(Subject::Object(*place).name(scene)).on_hover_text("Select this object").clicked() {
+        if ui.small_button(Subject::Object(*place).name(scene)).on_hover_text("Selects this object.").clicked() {
             clicked = Some(Subject::Object(*place));
         }
     }

@@ -48,7 +48,10 @@ pub fn rows(
                 }
                 match pinned {
                     Some(pinned) => {
-                        drop(ui.weak(format!("{} spp", pinned.spp)).on_hover_text("Samples per pixel of the pinned image"));
+                        drop(
+                            ui.weak(format!("{} spp", pinned.spp))
+                                .on_hover_text("The pinned image has this many samples per pixel."),
+                        );
                     }
                     None => drop(ui.weak("none")),
                 }
@@ -70,7 +73,9 @@ fn reference_row(ui: &mut Ui, reference: &ReferenceSource) -> bool {
             }
             ReferenceSource::Scene => ui.weak("from the scene"),
             ReferenceSource::SceneElsewhere => ui.weak("for the scene's camera only (Home)"),
-            ReferenceSource::None => ui.weak("none; drop an EXR here").on_hover_text("A linear image of the same size"),
+            ReferenceSource::None => {
+                ui.weak("none; drop an EXR here").on_hover_text("A reference is a linear image of the same size.")
+            }
         };
         false
     });

@@ -1,5 +1,6 @@
 //! Panel and status line say which estimator renders, and why.
 use super::*;
+use crate::viewer::instruments::tabs::InstrumentTab;
 
 /// Whether the window shows a text.
 fn shows(window: &Window, text: &str) -> bool {
@@ -36,4 +37,23 @@ fn an_estimator_that_the_scene_does_not_allow_says_what_renders_instead() {
     wait(&mut window, "samples", |app| app.results.status.spp >= 1);
     window.run_steps(3);
     assert!(shows(&window, "MIS: the scene has tinted media") && shows(&window, "MIS, not Bidirectional"));
+}
+
+#[test]
+fn instruments_say_that_they_show_paths_from_the_camera_alone() {
+    let mut window = window("cornell_spheres");
+    let says = |window: &mut Window, text: &str| {
+        window.run_steps(2);
+        window.query_by_label_contains(text).is_some()
+    };
+    for (estimator, traces) in [("MIS", false), ("Bidirectional", true)] {
+        choose(&mut window, "Estimator", estimator);
+        window.state_mut().window.tab = Some(InstrumentTab::Bounces);
+        wait(&mut window, "the series", |app| app.results.second_frame.as_ref().is_some_and(|frame| frame.series.is_some()));
+        assert_eq!(says(&mut window, "by paths from the camera (MIS)"), traces, "{estimator}");
+        window.state_mut().window.tab = Some(InstrumentTab::Path);
+        window.state_mut().instruments.path.look_at([40, 30]);
+        wait(&mut window, "its samples", |app| app.instruments.path.histogram().is_some());
+        assert_eq!(says(&mut window, "Samples are paths from the camera"), traces, "{estimator}");
+    }
 }

@@ -18,8 +18,7 @@ fn the_parameters_are_in_sight_however_long_the_list_is() {
     for [width, height] in [[1280.0, 800.0], [900.0, 600.0]] {
         window.set_size(vec2(width, height));
         window.run_steps(6);
-        let [parts, parameters, albedo] =
-            ["Parts", "Parameters of amber", "Albedo ρ"].map(|label| window.get_all_by_label(label).next());
+        let [parts, parameters, albedo] = ["Parts", "amber", "Albedo ρ"].map(|label| window.get_all_by_label(label).next());
         let [parts, parameters, albedo] = [parts, parameters, albedo].map(|node| node.expect("it is there").rect());
         assert!(parts.bottom() + 120.0 < parameters.top(), "the list has room at {height}");
         // The line of figures is below.
@@ -32,7 +31,7 @@ fn the_handle_divides_the_room_and_stays_where_it_was_left() {
     let mut window = long_scene();
     window.set_size(vec2(1280.0, 800.0));
     window.run_steps(4);
-    let top = |window: &Window| window.get_by_label("Parameters of amber").rect().top();
+    let top = |window: &Window| window.get_by_role_and_label(Role::Label, "amber").rect().top();
     let before = top(&window);
     let handle = [1280.0 - 168.0, before];
     let above = (0..20).map(|step| handle[1] - step as f32);

@@ -63,7 +63,7 @@ fn a_part_without_a_name_is_called_by_its_number_and_its_path_is_in_the_tooltip(
     window.state_mut().edit(&Edit::set(Path::of("objects.5.name"), OwnedValue::Text(String::new())));
     select(&mut window, Subject::Object(AMBER_BALL));
     assert!(window.query_all_by_label_contains("objects[5]").next().is_none(), "no path is in sight");
-    window.get_by_label("Parameters of object 6").hover();
+    window.get_by_role_and_label(Role::Label, "object 6").hover();
     window.run_steps(12);
     assert!(window.query_by_label("In the scene file, this part is objects[5].").is_some());
 }

@@ -19,7 +19,8 @@ use super::{
 /// Shows the button. Changes of `rgb`, linear Rec. 709, keep its brightness where it is above 1; `most` bounds every channel.
 pub fn show(ui: &mut Ui, label: Id, rgb: &mut [f64; 3], most: f64, is_light: bool) -> Response {
     let [r, g, b] = bytes(*rgb);
-    let button = button(ui, Color32::from_rgb(r, g, b)).labelled_by(label).on_hover_text("Pick a colour");
+    let button =
+        button(ui, Color32::from_rgb(r, g, b)).labelled_by(label).on_hover_text("Picks the colour in a wheel or by numbers.");
     Popup::menu(&button).close_behavior(PopupCloseBehavior::CloseOnClickOutside).show(|ui| {
         ui.spacing_mut().slider_width = 180.0;
         let changed = [picker(ui, rgb), hex_field(ui, rgb), is_light && kelvin(ui, rgb)];

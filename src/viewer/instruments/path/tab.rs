@@ -12,7 +12,10 @@ use super::{
     inspector::PathInspector,
     table::{self, Channel},
 };
-use crate::viewer::widgets::{number, palette::Palette};
+use crate::viewer::{
+    instruments::light_paths,
+    widgets::{number, palette::Palette},
+};
 
 /// Width of the column of samples, points.
 const SAMPLES: f32 = 380.0;
@@ -122,7 +125,7 @@ fn estimate(ui: &mut Ui, frame: &Frame, pixel: [u32; 2]) {
         let error = Some(frame.standard_error[index]).filter(|error| error.is_finite());
         let error = error.map_or_else(String::new, |error| format!(" ± {error:.4}"));
         ui.label(format!("L = {y:.4}{error}, N = {}", frame.spp_at(index)))
-            .on_hover_text("Luminance of the displayed image, its standard error, and the number of samples");
+            .on_hover_text("These are the luminance of the displayed image, its standard error, and the number of samples.");
     }
 }
 
@@ -132,6 +135,9 @@ fn sample_column(ui: &mut Ui, inspector: &mut PathInspector, request: Option<&Re
     let Some(histogram) = inspector.histogram() else { return false };
     if let Some(sample) = histogram::show(ui, histogram, inspector.sample) {
         inspector.sample = sample;
+    }
+    if request.is_some_and(|request| light_paths::are_traced(&request.scene, &request.settings)) {
+        ui.weak("Samples are paths from the camera, as MIS weights them. The image has paths from lights, too.");
     }
     ui.weak("Overlay: the path in yellow, with rings at vertices that the camera does not see; light samples in blue, faint if occluded.");
     request.is_some_and(|request| copying::show(ui, inspector, request))
@@ -143,16 +149,19 @@ fn sample_choice(ui: &mut Ui, inspector: &mut PathInspector) {
     let sample = &mut inspector.sample;
     ui.horizontal(|ui| {
         let label = ui.label("Sample").on_hover_text("Sample index. The pixel and this index determine the path completely.");
-        if ui.add_enabled(*sample > 0, egui::Button::new("Previous")).on_hover_text("Previous sample").clicked() {
+        if ui.add_enabled(*sample > 0, egui::Button::new("Previous")).on_hover_text("Goes to the previous sample.").clicked() {
             *sample -= 1;
         }
         let field = number::field(ui, sample, 0, 0.0..=f64::from(u32::MAX));
         ui.add(field).labelled_by(label.id);
-        if ui.button("Next").on_hover_text("Next sample").clicked() {
+        if ui.button("Next").on_hover_text("Goes to the next sample.").clicked() {
             *sample = sample.saturating_add(1);
         }
         if let Some(brightest) = brightest
-            && ui.button("Brightest").on_hover_text("Sample with the highest luminance, which causes most noise").clicked()
+            && ui
+                .button("Brightest")
+                .on_hover_text("Goes to the sample with the highest luminance, which causes most noise.")
+                .clicked()
         {
             *sample = brightest;
         }

@@ -144,7 +144,7 @@ impl Cell<'_> {
 
     fn file(&mut self, ui: &mut Ui, label: Id, text: &str) {
         self.text(ui, label, text, 110.0);
-        if ui.button("Browse…").on_hover_text("Choose a file").clicked() {
+        if ui.button("Browse…").on_hover_text("Chooses the file in a dialog.").clicked() {
             self.request = Some(Request::BrowseFile { path: self.path.clone() });
         }
     }

@@ -72,7 +72,7 @@ fn show_button(ui: &mut Ui, family: Family, name: &str, surroundings: &Surroundi
         let count = (surroundings.count_objects)(name);
         let users = if family == Family::Material { format!(", which {} use", counted(count, "object")) } else { String::new() };
         let users = if count == 1 { users + "s" } else { users };
-        ui.label(format!("Show the {what} {name}{users}"));
+        ui.label(format!("Shows the {what} {name}{users}."));
     });
     button.clicked().then(|| Request::Show { family, name: name.to_owned() })
 }
@@ -92,7 +92,7 @@ pub fn textures(ui: &mut Ui, label: Id, current: &str, surroundings: &Surroundin
 /// The button behind a constant, with the menu of textures in its place.
 pub fn map_button(ui: &mut Ui, label: Id, surroundings: &Surroundings) -> Option<Source> {
     let menu = ui.menu_button("Map", |ui| entries(ui, None, surroundings));
-    menu.response.labelled_by(label).on_hover_text("Use a texture");
+    menu.response.labelled_by(label).on_hover_text("Puts a texture in the place of the value.");
     menu.inner.flatten()
 }
 

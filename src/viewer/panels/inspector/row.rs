@@ -42,8 +42,8 @@ impl Heading {
 
     /// Shows the label with its mark in a row, with a control behind it. Returns whether the mark was clicked.
     pub fn row(&self, ui: &mut Ui, control: impl FnOnce(&mut Ui, Id)) -> bool {
-        // What does not fit goes to the next line; a row wider than the panel would shift the panel.
-        let row = ui.horizontal_wrapped(|ui| {
+        // A row wider than the panel would shift the panel.
+        let row = ui.horizontal(|ui| {
             ui.spacing_mut().item_spacing.x = 4.0;
             let width = LABEL_WIDTH + (0.5 * (ui.available_width() - CONTENT_WIDTH)).max(0.0);
             let size = vec2(width, ui.spacing().interact_size.y);
@@ -52,7 +52,8 @@ impl Heading {
                 self.label(ui, RichText::new(&self.title))
             });
             let (label, is_marked) = label.inner;
-            control(ui, label.id);
+            // What does not fit beside the label goes on below the control, and not below the label.
+            ui.vertical(|ui| ui.horizontal_wrapped(|ui| control(ui, label.id)));
             is_marked
         });
         row.inner
@@ -69,7 +70,8 @@ impl Heading {
     }
 
     fn label(&self, ui: &mut Ui, text: RichText) -> (Response, bool) {
-        let is_removed = self.mark == Mark::Item && ui.small_button("×").on_hover_text("Remove from the list").clicked();
+        let is_removed =
+            self.mark == Mark::Item && ui.small_button("×").on_hover_text("Removes this item from the list.").clicked();
         if let Mark::Optional(mut is_given) = self.mark {
             let checkbox = ui.checkbox(&mut is_given, text).on_hover_text(self.hover_text());
             let is_clicked = checkbox.clicked();

@@ -155,7 +155,7 @@ impl Parameters for Rows<'_> {
         let mut is_added = false;
         self.ui.push_id(&path, |ui| {
             Heading::of(parameter, Mark::None).row(ui, |ui, label| {
-                is_added = ui.button("Add").labelled_by(label).on_hover_text("Add an item to the list").clicked();
+                is_added = ui.button("Add").labelled_by(label).on_hover_text("Adds an item to the list.").clicked();
                 if now == 0 {
                     ui.weak("none");
                 }

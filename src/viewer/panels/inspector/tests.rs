@@ -183,7 +183,7 @@ fn a_button_leads_to_the_material_or_texture_that_a_row_names() {
     let mut panel = inspect(ObjectDescription { material: Some("white".to_owned()), ..ObjectDescription::default() });
     panel.get_by_role_and_label(Role::Button, "Edit").hover();
     panel.run_steps(12);
-    assert!(panel.query_by_label("Show the material white, which 2 objects use").is_some());
+    assert!(panel.query_by_label("Shows the material white, which 2 objects use.").is_some());
     click(&mut panel, Role::Button, "Edit");
     assert_eq!(*only(&panel), Request::Show { family: Family::Material, name: "white".to_owned() });
     let kind = Lambertian { albedo: Textured::Texture("gold".to_owned()) }.into();
@@ -240,4 +240,12 @@ fn a_drag_goes_on_until_the_button_is_released() {
     panel.state_mut().asked.clear();
     panel.run_steps(3);
     assert!(panel.state().asked.is_empty(), "it ends once");
+}
+
+#[test]
+fn what_does_not_fit_beside_its_label_goes_on_below_the_control() {
+    let panel = inspect(lambertian());
+    let swatch = panel.get_by_role(Role::ColorWell).rect();
+    let map = panel.get_by_role_and_label(Role::Button, "Albedo ρ").rect();
+    assert!(map.left() >= swatch.left() - 0.5, "{map:?} {swatch:?}");
 }
