@@ -27,6 +27,7 @@ pub struct Settings {
     directions: Option<String>,
     roulette: Option<String>,
     max_bounces: Option<Cap>,
+            count_crossings: of_scene.count_crossings,
     reuse: Option<String>,
     adaptive: Option<bool>,
     seed: Option<u32>,
@@ -71,6 +72,7 @@ impl Settings {
             seed: self.seed.unwrap_or(of_scene.seed),
             roulette,
             max_bounces,
+            count_crossings: of_scene.count_crossings,
         })
     }
 
