@@ -78,6 +78,9 @@ pub fn sky(import: &mut Import, element: Element) -> Result<(), SceneError> {
     if element.flag("complex_sun", false)? {
         import.remark_value(element, "complex_sun", "a sun of equal radiance", "the sun's limb is brighter")?;
     }
+    if sun_scale > 0.0 {
+        import.remark(element, "a sun whose edge is blurred over 0.2°", "shadows have slightly softer edges");
+    }
     let background = Sky {
         sun,
         turbidity: known_turbidity,
