@@ -43,7 +43,8 @@ impl Import {
         let Some(value) = element.property(name)? else { return Ok(Textured::Constant(default)) };
         match self.constant(value, Role::Index)? {
             Some([r, g, b]) if r == g && g == b => Ok(Textured::Constant(r)),
-            Some([r, g, b]) => Ok(Textured::Constant(0.2126 * r + 0.7152 * g + 0.0722 * b)),
+            // Mitsuba takes the mean of a colour, and the luminance of an image.
+            Some([r, g, b]) => Ok(Textured::Constant((r + g + b) / 3.0)),
             None => self.texture(value, TextureValue::Number).map(Textured::Texture),
         }
     }
@@ -192,6 +193,11 @@ impl Import {
     }
 }
 
+/// Whether an image lies elsewhere than over the unit square.
+pub fn is_placed(image: &Image) -> bool {
+    image.scale != [1.0; 2] || image.shear != 0.0 || image.rotate != 0.0 || image.offset != [0.0; 2]
+}
+
 /// A number as a colour.
 fn grey(number: Textured<f64>) -> Textured {
     match number {
@@ -207,7 +213,7 @@ fn decomposed(map: DMat4) -> Option<Image> {
     let rotate = u.y.atan2(u.x);
     let (along, across) = (DVec2::from_angle(rotate), DVec2::from_angle(rotate).perp());
     let scale = [u.length(), v.dot(across)];
-    if scale.iter().any(|x| *x == 0.0) {
+    if scale[0] == 0.0 || scale[1].abs() <= 1e-12 * v.length() {
         return None;
     }
     let degrees = if u.y == 0.0 && u.x > 0.0 { 0.0 } else { rotate.to_degrees() };

@@ -2,6 +2,7 @@
 use super::{
     super::{
         context::{Import, TextureValue},
+        textures::is_placed,
         tree::Element,
     },
     transparent,
@@ -111,9 +112,7 @@ pub fn normal_map(import: &mut Import, element: Element, two_sided: bool) -> Res
         import.remark(normals, "its linear values", "normals are tilted by other angles");
     }
     let plain = Image { path: image.path.clone(), encoding: image.encoding, filter: image.filter, ..Image::default() };
-    if image != plain
-        && (image.wrap_u != Wrap::Repeat || image.scale != [1.0; 2] || image.rotate != 0.0 || image.offset != [0.0; 2])
-    {
+    if image != plain && (image.wrap_u != Wrap::Repeat || is_placed(&image)) {
         import.remark(normals, "the image over the unit square, repeated", "the normals lie elsewhere");
     }
     if inner.normal_map.is_some() {

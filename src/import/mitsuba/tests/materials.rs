@@ -120,6 +120,9 @@ fn masks_bumps_and_blends_keep_what_they_hold() {
         "<bsdf type=\"mask\"><float name=\"opacity\" value=\"0.25\"/><bsdf type=\"twosided\"><bsdf type=\"diffuse\"/></bsdf></bsdf>",
     );
     assert_eq!((masked.opacity, masked.two_sided), (Some(Textured::Constant(0.25)), None));
+    let (masked, _) =
+        material("<bsdf type=\"mask\"><rgb name=\"opacity\" value=\"0.25 0.5 0.75\"/><bsdf type=\"diffuse\"/></bsdf>");
+    assert_eq!(masked.opacity, Some(Textured::Constant(0.5)));
     let (nothing, _) = material("<bsdf type=\"null\"/>");
     assert!(matches!(nothing.kind, Material::Null(_)));
     let text = "<bsdf type=\"blendbsdf\" id=\"both\"><float name=\"weight\" value=\"0.3\"/><bsdf type=\"diffuse\"/>\
