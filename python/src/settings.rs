@@ -27,6 +27,7 @@ pub struct Settings {
     directions: Option<String>,
     roulette: Option<String>,
     max_bounces: Option<Cap>,
+            count_crossings: of_scene.count_crossings,
     reuse: Option<String>,
     adaptive: Option<bool>,
     seed: Option<u32>,
@@ -72,6 +73,7 @@ impl Settings {
             roulette,
             strategy: of_scene.strategy,
             max_bounces,
+            count_crossings: of_scene.count_crossings,
         })
     }
 

@@ -1,5 +1,6 @@
 //! The queues of one thread, which hold the paths of a batch between stages.
 use super::{
+    crossings::Crossings,
     first_hits::FirstHits,
     light_paths::{paths::LightPaths, splat::Splat},
     queues::{HitQueues, PathQueues, ShadowQueues},
@@ -23,6 +24,8 @@ pub struct Batch {
     /// Radiance so far, per slot; then radiance to be shared, per slot.
     pub(super) radiance: Vec<[f32; 4]>,
     pub(super) shared: Shared,
+    /// Used where crossings count as bounces.
+    pub(super) crossings: Crossings,
     pub(super) bounce: u32,
     /// Rays traced: path segments, shadow rays and visibility rays of path reuse.
     pub rays: u64,
@@ -43,6 +46,7 @@ impl Default for Batch {
             shadows: ShadowQueues::default(),
             radiance: vec![[0.0; 4]; 2 * SLOTS],
             shared: Shared::default(),
+            crossings: Crossings::default(),
             bounce: 0,
             rays: 0,
             splats: Vec::new(),

@@ -19,7 +19,7 @@ use crate::{
 /// Moves the first surface of every path to the first one that it meets.
 #[simd]
 pub(super) fn meet<L: Lanes>(l: L, work: &Work, batch: &mut Batch, decisions: Decisions) {
-    let Batch { paths, first_hits, bounce, rays, .. } = batch;
+    let Batch { paths, first_hits, crossings, bounce, rays, .. } = batch;
     let (paths, scene) = (&paths[(*bounce & 1) as usize], work.scene);
     let has_elements = scene.shapes.have_elements();
     for Register { start, live } in paths.registers(l) {
@@ -29,7 +29,7 @@ pub(super) fn meet<L: Lanes>(l: L, work: &Work, batch: &mut Batch, decisions: De
         let mut passage = Passage::new(l, [path.o, path.d], work.time(l, path.slot), first);
         let mut open = passage.layered(l, scene, live);
         let [opacity, part] = if open.any() { coordinates(l, work, path.slot, *bounce + 1, decisions) } else { [l.f(0.5); 2] };
-        let mut crossed = 0;
+        let (mut crossed, mut count) = (0, l.f(0.0));
         while open.any() {
             let crossing = passage.crossing(l, scene, open);
             let (alpha, at_crossing) = crossing.opacity(l, scene, open, decisions.of_crossing(part, crossed), decisions);
@@ -40,11 +40,15 @@ pub(super) fn meet<L: Lanes>(l: L, work: &Work, batch: &mut Batch, decisions: De
             }
             *rays += passes.count() as u64;
             passage.cross(l, scene, passes, &crossing);
+            count = (passes & !crossing.again).pick(count + 1.0, count);
             row = passes.pick(passage.nearest().primitive, row);
             open = passage.layered(l, scene, passes);
             crossed += 1;
         }
         first_hits.put(start, &passage.nearest(), has_elements);
+        if work.counts_crossings() {
+            crossings.add(live, path.slot, count);
+        }
         if work.has_blends() {
             first_hits.put_rows(start, row);
         }

@@ -7,6 +7,7 @@ mod batch;
 mod bidirectional;
 mod collision;
 mod coordinates;
+mod crossings;
 #[cfg(test)]
 mod fault;
 mod features;

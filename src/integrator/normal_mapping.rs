@@ -2,7 +2,10 @@
 use super::interaction::SurfaceInteraction;
 use crate::{
     math::{F, Lanes, M, Pick, U, V},
-    scene::Scene,
+    scene::{
+        Scene,
+        surface::{MIRRORED, is_set},
+    },
     texture::{TextureCoordinates, Textures},
 };
 
@@ -43,6 +46,27 @@ pub(super) fn shading_normal<L: Lanes>(
     tilted
 }
 
+/// Minimum height of the viewer over a shading normal.
+const GRAZING: f32 = 1e-3;
+
+/// The normal of a smooth surface, or the plain one `n` where the viewer in the direction `wo` could not see the front of the former.
+#[inline(always)]
+pub(super) fn visible_smooth_normal<L: Lanes>(smooth: V<L>, n: V<L>, wo: V<L>) -> V<L> {
+    smooth.dot(wo).above(GRAZING).pick(smooth, n)
+}
+
+/// A tilted normal that the viewer in the direction `wo` can see. One that faces away is mirrored in the normal `n` of the surface if its
+/// row in [`crate::scene::surface::Surfaces::relief`] says so (V. Schüßler et al., "Microfacet-based Normal Mapping for Robust Monte Carlo
+/// Path Tracing", SIGGRAPH Asia 2017), and is replaced by it otherwise.
+#[inline(always)]
+pub(super) fn visible_normal<L: Lanes>(l: L, scene: &Scene, row: U<L>, tilted: V<L>, n: V<L>, wo: V<L>) -> V<L> {
+    let [.., flags] = l.rows(&scene.surfaces.relief, row);
+    let mirrored = n * (n.dot(tilted) * 2.0) - tilted;
+    let faces_away = !tilted.dot(wo).above(0.0);
+    let tilted = (faces_away & is_set(flags.bits(), MIRRORED)).pick(mirrored, tilted);
+    tilted.dot(wo).above(GRAZING).pick(tilted, n)
+}
+
 /// ∇h along the surface, per metre, by finite differences.
 #[inline(always)]
 fn gradient<L: Lanes>(
@@ -73,4 +97,45 @@ fn gradient<L: Lanes>(
 #[inline(always)]
 fn within<L: Lanes>(x: F<L>, step: F<L>) -> F<L> {
     (x + step).below(1.0).pick(step, -step)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{math::One, scene::parse};
+
+    fn direction([x, y, z]: [f32; 3]) -> V<One> {
+        V::splat(One, [x, y, z]).normalized()
+    }
+
+    /// The normal that stands for a tilted one that faces away from a viewer.
+    fn seen(flags: &str, tilted: V<One>, wo: V<One>) -> V<One> {
+        let text = format!(
+            "format = 1
+            background.radiance = 1
+            camera = {{ eye = [0, 0, 4], look_at = [0, 0, 0], fov = 40, resolution = [8, 8] }}
+            textures.dents.noise = {{ scale = 3 }}
+            [materials.ball]
+            lambertian.albedo = 0.5
+            bump = {{ texture = 'dents', height = 1 }}
+            {flags}
+            [[objects]]
+            shape.sphere = {{ center = [0, 0, 0], radius = 1 }}
+            material = 'ball'"
+        );
+        let scene = parse("ball.toml", text).unwrap_or_else(|error| panic!("{}", error.report()));
+        visible_normal(One, &scene, U(0), tilted, direction([0.0, 0.0, 1.0]), wo)
+    }
+
+    #[test]
+    fn normals_that_face_away_are_replaced_or_mirrored() {
+        let (n, wo) = (direction([0.0, 0.0, 1.0]), direction([1.0, 0.0, 0.5]));
+        let (towards, away) = (direction([0.6, 0.0, 0.8]), direction([-0.8, 0.0, 0.6]));
+        let near = |a: V<One>, b: V<One>| (a - b).length_squared().0 < 1e-10;
+        for flags in ["", "mirrored_normals = true"] {
+            assert!(near(seen(flags, towards, wo), towards), "one that the viewer sees stays");
+        }
+        assert!(near(seen("", away, wo), n));
+        assert!(near(seen("mirrored_normals = true", away, wo), direction([0.8, 0.0, 0.6])));
+    }
 }

@@ -8,7 +8,10 @@
 use super::{interaction::SurfaceInteraction, records::NormalShadowing};
 use crate::{
     math::{F, Lanes, Pick, V},
-    scene::Scene,
+    scene::{
+        Scene,
+        surface::{SHADOWED, is_set},
+    },
 };
 
 /// The record of surfaces with the normal `n`, tilted to `tilted`.
@@ -20,9 +23,9 @@ pub(super) fn shadowing_of_normals<L: Lanes>(
     n: V<L>,
     tilted: V<L>,
 ) -> NormalShadowing<L> {
-    let [.., shadows] = l.rows(&scene.surfaces.relief, *row);
+    let [.., flags] = l.rows(&scene.surfaces.relief, *row);
     let alpha_squared = (tan_squared(l, n.dot(tilted)) * 0.125).min(l.f(1.0));
-    NormalShadowing { n, alpha_squared: shadows.above(0.0).pick(alpha_squared, l.f(0.0)) }
+    NormalShadowing { n, alpha_squared: is_set(flags.bits(), SHADOWED).pick(alpha_squared, l.f(0.0)) }
 }
 
 impl<L: Lanes> NormalShadowing<L> {

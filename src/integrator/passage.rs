@@ -10,7 +10,7 @@ use crate::{
     sampling::hash::{GOLDEN, hash, unit},
     scene::{
         Scene,
-        surface::{BLENDED, is_set},
+        surface::{BLENDED, FLIPPED, is_set},
     },
     texture::TextureCoordinates,
 };
@@ -122,10 +122,13 @@ impl<L: Lanes> Crossing<L> {
         let (mut blended, mut part) = (self.blended(l, scene, mask, row), part);
         // Blends are nested only a few levels deep.
         while blended.any() {
-            let [node, ..] = l.rows(&surfaces.rows, row);
+            let [node, .., word] = l.rows(&surfaces.rows, row);
+            let front = self.cos.above(0.0) ^ is_set(word.bits(), FLIPPED);
             let node = l.rows(&surfaces.blends, blended.pick(node.bits(), l.u(0)));
             let [.., first, second] = node;
-            let takes_second = part.lt(self.number(l, scene, blended, node));
+            let [weight, ..] = node;
+            let by_side = weight.below(0.0);
+            let takes_second = (by_side & !front) | (!by_side & part.lt(self.number(l, scene, blended, node)));
             row = blended.pick(takes_second.pick(second.bits(), first.bits()), row);
             let of_part = self.number(l, scene, blended, l.rows(&surfaces.opacity, row));
             alpha = blended.pick(alpha * of_part, alpha);

@@ -7,6 +7,7 @@ use fearless_simd_macros::simd;
 
 use super::{
     batch::{Batch, add},
+    crossings::Crossings,
     interaction::emission_texture,
     media::transmittance,
     passage::{Crossing, Decisions, MOST_CROSSINGS, Passage},
@@ -31,13 +32,14 @@ pub(super) fn shadow<L: Lanes>(l: L, work: &Work, batch: &mut Batch) {
 /// `PASSAGES` is compiled for scenes where light passes through surfaces.
 #[simd]
 fn test<L: Lanes, const PASSAGES: bool>(l: L, work: &Work, batch: &mut Batch) {
-    let Batch { shadows, radiance, rays, bounce, .. } = batch;
+    let Batch { shadows, radiance, rays, crossings, bounce, .. } = batch;
     let ends_at_any = work.scene.lights_are_listed();
     for at in shadows.registers(l) {
         let shadow = Shadow::read(l, &shadows.shadows, at.start);
         let media = if work.has_media() { shadows.media(l, at) } else { l.u(0) };
         let Arriving { seen, light, .. } = if PASSAGES {
-            through_surfaces(l, work, at.live, &shadow, media, *bounce + 1, rays)
+            let left = crossings_left(l, work, crossings, at.live, &shadow, *bounce);
+            through_surfaces(l, work, (at.live, left), &shadow, media, *bounce + 1, rays)
         } else {
             directly(l, work, at.live, &shadow, media, ends_at_any)
         };
@@ -57,19 +59,32 @@ pub(super) struct Arriving<L: Lanes> {
     pub t: F<L>,
 }
 
-/// The light samples of the `reflection`-th reflections in the lanes of `live`, after the transmittance of `media`, in which they
-/// start, and the textures of their lights. Counts the rays beyond the first one of each sample.
+/// The crossings that the cap on bounces leaves to light samples of reflections at `bounce`; infinite where crossings do not count.
+#[inline(always)]
+pub(super) fn crossings_left<L: Lanes>(
+    l: L,
+    work: &Work,
+    crossings: &Crossings,
+    live: M<L>,
+    shadow: &Shadow<L>,
+    bounce: u32,
+) -> F<L> {
+    if work.counts_crossings() { crossings.left(l, work, live, shadow.slot, bounce + 1) } else { l.f(f32::INFINITY) }
+}
+
+/// The light samples of the `reflection`-th reflections in the lanes of `live`, each with the crossings that are left to it, after the
+/// transmittance of `media`, in which they start, and the textures of their lights. Counts the rays beyond the first one of each sample.
 pub(super) fn arriving<L: Lanes>(
     l: L,
     work: &Work,
-    live: M<L>,
+    (live, left): (M<L>, F<L>),
     shadow: &Shadow<L>,
     media: U<L>,
     reflection: u32,
     rays: &mut u64,
 ) -> Arriving<L> {
     if work.has_passages() {
-        through_surfaces(l, work, live, shadow, media, reflection, rays)
+        through_surfaces(l, work, (live, left), shadow, media, reflection, rays)
     } else {
         directly(l, work, live, shadow, media, false)
     }
@@ -112,7 +127,7 @@ fn directly<L: Lanes>(l: L, work: &Work, live: M<L>, shadow: &Shadow<L>, media: 
 fn through_surfaces<L: Lanes>(
     l: L,
     work: &Work,
-    live: M<L>,
+    (live, left): (M<L>, F<L>),
     shadow: &Shadow<L>,
     media: U<L>,
     reflection: u32,
@@ -124,7 +139,8 @@ fn through_surfaces<L: Lanes>(
     let first = scene.shapes.closest(l, live, shadow.o, shadow.d, time);
     let mut arriving = Arriving { seen: l.first(0), light: V::splat(l, [0.0; 3]), t: l.f(f32::INFINITY) };
     let mut passage = Passage::new(l, [shadow.o, shadow.d], time, first);
-    let (mut open, mut passed) = (live, l.f(1.0));
+    // A light that is one crossing further away than allowed is hidden.
+    let (mut open, mut passed, mut left) = (live & !left.below(0.0), l.f(1.0), left);
     for crossed in 0..=MOST_CROSSINGS {
         let hit = passage.hits(open);
         let (arrives, nearest) = scene.lights.arrives(l, shadow.target, shadow.o, passage.nearest());
@@ -141,7 +157,8 @@ fn through_surfaces<L: Lanes>(
             arriving.light = (reached | at_light).pick(arriving.light + light, arriving.light);
         }
         passed = (hit & !crossing.again).pick(passed * (1.0 - alpha), passed);
-        let goes_on = hit & !reached & passed.above(0.0);
+        left = (hit & !crossing.again).pick(left - 1.0, left);
+        let goes_on = hit & !reached & passed.above(0.0) & !left.below(0.0);
         arriving.t = ((at_light | (open & !goes_on)) & !arriving.seen).pick(t, arriving.t);
         arriving.seen = arriving.seen | reached | at_light;
         if crossed == MOST_CROSSINGS || !goes_on.any() {

@@ -19,6 +19,9 @@ pub(super) fn spawn<L: Lanes>(l: L, work: &Work, batch: &mut Batch) {
     if work.shares() {
         batch.shared.clear();
     }
+    if work.counts_crossings() {
+        batch.crossings.clear();
+    }
     for start in (0..work.slots()).step_by(L::N) {
         let slot = l.iota() + start;
         let pixel = work.pixel(l, slot);

@@ -25,7 +25,7 @@ use crate::{
 /// not all plain.
 #[simd]
 pub(super) fn surfaces<L: Lanes, const VARIED: bool>(l: L, work: &Work, batch: &mut Batch, last: bool) {
-    let Batch { paths, first_hits, hits, radiance, shared, bounce, .. } = batch;
+    let Batch { paths, first_hits, hits, radiance, shared, crossings, bounce, .. } = batch;
     hits.iter_mut().for_each(HitQueues::clear);
     let paths = &paths[(*bounce & 1) as usize];
     let previous = (*bounce > 0 && work.weights_hits()).then_some(paths);
@@ -38,8 +38,13 @@ pub(super) fn surfaces<L: Lanes, const VARIED: bool>(l: L, work: &Work, batch: &
             arrival.weigh_by_first_surface(l, shared);
         }
         let miss = arrival.nearest.primitive.is(MISS);
-        add_background(l, work, previous, &arrival, at.live & miss, radiance);
-        let hit = at.live & !miss;
+        let (mut live, mut goes_on) = (at.live, at.live);
+        if VARIED && work.counts_crossings() {
+            let left = crossings.left(l, work, at.live, arrival.path.slot, *bounce);
+            (live, goes_on) = (live & !left.below(0.0), live & left.above(0.0));
+        }
+        add_background(l, work, previous, &arrival, live & miss, radiance);
+        let hit = live & !miss;
         if !hit.any() {
             continue;
         }
@@ -48,7 +53,7 @@ pub(super) fn surfaces<L: Lanes, const VARIED: bool>(l: L, work: &Work, batch: &
         add_emission::<L, VARIED>(l, work, previous, &arrival, hit, &interaction, radiance);
         if !last {
             let shared = if shares { Some(&mut *shared) } else { None };
-            queue_hits::<L, VARIED>(l, work, &arrival, hit, &interaction, shared, hits);
+            queue_hits::<L, VARIED>(l, work, &arrival, hit & goes_on, &interaction, shared, hits);
         }
     }
 }

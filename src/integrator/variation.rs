@@ -1,7 +1,7 @@
 //! Properties that vary over a surface: colour, roughness and shading normal at the points where paths arrive.
 use super::{
     interaction::{SurfaceInteraction, vertex_colour},
-    normal_mapping::shading_normal,
+    normal_mapping::{shading_normal, visible_normal, visible_smooth_normal},
     records::{Chart, Detail},
 };
 use crate::{
@@ -13,9 +13,6 @@ use crate::{
     },
     texture::TextureCoordinates,
 };
-
-/// Minimum height of the viewer over a shading normal; below it, the geometric normal is used.
-const GRAZING: f32 = 1e-3;
 
 /// Paths at a surface.
 pub(super) struct IncidentPaths<L: Lanes> {
@@ -65,7 +62,7 @@ pub(super) fn vary<L: Lanes>(
     let (mut colour, mut n) = (colour, n);
     if scene.shapes.have_elements() {
         let smooth = scene.shapes.smooth_normal(l, place, point) * l.f(1.0).copysign(*cos);
-        n = smooth.dot(wo).above(GRAZING).pick(smooth, n);
+        n = visible_smooth_normal(smooth, n, wo);
     }
     let untilted = n;
     if surfaces.textured || !surfaces.relief.is_empty() {
@@ -86,8 +83,7 @@ pub(super) fn vary<L: Lanes>(
         if !surfaces.relief.is_empty() {
             let side = l.f(1.0).copysign(*cos);
             let tilted = shading_normal(l, scene, interaction, mask, n * side, &at) * side;
-            // A normal that the viewer could not see is not used.
-            n = tilted.dot(wo).above(GRAZING).pick(tilted, n);
+            n = visible_normal(l, scene, *row, tilted, n, wo);
         }
     }
     (colour, Detail { wo, n, alpha, error: point.error, surface: *word, media: *media, medium: medium.bits() }, untilted)

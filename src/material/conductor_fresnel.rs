@@ -12,7 +12,7 @@ use crate::{
 /// Fresnel reflectance of metals, per lane: constant, Schlick's approximation, or Fresnel's equations with a complex index.
 #[derive(Clone, Copy)]
 pub struct ConductorFresnel<L: Lanes> {
-    /// Reflectance at normal incidence in lanes without an index.
+    /// Reflectance at normal incidence, or the tint in lanes with an index.
     f0: V<L>,
     /// 1 for Schlick's approximation, 0 for a constant.
     rise: F<L>,
@@ -40,6 +40,8 @@ pub enum Reflectance {
         eta: [f64; 3],
         /// Imaginary part k per channel.
         k: [f64; 3],
+        /// Multiplies the reflectance at every angle.
+        tint: Textured,
     },
 }
 
@@ -47,6 +49,8 @@ const ETA: Parameter = Parameter::new("eta", "Real part of the complex index of 
 
 const K: Parameter =
     Parameter::new("k", "Imaginary part of the index: how strongly the metal absorbs light.").symbol("k").required();
+
+const TINT: Parameter = Parameter::new("tint", "Multiplies the reflectance at every angle.").aliases("specular_reflectance");
 
 const F0: Parameter =
     Parameter::new("f0", "Reflectance at normal incidence; it rises to 1 at grazing angles by Schlick's approximation.")
@@ -70,7 +74,7 @@ impl OneOf for Reflectance {
 
     fn alternatives() -> Vec<Self> {
         vec![
-            Reflectance::Index { eta: [0.143, 0.374, 1.442], k: [3.983, 2.386, 1.603] },
+            Reflectance::index([0.143, 0.374, 1.442], [3.983, 2.386, 1.603]),
             Reflectance::default(),
             Reflectance::Constant(Textured::grey(0.9)),
         ]
@@ -94,9 +98,10 @@ impl OneOf for Reflectance {
 
     fn chosen(&mut self, p: &mut dyn Parameters) {
         match self {
-            Reflectance::Index { eta, k } => {
+            Reflectance::Index { eta, k, tint } => {
                 p.colour(&ETA, eta, INDICES);
                 p.colour(&K, k, INDICES);
+                p.textured(&TINT, tint, Range::REFLECTANCE);
             }
             Reflectance::Schlick(f0) => p.textured(&F0, f0, Range::REFLECTANCE),
             Reflectance::Constant(reflectance) => p.textured(&REFLECTANCE, reflectance, Range::REFLECTANCE),
@@ -107,13 +112,13 @@ impl OneOf for Reflectance {
 impl Reflectance {
     /// The reflectance of a complex index η + ik.
     pub fn index(eta: [f32; 3], k: [f32; 3]) -> Reflectance {
-        Reflectance::Index { eta: eta.map(f64::from), k: k.map(f64::from) }
+        Reflectance::Index { eta: eta.map(f64::from), k: k.map(f64::from), tint: Textured::grey(1.0) }
     }
 
-    /// The reflectance at normal incidence that a texture may vary; white with an index.
+    /// The reflectance at normal incidence, or the tint with an index: what a texture may vary.
     pub(super) fn colour(&self, compiler: &MaterialCompiler) -> Result<ColourSource, Problem> {
         match self {
-            Reflectance::Index { .. } => Ok(ColourSource::Constant([1.0; 3])),
+            Reflectance::Index { tint, .. } => compiler.colour(&TINT, tint, &Range::REFLECTANCE),
             Reflectance::Schlick(f0) => compiler.colour(&F0, f0, &Range::REFLECTANCE),
             Reflectance::Constant(reflectance) => compiler.colour(&REFLECTANCE, reflectance, &Range::REFLECTANCE),
         }
@@ -121,7 +126,7 @@ impl Reflectance {
 
     /// The largest channel of the reflectance at normal incidence, with an index.
     pub(super) fn head_on(&self) -> Option<f32> {
-        let Reflectance::Index { eta, k } = self else { return None };
+        let Reflectance::Index { eta, k, .. } = self else { return None };
         let channel = |c: usize| {
             let (eta, square) = (eta[c] as f32, (k[c] as f32).powi(2));
             ((eta - 1.0).powi(2) + square) / ((eta + 1.0).powi(2) + square)
@@ -147,7 +152,7 @@ impl ConductorRow {
         match reflectance {
             Reflectance::Constant(_) => Ok(none),
             Reflectance::Schlick(_) => Ok(ConductorRow { mode: SCHLICK, ..none }),
-            Reflectance::Index { eta, k } => {
+            Reflectance::Index { eta, k, .. } => {
                 if eta.iter().zip(k).any(|(eta, k)| *eta == 0.0 && *k == 0.0) {
                     return Err(Problem::at("eta", "`eta` and `k` are both 0", "no metal has such an index"));
                 }
@@ -187,7 +192,7 @@ impl ConductorRow {
 }
 
 impl<L: Lanes> ConductorFresnel<L> {
-    /// Reads the reflectance of materials; `colour` is the reflectance at normal incidence of lanes without an index.
+    /// Reads the reflectance of materials; `colour` is the reflectance at normal incidence, or the tint in lanes with an index.
     #[inline(always)]
     pub(super) fn read(l: L, materials: &Materials, material: U<L>, colour: V<L>) -> Self {
         let (average, mode) = ConductorRow::read_mode(l, materials, material);
@@ -209,13 +214,13 @@ impl<L: Lanes> ConductorFresnel<L> {
             y: conductor(cos, self.eta.y, self.k.y),
             z: conductor(cos, self.eta.z, self.k.z),
         };
-        self.indexed.pick(exact, schlick)
+        self.indexed.pick(exact * self.f0, schlick)
     }
 
     /// Reflectance averaged over diffuse light: 2 ∫₀¹ F(μ) μ dμ. Schlick's rise averages to 1/21.
     #[inline(always)]
     pub fn average(&self) -> V<L> {
-        self.indexed.pick(self.average, self.schlick(self.rise.splat(1.0 / 21.0)))
+        self.indexed.pick(self.average * self.f0, self.schlick(self.rise.splat(1.0 / 21.0)))
     }
 
     /// Schlick, "An Inexpensive BRDF Model for Physically-based Rendering", 1994, equation 15, with (1 − cos θ)⁵ given.

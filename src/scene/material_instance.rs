@@ -19,6 +19,8 @@ pub struct MaterialInstance {
     pub normal_map: Option<u32>,
     /// Whether bump and normal maps darken light at grazing angles.
     pub normal_shadowing: bool,
+    /// Whether normals of bump and normal maps that face away from the viewer are mirrored.
+    pub mirrored_normals: bool,
     /// Black from behind.
     pub one_sided: bool,
     /// Fraction of the light that meets the surface.
@@ -34,9 +36,12 @@ pub struct MaterialInstance {
 pub struct BlendParts {
     /// Numbers of the two materials.
     pub materials: [u32; 2],
-    /// Fraction of the second material.
+    /// Fraction of the second material, or [`BY_SIDE`].
     pub weight: NumberSource,
 }
+
+/// The weight of blends that are the first material on their front, and the second on their back.
+pub const BY_SIDE: f32 = -1.0;
 
 /// Properties of a surface. A blend has a property if one of its materials has it.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -61,7 +61,7 @@ pub use self::{
     legend::Legend,
     light_paths::EstimatorInForce,
     load::{LARGEST_FILE, load, load_watched, read_text},
-    material_instance::{BlendParts, MaterialInstance, Properties},
+    material_instance::{BY_SIDE, BlendParts, MaterialInstance, Properties},
     object::Object,
     parse::{BUILT_IN, built_in, describe, parse, parse_watched},
     projection::Projection,

@@ -20,6 +20,9 @@ pub struct RenderSettings {
     pub roulette: Roulette,
     /// The highest number of bounces counted, reflections and refractions alike; 0 is emitted light only, `None` is no cap.
     pub max_bounces: Option<u32>,
+    /// Whether crossing a surface by its opacity counts as a bounce for the cap.
+    #[serde(default)]
+    pub count_crossings: bool,
     /// Whether neighbouring pixels share path suffixes.
     pub reuse: Reuse,
     /// Whether pixels get more samples where a pilot found more noise. Not where they share paths.
@@ -88,6 +91,9 @@ impl RenderSettings {
             .symbol("k")
             .aliases("depth max_depth bounces max_bounce maxdepth")
             .advice("leave it out for no cap");
+    /// What counts as a bounce, as files and the window name it.
+    pub const COUNT_CROSSINGS: Parameter =
+        Parameter::new("count_crossings", "Whether passing a surface that is not opaque counts as a bounce for `max_bounces`.");
     /// How paths end, as files and the window name it.
     pub const ROULETTE: Parameter =
         Parameter::new("roulette", "Ends paths at random and weights the survivors, so that the mean does not change.")
@@ -114,6 +120,7 @@ impl Declare for RenderSettings {
             || Self::FIRST_CAP,
             |p, cap| p.count(&Self::MAX_BOUNCES, cap, CountRange::ANY),
         );
+        p.flag(&Self::COUNT_CROSSINGS, &mut self.count_crossings);
         p.optional_choice(&Self::ROULETTE, Form::NameOrTable, &mut self.roulette);
         p.word(&Self::REUSE, &mut self.reuse);
         p.flag(&Self::ADAPTIVE, &mut self.adaptive);

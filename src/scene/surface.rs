@@ -7,8 +7,8 @@ mod tests;
 mod word;
 
 pub use self::word::{
-    BLENDED, FLIPPED, FRONT, ONE_SIDED, SCATTERS_WHERE_BLACK, SELF_LIT, SHEET, SQUARED, STAGE_MASK, STAGE_SHIFT, is_set,
-    material, stage,
+    BLENDED, FLIPPED, FRONT, MIRRORED, ONE_SIDED, SCATTERS_WHERE_BLACK, SELF_LIT, SHADOWED, SHEET, SQUARED, STAGE_MASK,
+    STAGE_SHIFT, is_set, material, stage,
 };
 use self::{
     applied::AppliedMaterial,
@@ -32,7 +32,8 @@ pub struct Surfaces {
     /// Opacity, its texture (an id as above), and 1 for surfaces that are not all opaque or are blends. Filled if there are such
     /// surfaces.
     pub opacity: Vec<[f32; 4]>,
-    /// Weight of the second part of a blend, its texture (an id as above), and the rows of both parts as bits.
+    /// Weight of the second part of a blend or [`BY_SIDE`](super::BY_SIDE), its texture (an id as above), and the rows of both parts as
+    /// bits.
     pub blends: Vec<[f32; 4]>,
     /// Extinction of media per metre, in octaves; the first is empty space. Without tinted media the table is empty.
     pub media: Vec<[f32; 4]>,
@@ -123,7 +124,8 @@ impl Surfaces {
             let (heights, height) = applied.bump.map_or((None, 0.0), |(id, height)| (Some(id), height));
             let shadows = applied.normal_shadowing && applied.has_normals();
             self.normal_shadowing |= shadows;
-            self.relief.push([texture_bits(heights), height, texture_bits(applied.normal_map), f32::from(u8::from(shadows))]);
+            let of_normals = flag(shadows, SHADOWED) | flag(applied.mirrored_normals, MIRRORED);
+            self.relief.push([texture_bits(heights), height, texture_bits(applied.normal_map), f32::from_bits(of_normals)]);
         }
         if columns.transmittance {
             let (transmittance, texture) = compiled.transmittance.map_or(([0.0; 3], None), constant_and_texture);

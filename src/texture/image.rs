@@ -49,7 +49,9 @@ pub struct Image {
     pub filter: TexelFilter,
     /// Factors of u and v, applied first.
     pub scale: [f64; 2],
-    /// Rotation of u towards v, degrees, applied second.
+    /// What v adds to u, applied after the scale.
+    pub shear: f64,
+    /// Rotation of u towards v, degrees, applied after that.
     pub rotate: f64,
     /// Added to u and v at last.
     pub offset: [f64; 2],
@@ -65,6 +67,7 @@ impl Default for Image {
             wrap_v: Wrap::Repeat,
             filter: TexelFilter::Bilinear,
             scale: [1.0; 2],
+            shear: 0.0,
             rotate: 0.0,
             offset: [0.0; 2],
         }
@@ -85,7 +88,8 @@ impl Declare for Image {
         const WRAP_V: Parameter = Parameter::new("wrap_v", "What continues the image in v.");
         const FILTER: Parameter = Parameter::new("filter", "Interpolation between texels.");
         const SCALE: Parameter = Parameter::new("scale", "Factors of u and of v, which points downwards; applied first.");
-        const ROTATE: Parameter = Parameter::new("rotate", "Rotation of u towards v, applied second.").unit("°");
+        const SHEAR: Parameter = Parameter::new("shear", "What v adds to u, applied after the scale.");
+        const ROTATE: Parameter = Parameter::new("rotate", "Rotation of u towards v, applied after that.").unit("°");
         const OFFSET: Parameter = Parameter::new("offset", "Added to u and v at last.");
         p.value(&PATH, Value::File(&mut self.path));
         p.word(&ENCODING, &mut self.encoding);
@@ -94,6 +98,7 @@ impl Declare for Image {
         p.word(&WRAP_V, &mut self.wrap_v);
         p.word(&FILTER, &mut self.filter);
         p.value(&SCALE, Value::Pair(&mut self.scale));
+        p.number(&SHEAR, &mut self.shear, Range::linear(-1e4, 1e4));
         p.number(&ROTATE, &mut self.rotate, Range::FINITE);
         p.value(&OFFSET, Value::Pair(&mut self.offset));
     }
@@ -124,6 +129,9 @@ impl Texturing for Image {
     }
 }
 
+/// Steps of finite differences, in halves of a texel: small, because the slope of interpolated texels changes from one to the next.
+const SLOPE: f32 = 1.0 / 16.0;
+
 /// An image as the renderer looks it up.
 pub enum ImagePattern {
     /// With the default settings.
@@ -138,7 +146,7 @@ impl Pattern for ImagePattern {
             ImagePattern::Plain(image) => Summary {
                 mean: image.mean(),
                 maximum: image.maximum(),
-                steps: [image.step_u(), image.step_v(), f32::INFINITY],
+                steps: [image.step_u() * SLOPE, image.step_v() * SLOPE, f32::INFINITY],
                 lookups: 0,
             },
             ImagePattern::Sampled(image) => image.summary(),

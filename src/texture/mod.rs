@@ -195,7 +195,7 @@ impl Textures {
         self.colour(l, id, mask, at).dot_with(LUMINANCE)
     }
 
-    /// Steps of finite differences: half a texel of an image, 1/32 of a cell of a checker, 1/16 of a cell of the finest octave of
+    /// Steps of finite differences: 1/32 of a texel of an image, 1/32 of a cell of a checker, 1/16 of a cell of the finest octave of
     /// noise, and the minimum of nested textures. Every id must be valid.
     #[inline(always)]
     pub fn steps<L: Lanes>(&self, l: L, id: U<L>) -> Steps<L> {

@@ -80,6 +80,7 @@ impl Validation {
             directions: Directions::Cosine,
             roulette: Roulette::Off,
             max_bounces: None,
+            count_crossings: false,
             reuse: Reuse::Off,
             adaptive: false,
             seed: self.next_seed(),

@@ -120,7 +120,7 @@ fn materials() {
     };
     assert_eq!((nested.material, nested.compiled.inside), (rough.into(), Some([0.1, 0.2, 0.3])));
     assert_eq!(nested.compiled.alpha, AlphaSource::Constant(0.25));
-    let gold = Reflectance::Index { eta: [0.1, 0.2, 0.3], k: [3.0, 2.0, 1.0] };
+    let gold = Reflectance::Index { eta: [0.1, 0.2, 0.3], k: [3.0, 2.0, 1.0], tint: Textured::grey(1.0) };
     assert_eq!(
         material("conductor = { eta = [0.1, 0.2, 0.3], k = [3, 2, 1], alpha = 0.5 }"),
         Conductor { fresnel: gold, roughness: Roughness::alpha(0.5), energy_compensation: true, ..Conductor::default() }.into()

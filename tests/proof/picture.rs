@@ -21,6 +21,7 @@ pub fn settings(estimator: Estimator) -> RenderSettings {
         directions: Directions::Cosine,
         roulette: Roulette::BY_THROUGHPUT,
         max_bounces: None,
+        count_crossings: false,
         reuse: Reuse::Off,
         adaptive: false,
         // Estimators that are compared with each other share no random numbers.

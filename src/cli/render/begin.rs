@@ -79,6 +79,7 @@ impl Arguments {
             directions: self.directions.unwrap_or(of_scene.directions),
             roulette: self.roulette.unwrap_or(of_scene.roulette),
             max_bounces: self.max_bounces.map_or(of_scene.max_bounces, |cap| cap.0),
+            count_crossings: of_scene.count_crossings,
             reuse: self.reuse.unwrap_or(of_scene.reuse),
             adaptive: self.adaptive.unwrap_or(of_scene.adaptive),
             seed: self.seed.unwrap_or(of_scene.seed),

@@ -195,6 +195,9 @@ impl Export<'_> {
         }
         let index = self.document.add_once("textures", Value::Object(texture));
         let mut info = table(json!({ "index": index }));
+        if image.shear != 0.0 {
+            self.remark("the shear of an image", "no shear", "the texture lies elsewhere");
+        }
         let plain = Image::default();
         if (image.scale, image.rotate, image.offset) != (plain.scale, plain.rotate, plain.offset) {
             // Rotations of the format turn v towards u.
@@ -228,6 +231,6 @@ const REPEAT: u32 = 10497;
 
 /// An image with nothing but how it lies on the surface.
 pub fn placement(image: &Image) -> Image {
-    let Image { wrap_u, wrap_v, filter, scale, rotate, offset, .. } = *image;
-    Image { wrap_u, wrap_v, filter, scale, rotate, offset, ..Image::default() }
+    let Image { wrap_u, wrap_v, filter, scale, shear, rotate, offset, .. } = *image;
+    Image { wrap_u, wrap_v, filter, scale, shear, rotate, offset, ..Image::default() }
 }

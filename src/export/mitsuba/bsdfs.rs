@@ -101,11 +101,16 @@ impl Export<'_> {
     }
 
     fn blend(&mut self, blend: &Blend, one_sided: bool, depth: usize) -> Element {
-        let weight = self.number("weight", &blend.weight);
+        // The parts of a blend by side are within one `twosided`.
+        let one_sided = one_sided || blend.by_side;
         let parts = [&blend.first, &blend.second].map(|name| match self.material(name, one_sided, depth - 1) {
             Some(id) => Element::reference("", &id),
             None => self.surface(None),
         });
+        if blend.by_side {
+            return Element::plugin("bsdf", "twosided").with_all(parts);
+        }
+        let weight = self.number("weight", &blend.weight);
         Element::plugin("bsdf", "blendbsdf").with(weight).with_all(parts)
     }
 

@@ -1,7 +1,7 @@
 //! Lamps without surface, and the background.
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::PI;
 
-use glam::{DAffine3, DVec3};
+use glam::{DAffine3, DQuat, DVec3};
 
 use super::{
     super::{geometry::upwards, notes},
@@ -11,7 +11,7 @@ use super::{
 use crate::{
     image::Encoding,
     light::{
-        background::image::Image,
+        background::{image::Image, sky::SkyModel},
         lamp::{
             LampKind,
             projector::Projector,
@@ -105,14 +105,20 @@ impl Export<'_> {
                 element.transform("to_world", &turn(image))
             }
             BackgroundDescription::Sky(sky) => {
-                self.remark("a sky by Preetham", "`sunsky`", "another fit of the radiance and the color of the sky");
+                if sky.model == SkyModel::Preetham {
+                    self.remark("a sky by Preetham", "`sunsky`", "another fit of the radiance and the color of the sky");
+                }
+                let zenith = sky.zenith.normalize_or(DVec3::Y);
+                let diameter = sky.sun_diameter.map(|degrees| Element::number("sun_aperture", degrees));
                 Element::plugin("emitter", "sunsky")
+                    .with_all(diameter)
+                    .with_all((sky.model == SkyModel::Hosek).then(|| Element::color("albedo", sky.ground_albedo)))
                     .float("turbidity", sky.turbidity.clamp(1.0, 10.0))
                     .float("sky_scale", sky.sky_scale)
                     .float("sun_scale", sky.sun_scale)
                     .vector("sun_direction", sky.sun.normalize_or(DVec3::Y))
                     // Mitsuba's zenith is z.
-                    .transform("to_world", &DAffine3::from_rotation_x(-FRAC_PI_2))
+                    .transform("to_world", &DAffine3::from_quat(DQuat::from_rotation_arc(DVec3::Z, zenith)))
             }
             #[allow(unreachable_patterns, reason = "a kind that is added later")]
             other => {

@@ -21,7 +21,10 @@ impl Export<'_> {
         let is_smooth = is_smooth(&metal.roughness);
         let element = Element::plugin("bsdf", if is_smooth { "conductor" } else { "roughconductor" });
         let element = match &metal.fresnel {
-            Reflectance::Index { eta, k } => element.with(Element::color("eta", *eta)).with(Element::color("k", *k)),
+            Reflectance::Index { eta, k, tint } => {
+                let element = element.with(Element::color("eta", *eta)).with(Element::color("k", *k));
+                self.tint(element, "specular_reflectance", tint)
+            }
             Reflectance::Constant(color) | Reflectance::Schlick(color) => {
                 let color = self.color("specular_reflectance", color);
                 element.text("material", "none").with(color)

@@ -1,5 +1,5 @@
 //! Colors and numbers, constant or textured.
-use glam::{DAffine3, DVec2, DVec3};
+use glam::{DAffine3, DMat3, DVec2, DVec3};
 
 use super::{
     super::textures::{BAKED, luminance},
@@ -150,10 +150,11 @@ fn number_of(color: &Textured) -> Textured<f64> {
     }
 }
 
-/// Scale, rotation and offset of an image as a map of the plane.
+/// Scale, shear, rotation and offset of an image as a map of the plane.
 fn placement(image: &Image) -> DAffine3 {
     let scale = DAffine3::from_scale(DVec2::from(image.scale).extend(1.0));
     // A rotation by 0 must not round.
     let turn = if image.rotate == 0.0 { DAffine3::IDENTITY } else { DAffine3::from_rotation_z(image.rotate.to_radians()) };
-    DAffine3::from_translation(DVec2::from(image.offset).extend(0.0)) * turn * scale
+    let shear = DAffine3::from_mat3(DMat3::from_cols(DVec3::X, DVec3::new(image.shear, 1.0, 0.0), DVec3::Z));
+    DAffine3::from_translation(DVec2::from(image.offset).extend(0.0)) * turn * shear * scale
 }

@@ -45,7 +45,6 @@ pub fn read(path: &Path, options: &ImportOptions, folder: &Folder) -> Result<Imp
     import.description.title = title;
     scene(&mut import, root)?;
     unread::report(&mut import, root);
-    unread::crossings(&mut import);
     let Import { description, new_files, remarks, .. } = import;
     Ok(Imported { description, assets: new_files.assets, remarks })
 }

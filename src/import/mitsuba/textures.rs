@@ -43,7 +43,8 @@ impl Import {
         let Some(value) = element.property(name)? else { return Ok(Textured::Constant(default)) };
         match self.constant(value, Role::Index)? {
             Some([r, g, b]) if r == g && g == b => Ok(Textured::Constant(r)),
-            Some([r, g, b]) => Ok(Textured::Constant(0.2126 * r + 0.7152 * g + 0.0722 * b)),
+            // Mitsuba takes the mean of a colour, and the luminance of an image.
+            Some([r, g, b]) => Ok(Textured::Constant((r + g + b) / 3.0)),
             None => self.texture(value, TextureValue::Number).map(Textured::Texture),
         }
     }
@@ -143,18 +144,13 @@ impl Import {
         })
     }
 
-    /// Scale, rotation and offset of `to_uv`.
+    /// The placement by `to_uv`.
     fn placement(&mut self, element: Element) -> Result<Image, SceneError> {
         let map = element.transform("to_uv")?;
         let number = |name: &str, default: f64| element.number(name, default);
         let old = DMat4::from_scale(DVec2::new(number("uscale", 1.0)?, number("vscale", 1.0)?).extend(1.0))
             * DMat4::from_translation(DVec2::new(number("uoffset", 0.0)?, number("voffset", 0.0)?).extend(0.0));
-        let (placed, is_exact) = decomposed(map * old);
-        if !is_exact {
-            let used = "its scale, rotation and offset";
-            self.remark_value(element, "to_uv", used, "the texture is not sheared")?;
-        }
-        Ok(placed)
+        decomposed(map * old).ok_or_else(|| element.error("`to_uv` flattens the texture", "check its numbers"))
     }
 
     /// Squares of two colours. Where Mitsuba looks up a number, it exchanges the two (`Checkerboard::eval_1` in version 3.9).
@@ -170,7 +166,8 @@ impl Import {
         };
         let placed = self.placement(element)?;
         let [u, v] = placed.scale;
-        let is_plain = placed.rotate == 0.0 && placed.offset == [0.0; 2] && u == v && (1e-6..=5e4).contains(&u);
+        let is_plain =
+            placed.rotate == 0.0 && placed.shear == 0.0 && placed.offset == [0.0; 2] && u == v && (1e-6..=5e4).contains(&u);
         if is_plain {
             return Ok(Checker { even, odd, scale: 2.0 * u }.into());
         }
@@ -196,6 +193,11 @@ impl Import {
     }
 }
 
+/// Whether an image lies elsewhere than over the unit square.
+pub fn is_placed(image: &Image) -> bool {
+    image.scale != [1.0; 2] || image.shear != 0.0 || image.rotate != 0.0 || image.offset != [0.0; 2]
+}
+
 /// A number as a colour.
 fn grey(number: Textured<f64>) -> Textured {
     match number {
@@ -204,14 +206,19 @@ fn grey(number: Textured<f64>) -> Textured {
     }
 }
 
-/// Scale, rotation and offset of a map of the plane, and whether they are all of it.
-fn decomposed(map: DMat4) -> (Image, bool) {
+/// Scale, shear, rotation and offset of a map of the plane; `None` if it flattens the plane.
+fn decomposed(map: DMat4) -> Option<Image> {
     let column = |i: usize| map.col(i).truncate().truncate();
     let (u, v, offset) = (column(0), column(1), column(3));
     let rotate = u.y.atan2(u.x);
     let (along, across) = (DVec2::from_angle(rotate), DVec2::from_angle(rotate).perp());
-    let is_exact = v.dot(along).abs() <= 1e-9 * v.length();
-    let degrees = if u.y == 0.0 && u.x > 0.0 { 0.0 } else { rotate.to_degrees() };
     let scale = [u.length(), v.dot(across)];
-    (Image { scale, rotate: degrees, offset: offset.to_array(), ..Image::default() }, is_exact)
+    if scale[0] == 0.0 || scale[1].abs() <= 1e-12 * v.length() {
+        return None;
+    }
+    let degrees = if u.y == 0.0 && u.x > 0.0 { 0.0 } else { rotate.to_degrees() };
+    // Rotations and scales of the file round.
+    let shear = v.dot(along) / scale[1];
+    let shear = if shear.abs() <= 1e-9 { 0.0 } else { shear };
+    Some(Image { scale, shear, rotate: degrees, offset: offset.to_array(), ..Image::default() })
 }

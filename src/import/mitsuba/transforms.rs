@@ -1,5 +1,5 @@
 //! Transforms: the steps of a `<transform>` as a matrix.
-use glam::{DAffine3, DMat4, DVec3, DVec4};
+use glam::{DAffine3, DMat3, DMat4, DVec3, DVec4};
 
 use super::{tree::Element, values::words};
 use crate::{scene::SceneError, shape::Transform};
@@ -39,10 +39,16 @@ impl Element<'_> {
     }
 
     fn rotation(self) -> Result<DMat4, SceneError> {
-        let axis = self.components(0.0)?.try_normalize();
-        let axis = axis.ok_or_else(|| self.error("the axis of the rotation has no direction", "such as y=\"1\""))?;
+        let axis = self.components(0.0)?;
+        if axis == DVec3::ZERO {
+            return Err(self.error("the axis of the rotation has no direction", "such as y=\"1\""));
+        }
         let angle = self.parse_number(self.attribute("angle").unwrap_or("0"))?;
-        Ok(DMat4::from_axis_angle(axis, angle.to_radians()))
+        // Rodrigues' formula. Mitsuba does not normalize the axis, and another length than 1 distorts.
+        let (sin, cos) = angle.to_radians().sin_cos();
+        let cross = DMat3::from_cols(axis.cross(DVec3::X), axis.cross(DVec3::Y), axis.cross(DVec3::Z));
+        let outer = DMat3::from_cols(axis * axis.x, axis * axis.y, axis * axis.z);
+        Ok(DMat4::from_mat3(DMat3::IDENTITY * cos + cross * sin + outer * (1.0 - cos)))
     }
 
     /// Its x axis points to the left, y up and z forward.
@@ -60,13 +66,11 @@ impl Element<'_> {
         Ok(DMat4::from_cols(left.extend(0.0), up.extend(0.0), forward.extend(0.0), origin.extend(1.0)))
     }
 
-    /// Row by row: 16 numbers, or 9 for a plane, whose third column is the translation.
+    /// Row by row: 16 numbers, or the first three columns of the first three rows.
     fn matrix(self) -> Result<DMat4, SceneError> {
         let numbers = words(self.value()?).map(|word| self.parse_number(word)).collect::<Result<Vec<_>, _>>()?;
         match numbers[..] {
-            [a, b, x, c, d, y, e, f, w] => {
-                Ok(DMat4::from_cols_array_2d(&[[a, c, 0.0, e], [b, d, 0.0, f], [0.0, 0.0, 1.0, 0.0], [x, y, 0.0, w]]))
-            }
+            [a, b, c, d, e, f, g, h, i] => Ok(DMat4::from_mat3(DMat3::from_cols_array(&[a, d, g, b, e, h, c, f, i]))),
             _ => match <[f64; 16]>::try_from(numbers) {
                 Ok(rows) => Ok(DMat4::from_cols_array(&rows).transpose()),
                 Err(_) => Err(self.error("a matrix has 16 or 9 numbers", "write them row by row")),

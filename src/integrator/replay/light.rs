@@ -5,7 +5,14 @@ use super::{
 };
 use crate::{
     geometry::MISS,
-    integrator::{batch::Batch, queue::Register, records::Shadow, shading::LightEstimate, shadow::arriving, work::Work},
+    integrator::{
+        batch::Batch,
+        queue::Register,
+        records::Shadow,
+        shading::LightEstimate,
+        shadow::{arriving, crossings_left},
+        work::Work,
+    },
     math::{F, M, One, U, V},
 };
 
@@ -37,7 +44,8 @@ pub(super) fn sampled_light(
     let Some(at) = queued else { return light };
     let shadow = Shadow::read(One, &batch.shadows.shadows, at.start);
     let media = batch.shadows.media(One, at);
-    let end_of = |shadow: &Shadow<One>| arriving(One, work, M(true), shadow, media, batch.bounce + 1, &mut 0);
+    let left = crossings_left(One, work, &batch.crossings, M(true), &shadow, batch.bounce);
+    let end_of = |shadow: &Shadow<One>| arriving(One, work, (M(true), left), shadow, media, batch.bounce + 1, &mut 0);
     let arriving = end_of(&shadow);
     light.outcome = if arriving.seen.0 { Outcome::Seen } else { Outcome::Hidden };
     light.distance = Some(arriving.t.0).filter(|t| t.is_finite());

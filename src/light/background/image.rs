@@ -14,6 +14,7 @@ use std::{
 };
 
 use fearless_simd_macros::simd;
+use glam::DMat3;
 
 use self::{turn::Turn, weights::cell_means};
 use super::{Radiant, Surrounding};
@@ -220,6 +221,11 @@ impl ImageBackground {
     /// Turns the image about +y by `rotate` degrees, counter-clockwise seen from above.
     pub fn new(tables: Arc<SkyTables>, rotate: f64) -> ImageBackground {
         ImageBackground { tables, shift: (0.5 + rotate % 360.0 / 360.0).rem_euclid(1.0) as f32, turn: None }
+    }
+
+    /// The image after a rotation.
+    pub fn turned(self, rotation: Option<DMat3>) -> ImageBackground {
+        ImageBackground { turn: rotation.as_ref().and_then(Turn::of_matrix), ..self }
     }
 
     /// Mean luminance over all directions; 0 if and only if the image is black.

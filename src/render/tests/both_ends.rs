@@ -49,6 +49,7 @@ const SETTINGS: RenderSettings = RenderSettings {
     directions: crate::sampling::Directions::Bsdf,
     roulette: Roulette::Off,
     max_bounces: None,
+    count_crossings: false,
     reuse: Reuse::Off,
     adaptive: false,
     seed: 7,

@@ -40,6 +40,7 @@ const UNIFORM: RenderSettings = RenderSettings {
     directions: Directions::Uniform,
     roulette: Roulette::Off,
     max_bounces: None,
+    count_crossings: false,
     reuse: Reuse::Off,
     adaptive: false,
     seed: 3,

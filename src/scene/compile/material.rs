@@ -69,6 +69,7 @@ fn instance<'d>(
         bump: bump.transpose()?,
         normal_map: normal_map.transpose()?,
         normal_shadowing: described.normal_shadowing == Some(true),
+        mirrored_normals: described.mirrored_normals == Some(true),
         one_sided: described.two_sided == Some(false),
         opacity,
         blend: None,

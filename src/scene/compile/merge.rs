@@ -33,6 +33,7 @@ fn within(blend: &MaterialInstance, part: &MaterialInstance) -> Option<MaterialI
         bump: part.bump.or(blend.bump),
         normal_map: part.normal_map.or(blend.normal_map),
         normal_shadowing: blend.normal_shadowing || part.normal_shadowing,
+        mirrored_normals: blend.mirrored_normals || part.mirrored_normals,
         one_sided: blend.one_sided || part.one_sided,
         opacity,
         blend: part.blend,
@@ -48,7 +49,8 @@ fn mixed(
     weight: NumberSource,
     textures: &mut TextureCompiler,
 ) -> Option<MaterialInstance> {
-    let surface = |part: &MaterialInstance| (part.one_sided, part.opacity, part.bump, part.normal_map, part.normal_shadowing);
+    let normals = |part: &MaterialInstance| (part.bump, part.normal_map, part.normal_shadowing, part.mirrored_normals);
+    let surface = |part: &MaterialInstance| (part.one_sided, part.opacity, normals(part));
     if surface(&first) != surface(second) || first.blend.or(second.blend).is_some() {
         return None;
     }

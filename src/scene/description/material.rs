@@ -22,6 +22,8 @@ pub struct MaterialDescription {
     pub normal_map: Option<String>,
     /// Whether bump and normal maps darken light at grazing angles; `None` means that they do not.
     pub normal_shadowing: Option<bool>,
+    /// Whether normals of bump and normal maps that face away from the viewer are mirrored; `None` means that they are not.
+    pub mirrored_normals: Option<bool>,
     /// Whether the back reflects too; `None` means that it does.
     pub two_sided: Option<bool>,
     /// Fraction of the light that meets the surface; the rest passes. `None` means 1.
@@ -42,12 +44,19 @@ impl Declare for MaterialDescription {
              surface is not reciprocal. Default: false.",
         )
         .aliases("use_shadowing_function shadow_terminator");
+        const MIRRORED: Parameter = Parameter::new(
+            "mirrored_normals",
+            "Whether normals of bump and normal maps that face away from the viewer are mirrored in the normal of the surface, which \
+             replaces them otherwise. Default: false.",
+        )
+        .aliases("flip_invalid_normals");
         const TWO_SIDED: Parameter =
             Parameter::new("two_sided", "Whether the back reflects too. Default: true.").aliases("twosided double_sided");
         p.one_of(&mut self.kind);
         p.optional_table(&BUMP, &mut self.bump);
         p.optional(&NORMAL_MAP, &mut self.normal_map, String::new, |p, path| p.value(&NORMAL_MAP, Value::File(path)));
         p.optional(&SHADOWING, &mut self.normal_shadowing, || true, |p, shadowing| p.flag(&SHADOWING, shadowing));
+        p.optional(&MIRRORED, &mut self.mirrored_normals, || true, |p, mirrored| p.flag(&MIRRORED, mirrored));
         p.optional(&TWO_SIDED, &mut self.two_sided, || true, |p, two_sided| p.flag(&TWO_SIDED, two_sided));
         p.optional(
             &OPACITY,

@@ -22,6 +22,8 @@ pub struct AppliedMaterial<'a> {
     pub normal_map: Option<u32>,
     /// Whether bump and normal map darken light at grazing angles.
     pub normal_shadowing: bool,
+    /// Whether normals that face away from the viewer are mirrored.
+    pub mirrored_normals: bool,
 }
 
 /// The properties of a surface that its row depends on, as bits.
@@ -42,6 +44,7 @@ impl<'a> AppliedMaterial<'a> {
             bump: instance.bump,
             normal_map: instance.normal_map,
             normal_shadowing: instance.normal_shadowing,
+            mirrored_normals: instance.mirrored_normals,
         })
     }
 
@@ -56,6 +59,7 @@ impl<'a> AppliedMaterial<'a> {
             bump: instance.bump.or(self.bump),
             normal_map: instance.normal_map.or(self.normal_map),
             normal_shadowing: self.normal_shadowing || instance.normal_shadowing,
+            mirrored_normals: self.mirrored_normals || instance.mirrored_normals,
             ..*self
         }
     }
@@ -75,7 +79,7 @@ impl<'a> AppliedMaterial<'a> {
 
     /// Equal for surfaces with equal rows.
     pub fn key(&self) -> Key {
-        let flags = [self.flip, self.emits, self.smooth, self.one_sided, self.normal_shadowing];
+        let flags = [self.flip, self.emits, self.smooth, self.one_sided, self.normal_shadowing, self.mirrored_normals];
         let flags = flags.into_iter().fold(0, |bits, flag| bits << 1 | u32::from(flag));
         let (bump, height) = self.bump.map_or((0, 0.0), |(id, height)| (id + 1, height));
         [self.number, flags, bump, height.to_bits(), self.normal_map.map_or(0, |id| id + 1)]

@@ -5,7 +5,7 @@
 use std::collections::BTreeMap;
 
 use super::{
-    BLENDED, Columns, Surfaces,
+    BLENDED, Columns, FLIPPED, Surfaces,
     applied::{AppliedMaterial, Key},
     rows::number_row,
 };
@@ -50,7 +50,8 @@ impl<'a> BlendRows<'a> {
             let [weight, texture] = number_row(weight);
             let node = self.surfaces.blends.len() as u32;
             self.surfaces.blends.push([weight, texture, f32::from_bits(parts[0] as u32), f32::from_bits(parts[1] as u32)]);
-            self.surfaces.rows[row] = [f32::from_bits(node), 0.0, 0.0, f32::from_bits(BLENDED)];
+            let word = BLENDED | if applied.flip { FLIPPED } else { 0 };
+            self.surfaces.rows[row] = [f32::from_bits(node), 0.0, 0.0, f32::from_bits(word)];
             // The medium that a camera inside the object is in.
             let media = parts.map(|part| self.surfaces.varying[part][3]);
             self.surfaces.varying[row][3] = media.into_iter().find(|medium| medium.to_bits() != 0).unwrap_or(0.0);

@@ -23,6 +23,10 @@ pub const SCATTERS_WHERE_BLACK: u32 = 1 << 25;
 pub const SHEET: u32 = 1 << 30;
 /// Flag: a blend. The first column of the row holds its index in [`super::Surfaces::blends`] as bits.
 pub const BLENDED: u32 = 1 << 26;
+/// Flag of [`super::Surfaces::relief`]: normals darken light at grazing angles.
+pub const SHADOWED: u32 = 1;
+/// Flag of [`super::Surfaces::relief`]: normals that face away from the viewer are mirrored.
+pub const MIRRORED: u32 = 2;
 /// Flag, set while rendering: the path hit the front.
 pub const FRONT: u32 = 1 << 31;
 

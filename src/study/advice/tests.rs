@@ -23,6 +23,7 @@ const IN_USE: RenderSettings = RenderSettings {
     directions: crate::sampling::Directions::Bsdf,
     roulette: Roulette::fixed(0.3),
     max_bounces: None,
+    count_crossings: false,
     reuse: Reuse::Off,
     adaptive: false,
     seed: 7,

@@ -4,7 +4,7 @@ use std::sync::Arc;
 use fearless_simd_macros::simd;
 
 use super::{
-    Image,
+    Image, SLOPE,
     mean::{Axis, weighted_sum},
     texels::ImageTexture,
     uv_map::UvMap,
@@ -119,11 +119,12 @@ impl SampledImage {
         }
     }
 
-    /// Steps of u and of v that move by half a texel at most.
+    /// Steps of finite differences of u and of v.
     fn steps(&self) -> [f32; 3] {
         let [width, height] = self.texels.size().map(f64::from);
         let [[a, b, _], [d, e, _]] = self.map.0;
-        let step = |along_s: f64, along_t: f64| (0.5 / f64::max(along_s.abs() * width, along_t.abs() * height)).min(0.5) as f32;
+        let step =
+            |along_s: f64, along_t: f64| (0.5 / f64::max(along_s.abs() * width, along_t.abs() * height)).min(0.5) as f32 * SLOPE;
         [step(a, d), step(b, e), f32::INFINITY]
     }
 }

@@ -1,4 +1,4 @@
-//! Scale, rotation and offset of texture coordinates.
+//! Scale, shear, rotation and offset of texture coordinates.
 use super::Image;
 use crate::{
     declare::Problem,
@@ -10,7 +10,8 @@ use crate::{
 pub struct UvMap(pub [[f64; 3]; 2]);
 
 impl UvMap {
-    /// The map of an image's settings: first its scale, then its rotation from u towards v, then its offset. Fails for numbers that
+    /// The map of an image's settings: first its scale, then its shear, its rotation from u towards v,
+    /// and its offset. Fails for numbers that
     /// f32 has no room for.
     pub fn new(image: &Image) -> Result<UvMap, Problem> {
         /// The lookup resolves a thousandth of an image beyond this distance from it.
@@ -26,7 +27,8 @@ impl UvMap {
         }
         let ([scale_u, scale_v], [u, v]) = (image.scale, image.offset);
         let (sin, cos) = sin_cos_degrees(image.rotate);
-        Ok(UvMap([[cos * scale_u, -sin * scale_v, u], [sin * scale_u, cos * scale_v, v]]))
+        let [along_u, along_v] = [cos * image.shear - sin, sin * image.shear + cos];
+        Ok(UvMap([[cos * scale_u, along_u * scale_v, u], [sin * scale_u, along_v * scale_v, v]]))
     }
 
     /// The coordinates in the image.

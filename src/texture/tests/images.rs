@@ -105,7 +105,7 @@ fn default_settings_give_the_bits_of_the_plain_lookup() {
     }
     assert_eq!(
         (found.summary().maximum, found.summary().steps),
-        (plain.maximum(), [plain.step_u(), plain.step_v(), f32::INFINITY])
+        (plain.maximum(), [plain.step_u() / 16.0, plain.step_v() / 16.0, f32::INFINITY])
     );
 }
 

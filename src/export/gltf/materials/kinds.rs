@@ -53,10 +53,13 @@ impl Export<'_> {
                 self.grazing(color);
                 color.clone()
             }
-            Reflectance::Index { eta, k } => {
+            Reflectance::Index { eta, k, tint } => {
                 let effect = "the color at grazing angles is slightly different";
                 self.remark("a metal with `eta` and `k`", "Schlick's approximation", effect);
-                Textured::Constant(std::array::from_fn(|i| head_on(eta[i], k[i])))
+                match tint {
+                    Textured::Constant(tint) => Textured::Constant(std::array::from_fn(|i| tint[i] * head_on(eta[i], k[i]))),
+                    textured @ Textured::Texture(_) => textured.clone(),
+                }
             }
         };
         let specular_roughness = self.facets(&metal.roughness, metal.distribution, metal.energy_compensation);

@@ -54,6 +54,9 @@ impl Export<'_> {
         if material.normal_shadowing == Some(true) {
             self.remark("`normal_shadowing`", "no shadowing", "light that grazes the relief is brighter");
         }
+        if material.mirrored_normals == Some(true) {
+            self.remark("`mirrored_normals`", "the normal map as it is", "steep relief may be darker");
+        }
         let stem = path.rsplit(['/', '\\']).next().and_then(|file| file.split('.').next()).unwrap_or_default();
         let file = match self.is_web_image(path)? {
             true => self.new.name(path),

@@ -66,7 +66,7 @@ impl Export<'_> {
         for _ in 0..DEEPEST {
             let Material::Blend(blend) = &found.kind else { break };
             let weight = self.colors.mean_number(&blend.weight);
-            let chosen = if weight > 0.5 { &blend.second } else { &blend.first };
+            let chosen = if weight > 0.5 && !blend.by_side { &blend.second } else { &blend.first };
             let part = self.description.materials.get(chosen).cloned().unwrap_or_default();
             found = MaterialDescription {
                 two_sided: found.two_sided.filter(|two_sided| !two_sided).or(part.two_sided),

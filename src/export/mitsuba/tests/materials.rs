@@ -50,7 +50,7 @@ fn plain(kind: impl Into<Material>) -> MaterialDescription {
 #[test]
 fn materials_with_a_plugin_come_back() {
     let alpha = |alpha| Roughness::Alpha(Textured::Constant(alpha));
-    let index = Reflectance::Index { eta: [0.25, 0.5, 1.5], k: [3.5, 2.5, 2.0] };
+    let index = Reflectance::Index { eta: [0.25, 0.5, 1.5], k: [3.5, 2.5, 2.0], tint: Textured::Constant([0.5, 1.0, 0.25]) };
     let cases: Vec<MaterialDescription> = vec![
         plain(Lambertian { albedo: [0.1, 0.2, 0.3].into() }),
         plain(Lambertian { albedo: Textured::Texture("squares".to_owned()) }),
@@ -61,11 +61,15 @@ fn materials_with_a_plugin_come_back() {
         plain(Dielectric { roughness: alpha(0.5), energy_compensation: false, ..Dielectric::default() }),
         plain(ThinDielectric { ior: 1.75, ..ThinDielectric::default() }),
         plain(Plastic { ior: 1.5, albedo: [0.2, 0.4, 0.6].into(), ..Plastic::default() }),
-        plain(Blend { first: "part".to_owned(), second: "part".to_owned(), weight: Textured::Constant(0.25) }),
+        plain(Blend { first: "part".to_owned(), second: "part".to_owned(), weight: Textured::Constant(0.25), by_side: false }),
         plain(Null),
         MaterialDescription { two_sided: Some(false), ..plain(Lambertian::default()) },
         MaterialDescription { opacity: Some(Textured::Texture("squares".to_owned())), ..plain(Lambertian::default()) },
-        MaterialDescription { bump: Some(Bump { texture: "bricks".to_owned(), height: 0.125 }), ..plain(Lambertian::default()) },
+        MaterialDescription {
+            bump: Some(Bump { texture: "bricks".to_owned(), height: 0.125 }),
+            mirrored_normals: Some(true),
+            ..plain(Lambertian::default())
+        },
     ];
     for case in cases {
         let (found, remarks) = of(case.clone());

@@ -2,6 +2,7 @@
 use super::{
     super::{
         context::{Import, TextureValue},
+        textures::is_placed,
         tree::Element,
     },
     transparent,
@@ -34,11 +35,11 @@ pub fn two_sided(import: &mut Import, element: Element, _: bool) -> Result<Mater
     let sides = nested(element)?;
     match sides[..] {
         [front] => import.material(front, true),
+        [front, back] if front.index == back.index => import.material(front, true),
         [front, back] => {
-            if front.index != back.index {
-                import.remark(back, "the material of the front", "the back looks like the front");
-            }
-            import.material(front, true)
+            let first = import.surface(front, true)?.material;
+            let second = import.surface(back, true)?.material;
+            Ok(transparent(Blend { first, second, by_side: true, ..Blend::default() }))
         }
         _ => Err(element.error("a `twosided` needs one or two BSDFs within it", "nest them, or refer to them")),
     }
@@ -67,7 +68,7 @@ pub fn blend(import: &mut Import, element: Element, two_sided: bool) -> Result<M
     let [first, second] = [import.surface(first, two_sided)?.material, import.surface(second, two_sided)?.material];
     let has_back = |name: &String| import.description.materials.get(name).is_none_or(|part| part.two_sided != Some(false));
     let sides = if has_back(&first) || has_back(&second) { None } else { Some(false) };
-    Ok(MaterialDescription { two_sided: sides, ..transparent(Blend { first, second, weight }) })
+    Ok(MaterialDescription { two_sided: sides, ..transparent(Blend { first, second, weight, by_side: false }) })
 }
 
 pub fn null(_: &mut Import, _: Element, _: bool) -> Result<MaterialDescription, SceneError> {
@@ -86,11 +87,12 @@ pub fn bump_map(import: &mut Import, element: Element, two_sided: bool) -> Resul
     }
     let texture = import.texture(heights, TextureValue::Number)?;
     let height = element.number("scale", 1.0)?.clamp(-1e6, 1e6);
-    Ok(MaterialDescription { bump: Some(Bump { texture, height }), normal_shadowing: normal_shadowing(element)?, ..inner })
+    let relief = relief(import, element)?;
+    Ok(MaterialDescription { bump: Some(Bump { texture, height }), ..relief.over(inner) })
 }
 
 pub fn normal_map(import: &mut Import, element: Element, two_sided: bool) -> Result<MaterialDescription, SceneError> {
-    let normal_shadowing = normal_shadowing(element)?;
+    let relief = relief(import, element)?;
     let inner = import.material(only(element)?, two_sided)?;
     let normals = match element.property("normalmap")? {
         Some(normals) => normals,
@@ -110,20 +112,39 @@ pub fn normal_map(import: &mut Import, element: Element, two_sided: bool) -> Res
         import.remark(normals, "its linear values", "normals are tilted by other angles");
     }
     let plain = Image { path: image.path.clone(), encoding: image.encoding, filter: image.filter, ..Image::default() };
-    if image != plain
-        && (image.wrap_u != Wrap::Repeat || image.scale != [1.0; 2] || image.rotate != 0.0 || image.offset != [0.0; 2])
-    {
+    if image != plain && (image.wrap_u != Wrap::Repeat || is_placed(&image)) {
         import.remark(normals, "the image over the unit square, repeated", "the normals lie elsewhere");
     }
     if inner.normal_map.is_some() {
         import.remark(element, "the inner normal map", "the outer one is missing");
         return Ok(inner);
     }
-    Ok(MaterialDescription { normal_map: Some(image.path), normal_shadowing, ..inner })
+    Ok(MaterialDescription { normal_map: Some(image.path), ..relief.over(inner) })
 }
 
-/// Whether tilted normals darken light at grazing angles; in Mitsuba 3.9 they do by default. Ours never face away from the viewer.
-fn normal_shadowing(element: Element) -> Result<Option<bool>, SceneError> {
-    element.ignore(&["flip_invalid_normals"]);
-    Ok(element.flag("use_shadowing_function", true)?.then_some(true))
+/// What Mitsuba does with tilted normals; since version 3.7.1, both by default.
+struct Relief {
+    /// Whether they darken light at grazing angles.
+    shadows: bool,
+    /// Whether those that face away from the viewer are mirrored.
+    mirrored: bool,
+}
+
+impl Relief {
+    fn over(&self, inner: MaterialDescription) -> MaterialDescription {
+        MaterialDescription {
+            normal_shadowing: inner.normal_shadowing.or(self.shadows.then_some(true)),
+            mirrored_normals: inner.mirrored_normals.or(self.mirrored.then_some(true)),
+            ..inner
+        }
+    }
+}
+
+fn relief(import: &mut Import, element: Element) -> Result<Relief, SceneError> {
+    let mirrored = element.flag("flip_invalid_normals", true)?;
+    if !mirrored {
+        let used = "the normal of the surface for those that face away";
+        import.remark_value(element, "flip_invalid_normals", used, "steep relief is brighter")?;
+    }
+    Ok(Relief { shadows: element.flag("use_shadowing_function", true)?, mirrored })
 }

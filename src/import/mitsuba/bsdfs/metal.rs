@@ -6,10 +6,7 @@ use super::{
 };
 use crate::{
     material::{Conductor, Reflectance, Roughness},
-    scene::{
-        SceneError,
-        description::{MaterialDescription, Textured},
-    },
+    scene::{SceneError, description::MaterialDescription},
 };
 
 pub fn conductor(import: &mut Import, element: Element, two_sided: bool) -> Result<MaterialDescription, SceneError> {
@@ -28,22 +25,7 @@ pub fn rough_conductor(import: &mut Import, element: Element, two_sided: bool) -
 fn reflectance(import: &mut Import, element: Element) -> Result<Reflectance, SceneError> {
     let tint = import.colour(element, "specular_reflectance", 1.0, Role::Reflectance)?;
     let Some((eta, k)) = indices(import, element)? else { return Ok(Reflectance::Constant(tint)) };
-    if tint == Textured::grey(1.0) {
-        return Ok(Reflectance::Index { eta, k });
-    }
-    let head_on = [0, 1, 2].map(|c| {
-        let square = k[c] * k[c];
-        ((eta[c] - 1.0).powi(2) + square) / ((eta[c] + 1.0).powi(2) + square)
-    });
-    let effect = "the metal is as bright head-on, and brighter at grazing angles";
-    import.remark_value(element, "specular_reflectance", "Schlick's approximation of its reflectance", effect)?;
-    Ok(Reflectance::Schlick(match tint {
-        Textured::Constant(tint) => Textured::Constant([0, 1, 2].map(|c| (tint[c] * head_on[c]).clamp(0.0, 1.0))),
-        textured @ Textured::Texture(_) => {
-            let product = crate::texture::product::Product { a: textured, b: Textured::Constant(head_on) };
-            Textured::Texture(import.add_texture(&format!("{} reflectance", element.label()), product))
-        }
-    }))
+    Ok(Reflectance::Index { eta, k, tint })
 }
 
 /// η and k per channel.

@@ -83,7 +83,7 @@ pub fn principled_thin(import: &mut Import, element: Element, _: bool) -> Result
         import.description.materials.insert(name.clone(), material);
         name
     });
-    Ok(transparent(Blend { first, second, weight }))
+    Ok(transparent(Blend { first, second, weight, ..Blend::default() }))
 }
 
 /// Rates of sampling have no effect on the image.

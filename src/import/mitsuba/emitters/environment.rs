@@ -6,7 +6,11 @@ use super::{
     sun,
 };
 use crate::{
-    light::background::{constant::Constant, image::Image, sky::Sky},
+    light::background::{
+        constant::Constant,
+        image::Image,
+        sky::{Sky, SkyModel},
+    },
     scene::{
         SceneError,
         description::{BackgroundDescription, Textured},
@@ -45,7 +49,7 @@ pub fn image(import: &mut Import, element: Element) -> Result<(), SceneError> {
 }
 
 pub fn sky(import: &mut Import, element: Element) -> Result<(), SceneError> {
-    element.ignore(&["complex_sun", "stretch", "resolution", "sun_radius_scale"]);
+    const MODEL: [f64; 2] = [1.0, 10.0];
     let map = element.affine("to_world")?;
     let turbidity = element.number("turbidity", 3.0)?;
     let [sky_scale, sun_scale] = match element.kind() {
@@ -58,17 +62,36 @@ pub fn sky(import: &mut Import, element: Element) -> Result<(), SceneError> {
         None => map.transform_vector3(sun::direction(element)?),
     };
     let sun = sun.try_normalize().ok_or_else(|| element.error("the direction of the sun is zero", "such as 0, 0, 1"))?;
-    if !(1.7..=10.0).contains(&turbidity) {
-        import.remark_value(element, "turbidity", "the nearest one from 1.7 to 10", "the sky is less clear")?;
+    let ground_albedo = match import.colour(element, "albedo", 0.3, Role::Reflectance)? {
+        Textured::Constant(albedo) => albedo,
+        Textured::Texture(_) => return Err(element.error("the albedo of the ground cannot be a texture", "use `<rgb>`")),
+    };
+    let known_turbidity = turbidity.clamp(MODEL[0], MODEL[1]);
+    if known_turbidity != turbidity {
+        import.remark_value(element, "turbidity", "the nearest one from 1 to 10", "the sky has another haze")?;
     }
-    import.remark_value(element, "albedo", "the ground of our sky", "the horizon has another brightness")?;
-    import.remark_value(element, "sun_aperture", "a sun of 0.53°", "shadows have other edges")?;
-    // Mitsuba's zenith is z.
-    let zenith = map.transform_vector3(DVec3::Z).normalize_or(DVec3::Z);
-    if !zenith.abs_diff_eq(DVec3::Y, 1e-6) {
-        import.remark(element, "a sky whose zenith is +y", "the horizon stands upright");
+    let sun_diameter = element.optional_number("sun_aperture")?;
+    let known_diameter = sun_diameter.map(|degrees| degrees.clamp(0.05, 90.0));
+    if known_diameter != sun_diameter {
+        import.remark_value(element, "sun_aperture", "the nearest one from 0.05° to 90°", "shadows have other edges")?;
     }
-    import.remark(element, "our sky", "another fit of the radiance and the color of the sky");
-    set(import, element, Sky { sun, turbidity: turbidity.clamp(1.7, 10.0), sky_scale, sun_scale });
+    if element.flag("complex_sun", false)? {
+        import.remark_value(element, "complex_sun", "a sun of equal radiance", "the sun's limb is brighter")?;
+    }
+    if sun_scale > 0.0 {
+        import.remark(element, "a sun whose edge is blurred over 0.2°", "shadows have slightly softer edges");
+    }
+    let background = Sky {
+        sun,
+        turbidity: known_turbidity,
+        sky_scale: sky_scale.clamp(0.0, 1e12),
+        sun_scale: sun_scale.clamp(0.0, 1e12),
+        model: SkyModel::Hosek,
+        ground_albedo,
+        sun_diameter: known_diameter,
+        // Mitsuba's zenith is z.
+        zenith: map.transform_vector3(DVec3::Z).normalize_or(DVec3::Z),
+    };
+    set(import, element, background);
     Ok(())
 }

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 use glam::{DAffine3, DVec3};
 
 use super::{
-    super::{colours::Role, context::Import, fov, tree::Element},
+    super::{colours::Role, context::Import, fov, textures::is_placed, tree::Element},
     picture,
 };
 use crate::{
@@ -51,7 +51,7 @@ pub fn spot(import: &mut Import, element: Element) -> Result<(), SceneError> {
     if let Some(texture) = element.property("texture")? {
         if texture.kind() == "bitmap" && angle < 89.0 {
             let image = import.bitmap(texture)?;
-            if image.scale != [1.0; 2] || image.rotate != 0.0 || image.offset != [0.0; 2] {
+            if is_placed(&image) {
                 import.remark(texture, "the image without `to_uv`", "the picture lies elsewhere");
             }
             return add(import, element, of_picture(&map, image, intensity, [inner, angle]));
@@ -97,7 +97,7 @@ pub fn projector(import: &mut Import, element: Element) -> Result<(), SceneError
             let image = import.bitmap(irradiance)?;
             let aspect =
                 picture::aspect(import, &image).ok_or_else(|| irradiance.error("the image cannot be read", "check the file"))?;
-            if image.scale != [1.0; 2] || image.rotate != 0.0 || image.offset != [0.0; 2] {
+            if is_placed(&image) {
                 import.remark(irradiance, "the image without `to_uv`", "the picture lies elsewhere");
             }
             (image.path, image.encoding, aspect)

@@ -14,7 +14,7 @@ const PARALLAX: f64 = 6371.01 / 149_597_890.0;
 /// The direction towards the sun in a frame with z up; the defaults are those of Mitsuba, an afternoon in Tokyo.
 pub fn direction(element: Element) -> Result<DVec3, SceneError> {
     let number = |name: &str, default: f64| element.number(name, default);
-    let (latitude, longitude) = (number("latitude", 35.689)?, number("longitude", 139.6917)?);
+    let (latitude, longitude) = (number("latitude", 35.6894)?, number("longitude", 139.6917)?);
     let hour = number("hour", 15.0)? + (number("minute", 0.0)? + number("second", 0.0)? / 60.0) / 60.0;
     let date = [number("year", 2010.0)?, number("month", 7.0)?, number("day", 10.0)?].map(|x| x.clamp(-1e6, 1e6) as i64);
     Ok(towards_sun([latitude, longitude], date, hour - number("timezone", 9.0)?))
@@ -40,7 +40,8 @@ fn towards_sun([latitude, longitude]: [f64; 2], date: [i64; 3], hours: f64) -> D
         (latitude.cos() * hour_angle.cos() * declination.cos() + declination.sin() * latitude.sin()).clamp(-1.0, 1.0).acos();
     let azimuth = (-hour_angle.sin()).atan2(declination.tan() * latitude.cos() - latitude.sin() * hour_angle.cos());
     let zenith = zenith + PARALLAX * zenith.sin();
-    DVec3::new(zenith.sin() * azimuth.cos(), zenith.sin() * azimuth.sin(), zenith.cos())
+    // Mitsuba's x axis points south, and y west.
+    DVec3::new(-zenith.sin() * azimuth.cos(), -zenith.sin() * azimuth.sin(), zenith.cos())
 }
 
 /// The Julian day of noon.
@@ -64,6 +65,9 @@ mod tests {
         // At noon of the June solstice, in London and on the tropic.
         assert!((elevation([51.5, 0.0], [2020, 6, 20], 12.0) - 61.9).abs() < 0.2);
         assert!((elevation([23.44, 0.0], [2020, 6, 20], 12.03) - 90.0).abs() < 0.6);
+        // That of Mitsuba 3.9 by default: in the afternoon it stands in the west.
+        let tokyo = towards_sun([35.6894, 139.6917], [2010, 7, 10], 15.0 - 9.0);
+        assert!(tokyo.abs_diff_eq(DVec3::new(0.051_385_4, 0.691_748, 0.720_308), 1e-3), "{tokyo}");
         // At midnight it is below the horizon.
         assert!(elevation([51.5, 0.0], [2020, 12, 21], 0.0) < -50.0);
     }

@@ -4,7 +4,10 @@ use glam::DVec3;
 use super::{SENSOR, object, read_with, remarks, scene};
 use crate::{
     import::ImportOptions,
-    light::lamp::{LampKind, spot::Falloff},
+    light::{
+        background::sky::SkyModel,
+        lamp::{LampKind, spot::Falloff},
+    },
     scene::description::{BackgroundDescription, EmissionSource},
     shape::product,
 };
@@ -113,5 +116,12 @@ fn backgrounds_are_constant_images_or_skies() {
     let sky = background(
         "<emitter type=\"sunsky\"><vector name=\"sun_direction\" value=\"1, 0, 1\"/><float name=\"sun_scale\" value=\"0\"/></emitter>",
     );
-    assert!(matches!(sky, BackgroundDescription::Sky(sky) if sky.sun_scale == 0.0 && sky.turbidity == 3.0 && sky.sun.x > 0.7));
+    let BackgroundDescription::Sky(sky) = sky else { panic!("not a sky") };
+    assert_eq!((sky.sun_scale, sky.turbidity, sky.model, sky.zenith), (0.0, 3.0, SkyModel::Hosek, DVec3::Z));
+    assert!(sky.sun.x > 0.7 && sky.ground_albedo == [0.3; 3] && sky.sun_diameter.is_none());
+    let upright = "<emitter type=\"sunsky\"><rgb name=\"albedo\" value=\"0.1, 0.2, 0.6\"/><float name=\"sun_aperture\" value=\"5\"/>\
+        <transform name=\"to_world\"><rotate x=\"1\" angle=\"-90\"/></transform></emitter>";
+    let BackgroundDescription::Sky(sky) = background(upright) else { panic!("not a sky") };
+    assert!(sky.zenith.abs_diff_eq(DVec3::Y, 1e-12) && sky.sun.y > 0.7, "{} {}", sky.zenith, sky.sun);
+    assert_eq!((sky.ground_albedo, sky.sun_diameter), ([0.1, 0.2, 0.6], Some(5.0)));
 }

@@ -51,7 +51,10 @@ fn metals_have_names_indices_or_are_mirrors() {
     let gold = reflectance("<bsdf type=\"conductor\"><string name=\"material\" value=\"Au\"/></bsdf>");
     assert!(matches!(gold, Reflectance::Index { eta, .. } if (eta[2] - 1.4425).abs() < 1e-3));
     let given = "<bsdf type=\"conductor\"><spectrum name=\"eta\" value=\"0.789\"/><spectrum name=\"k\" value=\"6.15\"/></bsdf>";
-    assert_eq!(reflectance(given), Reflectance::Index { eta: [0.789; 3], k: [6.15; 3] });
+    assert_eq!(reflectance(given), Reflectance::Index { eta: [0.789; 3], k: [6.15; 3], tint: Textured::grey(1.0) });
+    let tinted = "<bsdf type=\"conductor\"><string name=\"material\" value=\"Cu_palik\"/>\
+        <rgb name=\"specular_reflectance\" value=\"0.5\"/></bsdf>";
+    assert!(matches!(reflectance(tinted), Reflectance::Index { tint, .. } if tint == Textured::grey(0.5)));
     let mirror = "<bsdf type=\"conductor\"><rgb name=\"specular_reflectance\" value=\"0.5\"/></bsdf>";
     assert_eq!(reflectance(mirror), Reflectance::Constant(Textured::grey(0.5)));
 }
@@ -117,6 +120,9 @@ fn masks_bumps_and_blends_keep_what_they_hold() {
         "<bsdf type=\"mask\"><float name=\"opacity\" value=\"0.25\"/><bsdf type=\"twosided\"><bsdf type=\"diffuse\"/></bsdf></bsdf>",
     );
     assert_eq!((masked.opacity, masked.two_sided), (Some(Textured::Constant(0.25)), None));
+    let (masked, _) =
+        material("<bsdf type=\"mask\"><rgb name=\"opacity\" value=\"0.25 0.5 0.75\"/><bsdf type=\"diffuse\"/></bsdf>");
+    assert_eq!(masked.opacity, Some(Textured::Constant(0.5)));
     let (nothing, _) = material("<bsdf type=\"null\"/>");
     assert!(matches!(nothing.kind, Material::Null(_)));
     let text = "<bsdf type=\"blendbsdf\" id=\"both\"><float name=\"weight\" value=\"0.3\"/><bsdf type=\"diffuse\"/>\
@@ -129,6 +135,29 @@ fn masks_bumps_and_blends_keep_what_they_hold() {
         <bsdf type=\"diffuse\"/></bsdf>";
     let bump = material(text).0.bump.expect("it is bumpy");
     assert_eq!((bump.texture.as_str(), bump.height), ("squares", 2.0));
+}
+
+#[test]
+fn a_twosided_of_two_materials_has_each_on_its_side() {
+    let text = "<bsdf type=\"twosided\"><bsdf type=\"diffuse\" id=\"red\"/><bsdf type=\"plastic\" id=\"blue\"/></bsdf>";
+    let (both, imported) = material(text);
+    let Material::Blend(blend) = both.kind else { panic!("not a blend") };
+    assert_eq!((blend.first.as_str(), blend.second.as_str(), blend.by_side, both.two_sided), ("red", "blue", true, None));
+    assert!(imported.description.materials.values().all(|part| part.two_sided.is_none()));
+    let (same, imported) = material("<bsdf type=\"twosided\"><bsdf type=\"diffuse\" id=\"a\"/><ref id=\"a\"/></bsdf>");
+    assert!(matches!(same.kind, Material::Lambertian(_)) && imported.description.materials.len() == 1);
+}
+
+#[test]
+fn relief_is_shadowed_and_mirrored_unless_it_is_told_otherwise() {
+    let bump = |flags: &str| {
+        let text = format!("<bsdf type=\"bumpmap\">{flags}<texture type=\"checkerboard\"/><bsdf type=\"diffuse\"/></bsdf>");
+        let (material, imported) = material(&text);
+        (material.normal_shadowing, material.mirrored_normals, remarks(&imported).len())
+    };
+    assert_eq!(bump(""), (Some(true), Some(true), 0));
+    assert_eq!(bump("<boolean name=\"use_shadowing_function\" value=\"false\"/>"), (None, Some(true), 0));
+    assert_eq!(bump("<boolean name=\"flip_invalid_normals\" value=\"false\"/>"), (Some(true), None, 1));
 }
 
 #[test]
@@ -195,6 +224,13 @@ fn checkers_have_two_squares_a_unit_and_stretched_ones_are_images() {
     let TextureKind::Image(squares) = &stretched["c squares"] else { panic!("not an image") };
     assert!((squares.scale[0] - 5.0).abs() < 1e-12 && (squares.scale[1] - 2.0).abs() < 1e-12);
     assert!((squares.rotate - 30.0).abs() < 1e-9 && squares.offset == [0.5, 0.0]);
+    // (u, v) becomes (u/2 + v + 0.1, 2v), and a matrix of nine numbers has no offset.
+    let sheared = texture("<matrix value=\"0.5 1 0 0.1 0 2 0 0 0 0 1 0 0 0 0 1\"/>");
+    let TextureKind::Image(squares) = &sheared["c squares"] else { panic!("not an image") };
+    assert_eq!((squares.scale, squares.shear, squares.rotate, squares.offset), ([0.5, 2.0], 0.5, 0.0, [0.1, 0.0]));
+    let linear = texture("<matrix value=\"5 0 0.3 0 2 0.1 0 0 1\"/>");
+    let TextureKind::Image(squares) = &linear["c squares"] else { panic!("not an image") };
+    assert_eq!((squares.scale, squares.offset), ([5.0, 2.0], [0.0; 2]));
 }
 
 #[test]

@@ -29,6 +29,15 @@ fn steps_of_a_transform_apply_in_order() {
     assert!(found.abs_diff_eq(DVec3::new(1.0, 4.0, 0.0), 1e-9), "{found}");
     let matrix = placed("sphere", "<matrix value=\"1 0 0 5 0 1 0 6 0 0 1 7 0 0 0 1\"/>", "");
     assert_eq!(map(&matrix).translation, DVec3::new(5.0, 6.0, 7.0));
+    let linear = placed("sphere", "<matrix value=\"1 2 0 0 1 0 0 0 3\"/>", "");
+    assert_eq!(map(&linear).transform_point3(DVec3::ONE), DVec3::new(3.0, 1.0, 3.0));
+}
+
+/// The corner of the matrix that Mitsuba 3.9 makes of it.
+#[test]
+fn rotations_about_a_longer_axis_distort() {
+    let found = map(&placed("sphere", "<rotate x=\"1\" y=\"1\" angle=\"40\"/>", "")).transform_vector3(DVec3::X);
+    assert!(found.abs_diff_eq(DVec3::new(1.0, 0.233_956, -0.642_788), 1e-5), "{found}");
 }
 
 #[test]

@@ -30,12 +30,12 @@ impl Import {
             self.part(entity, &format!("{prefix}eta"), "metal-Cu-eta")?,
             self.part(entity, &format!("{prefix}k"), "metal-Cu-k")?,
         ];
-        let Some(reflectance) = reflectance else { return Ok(Reflectance::Index { eta, k }) };
+        let Some(reflectance) = reflectance else { return Ok(Reflectance::Index { eta, k, tint: Textured::grey(1.0) }) };
         match self.colour(entity, &reflectance, [0.5; 3], Role::Reflectance)? {
             // pbrt chooses the k that has this reflectance with η = 1.
             Textured::Constant(r) => {
                 let k = r.map(|r| r.clamp(0.0, MOST_REFLECTANCE)).map(|r| 2.0 * r.sqrt() / (1.0 - r).sqrt());
-                Ok(Reflectance::Index { eta: [1.0; 3], k })
+                Ok(Reflectance::Index { eta: [1.0; 3], k, tint: Textured::grey(1.0) })
             }
             texture => {
                 self.remark(entity, "Schlick's approximation of its textured reflectance", "it differs at grazing angles");
@@ -66,7 +66,7 @@ impl Import {
 /// The reflectance at normal incidence, seen from a medium of an index.
 pub fn head_on(fresnel: &Reflectance, outside: f64) -> Textured {
     match fresnel {
-        Reflectance::Index { eta, k } => Textured::Constant([0, 1, 2].map(|channel| {
+        Reflectance::Index { eta, k, .. } => Textured::Constant([0, 1, 2].map(|channel| {
             let (eta, square) = (eta[channel] / outside, (k[channel] / outside).powi(2));
             ((eta - 1.0).powi(2) + square) / ((eta + 1.0).powi(2) + square)
         })),

@@ -98,7 +98,7 @@ impl Import {
             Textured::Constant(weight) => Textured::Constant(weight.clamp(0.0, 1.0)),
             texture @ Textured::Texture(_) => texture,
         };
-        Ok(Blend { first, second, weight }.into())
+        Ok(Blend { first, second, weight, ..Blend::default() }.into())
     }
 
     fn null_material(&mut self) -> Result<String, SceneError> {

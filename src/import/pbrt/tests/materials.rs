@@ -41,7 +41,7 @@ fn roughness_is_the_square_of_alpha_unless_it_is_not_remapped() {
 fn a_reflectance_is_the_index_that_gives_it() {
     let found = world("Material \"conductor\" \"rgb reflectance\" [.5 .8 1]\nShape \"sphere\"");
     let Material::Conductor(metal) = &material(&found).kind else { panic!("metal") };
-    let Reflectance::Index { eta, k } = &metal.fresnel else { panic!("an index") };
+    let Reflectance::Index { eta, k, .. } = &metal.fresnel else { panic!("an index") };
     let head_on = k[1] * k[1] / (4.0 + k[1] * k[1]);
     assert!(*eta == [1.0; 3] && (head_on - 0.8).abs() < 1e-12 && k[2].is_finite());
 }

@@ -25,7 +25,23 @@ impl Turn {
         }
         let matrix = product(list).map_err(|problem| problem.within(&Path::of("transform")))?.matrix3;
         let no_turn = || Problem::at("transform", "the transform distorts directions", "expected rotations and mirrorings");
-        orthogonal(&matrix).ok_or_else(no_turn).map(Some)
+        Turn::of_matrix(&matrix).ok_or_else(no_turn).map(Some)
+    }
+
+    /// The orthogonal matrix that is a matrix up to scale and rounding.
+    pub fn of_matrix(matrix: &DMat3) -> Option<Turn> {
+        let columns = [matrix.x_axis, matrix.y_axis, matrix.z_axis];
+        let length = columns[0].length();
+        let axes = columns.map(|axis| axis / length);
+        let is_unit = |axis: &DVec3| (axis.length() - 1.0).abs() < ROUNDING;
+        let is_right = [(0, 1), (1, 2), (2, 0)].into_iter().all(|(a, b)| axes[a].dot(axes[b]).abs() < ROUNDING);
+        if !(axes.iter().all(is_unit) && is_right) {
+            return None;
+        }
+        let x = axes[0].normalize();
+        let y = (axes[1] - x * axes[1].dot(x)).normalize();
+        let z = x.cross(y) * axes[2].dot(x.cross(y)).signum();
+        Some(Turn { axes: [x, y, z].map(|axis| axis.as_vec3().to_array()) })
     }
 
     /// Whether both have the same bits.
@@ -47,20 +63,4 @@ impl Turn {
         let [a, b, c] = &self.axes;
         V { x: d.dot(V::splat(l, *a)), y: d.dot(V::splat(l, *b)), z: d.dot(V::splat(l, *c)) }
     }
-}
-
-/// The orthogonal matrix that is a matrix up to scale and rounding.
-fn orthogonal(matrix: &DMat3) -> Option<Turn> {
-    let columns = [matrix.x_axis, matrix.y_axis, matrix.z_axis];
-    let length = columns[0].length();
-    let axes = columns.map(|axis| axis / length);
-    let is_unit = |axis: &DVec3| (axis.length() - 1.0).abs() < ROUNDING;
-    let is_right = [(0, 1), (1, 2), (2, 0)].into_iter().all(|(a, b)| axes[a].dot(axes[b]).abs() < ROUNDING);
-    if !(axes.iter().all(is_unit) && is_right) {
-        return None;
-    }
-    let x = axes[0].normalize();
-    let y = (axes[1] - x * axes[1].dot(x)).normalize();
-    let z = x.cross(y) * axes[2].dot(x.cross(y)).signum();
-    Some(Turn { axes: [x, y, z].map(|axis| axis.as_vec3().to_array()) })
 }

@@ -4,7 +4,6 @@ use std::f64::consts::{PI, TAU};
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::sun::SOLID_ANGLE;
 use crate::image::Texels;
 
 /// Size of the image in texels.
@@ -32,13 +31,13 @@ impl Raster {
         Raster { texels }
     }
 
-    /// Adds the part of the sun's disk that is above the horizon.
+    /// Adds the part above the horizon of a sun of a solid angle.
     ///
     /// A texel gets the radiance times the fraction that the disk covers. All are then scaled so that the interpolated image has
     /// exactly the irradiance of the disk.
-    pub fn add_sun(&mut self, sun: DVec3, radiance: [f64; 3]) {
-        let disk = Disk::new(sun);
-        let visible = SOLID_ANGLE * disk.above;
+    pub fn add_sun(&mut self, sun: DVec3, radiance: [f64; 3], solid_angle_of_sun: f64) {
+        let disk = Disk::new(sun, solid_angle_of_sun);
+        let visible = solid_angle_of_sun * disk.above;
         let drawn: f64 = disk.covered.iter().map(|(texel, fraction)| fraction * solid_angle(texel / WIDTH as usize)).sum();
         if drawn == 0.0 {
             return;
@@ -65,10 +64,10 @@ struct Disk {
 }
 
 impl Disk {
-    fn new(sun: DVec3) -> Disk {
+    fn new(sun: DVec3, solid_angle_of_sun: f64) -> Disk {
         /// Points of a texel in each direction.
         const POINTS: usize = 16;
-        let cos_radius = 1.0 - SOLID_ANGLE / TAU;
+        let cos_radius = 1.0 - solid_angle_of_sun / TAU;
         // The diagonal of a texel is less than 1.5 steps.
         let cos_reach = (cos_radius.acos() + 1.5 * STEP).cos();
         let rows = {

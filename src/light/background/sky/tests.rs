@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 use glam::DVec3;
 
 use super::{
-    CLEAREST, ImageBackground, Sky, SkyTables,
+    CLEAREST, ImageBackground, Sky, SkyModel, SkyTables,
     daylight::{Daylight, LUMENS_PER_WATT},
     raster::{HEIGHT, Raster, WIDTH},
     sun::{self, SOLID_ANGLE},
@@ -113,7 +113,7 @@ fn the_sun_keeps_its_irradiance() {
     {
         let towards = direction(elevation, azimuth);
         let mut raster = Raster::of(|_| [0.0; 3]);
-        raster.add_sun(towards, [9e6, 7e6, 5e6]);
+        raster.add_sun(towards, [9e6, 7e6, 5e6], SOLID_ANGLE);
         let image = ImageBackground::new(SkyTables::new(raster.into_texels(), 1.0, false).into(), 0.0);
         let (found, exact) = (irradiance(&image, towards), bright([9e6, 7e6, 5e6]) * SOLID_ANGLE);
         assert!((found / exact - 1.0).abs() < 1e-3, "{elevation}°, {azimuth}°: {found} {exact}");
@@ -124,7 +124,7 @@ fn the_sun_keeps_its_irradiance() {
 fn a_sun_on_the_horizon_is_half_a_sun_and_none_is_below() {
     let light = |elevation: f64| {
         let mut raster = Raster::of(|_| [0.0; 3]);
-        raster.add_sun(direction(elevation, 25.0), [1e6; 3]);
+        raster.add_sun(direction(elevation, 25.0), [1e6; 3], SOLID_ANGLE);
         // The mean over the sphere times 4π is the radiance times the solid angle.
         f64::from(SkyTables::new(raster.into_texels(), 1.0, false).mean_luminance()) * 2.0 * TAU / (1e6 * SOLID_ANGLE)
     };
@@ -147,6 +147,26 @@ fn up_is_y_and_the_sun_is_where_it_is_said_to_be() {
     for other in [DVec3::new(-2.0, 1.0, -0.5), DVec3::new(2.0, 1.0, 0.5), DVec3::new(-0.5, 1.0, 2.0)] {
         assert!((0.5..1000.0).contains(&at(other)), "{other}: {}", at(other));
     }
+}
+
+/// By Hosek and Wilkie, whose sun keeps its irradiance whatever its diameter.
+#[test]
+fn the_zenith_turns_the_sky_and_the_diameter_spreads_the_sun() {
+    let sun = DVec3::new(1.0, 0.4, 0.2).normalize();
+    let plain = Sky { sun, model: SkyModel::Hosek, ..Sky::default() };
+    let turn = glam::DQuat::from_rotation_arc(DVec3::Y, DVec3::Z);
+    let turned = compiled(&Sky { sun: turn * sun, zenith: DVec3::Z * 2.0, ..plain.clone() }).expect("it is bright");
+    let wide = compiled(&Sky { sun_diameter: Some(10.0), ..plain.clone() }).expect("it is bright");
+    let sky = compiled(&plain).expect("it is bright");
+    let at = |sky: &ImageBackground, d: DVec3| bright(sky.radiance(One, lane(d)).lane(0).map(f64::from));
+    for d in [sun, DVec3::Y, DVec3::new(-0.6, 0.8, 0.0), DVec3::new(0.0, 0.28, 0.96)] {
+        let (a, b) = (at(&sky, d), at(&turned, turn * d));
+        assert!((a / b - 1.0).abs() < 1e-3, "{d}: {a} {b}");
+    }
+    assert!(at(&sky, sun) > 100.0 * at(&wide, sun) && at(&turned, DVec3::NEG_Z) == 0.0);
+    let [narrow, wide] = [&sky, &wide].map(|sky| f64::from(sky.mean_luminance()));
+    assert!((narrow / wide - 1.0).abs() < 0.01, "{narrow} {wide}");
+    assert!(Sky { zenith: DVec3::ZERO, ..plain }.compile(&Resources::new("")).is_err());
 }
 
 #[test]

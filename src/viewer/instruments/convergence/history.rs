@@ -106,7 +106,7 @@ impl History {
 /// Names settings by what differs from those of the scene, or by estimator and sampler if nothing does, and by whether pixels share paths.
 /// The words are those of the panel.
 pub fn name(settings: &RenderSettings, of_scene: &RenderSettings, shares: bool) -> String {
-    let RenderSettings { estimator, directions, sampler, roulette, max_bounces, reuse, adaptive, seed, strategy: _ } = *settings;
+    let RenderSettings { estimator, directions, sampler, roulette, max_bounces, reuse, adaptive, seed, .. } = *settings;
     let cap = max_bounces.map_or_else(|| "no cap".to_owned(), |cap| format!("cap of {}", counted(cap, "bounce")));
     let parts = [
         (estimator != of_scene.estimator, estimator.word().title.to_owned()),
