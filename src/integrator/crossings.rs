@@ -79,7 +79,7 @@ mod tests {
         for sample in 0..64 {
             let work = Work::tile(&scene, &rays, &settings, [0, 0], [16, 16], sample);
             trace(SimdLevel::best(), &work, &mut batch, &|| false).expect("nothing interrupts");
-            sum += batch.radiance()[..256].iter().map(|[r, ..]| r).sum::<f32>() / 256.0;
+            sum += batch.radiance().iter().map(|[r, ..]| r).sum::<f32>() / 256.0;
         }
         sum / 64.0
     }
@@ -104,7 +104,9 @@ mod tests {
                     let enough = 1 + 2 * sheets as u32;
                     let all = radiance(light, sheets, settings(enough, true));
                     assert!((all / plain - 1.0).abs() < 0.02, "{light} {estimator:?} {sheets}: {all} {plain}");
-                    assert_eq!(radiance(light, sheets, settings(enough - 1, true)), 0.0, "{light} {estimator:?} {sheets}");
+                    // Some light of the sky comes from between the wall and the sheets.
+                    let less = radiance(light, sheets, settings(enough - 1, true));
+                    assert!(less < 0.01 * plain, "{light} {estimator:?} {sheets}: {less} {plain}");
                     let uncounted = radiance(light, sheets, settings(1, false));
                     assert!((uncounted / plain - 1.0).abs() < 0.02, "{light} {estimator:?} {sheets}: {uncounted} {plain}");
                 }

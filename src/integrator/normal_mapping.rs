@@ -114,7 +114,7 @@ mod tests {
             "format = 1
             background.radiance = 1
             camera = {{ eye = [0, 0, 4], look_at = [0, 0, 0], fov = 40, resolution = [8, 8] }}
-            textures.dents.noise = {{ scale = 3 }}
+            textures.dents.checker = {{ even = 0.2, odd = 0.6, scale = 3 }}
             [materials.ball]
             lambertian.albedo = 0.5
             bump = {{ texture = 'dents', height = 1 }}

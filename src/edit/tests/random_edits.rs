@@ -94,7 +94,7 @@ fn run(seed: u64, text: &str) -> (usize, usize) {
 #[test]
 fn random_edits_of_the_built_in_scene() {
     let (mut done, mut refused) = (0, 0);
-    for seed in 0..15 {
+    for seed in 0..20 {
         let (more, less) = run(seed, BUILT_IN);
         (done, refused) = (done + more, refused + less);
     }

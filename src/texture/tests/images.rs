@@ -209,11 +209,11 @@ fn a_channel_is_grey() {
 }
 
 #[test]
-fn steps_move_by_half_a_texel_at_most() {
+fn steps_move_by_a_small_part_of_a_texel() {
     let steps = |scale: [f64; 2], rotate: f64| sampled(&Image { scale, rotate, ..Image::default() }).summary().steps;
-    assert_eq!(steps([2.0, 4.0], 0.0), [1.0 / 12.0, 1.0 / 16.0, f32::INFINITY]);
-    assert_eq!(steps([2.0, 4.0], 90.0), [1.0 / 8.0, 1.0 / 24.0, f32::INFINITY]);
-    assert_eq!(steps([0.0, 0.0], 0.0), [0.5, 0.5, f32::INFINITY]);
+    assert_eq!(steps([2.0, 4.0], 0.0), [1.0 / 12.0 / 16.0, 1.0 / 256.0, f32::INFINITY]);
+    assert_eq!(steps([2.0, 4.0], 90.0), [1.0 / 128.0, 1.0 / 24.0 / 16.0, f32::INFINITY]);
+    assert_eq!(steps([0.0, 0.0], 0.0), [1.0 / 32.0, 1.0 / 32.0, f32::INFINITY]);
 }
 
 #[test]

@@ -217,7 +217,7 @@ fn steps_are_those_of_the_finest_part() {
         let steps = set.steps(One, U(id));
         [steps.u.0, steps.v.0, steps.p.0]
     };
-    assert_eq!(steps(image), [1.0 / 6.0, 0.25, f32::INFINITY]);
+    assert_eq!(steps(image), [1.0 / 6.0 / 16.0, 1.0 / 64.0, f32::INFINITY]);
     assert_eq!(steps(noise), [1.0 / 64.0, 1.0 / 64.0, 1.0 / 128.0]);
     assert_eq!(steps(checker), [1.0 / 256.0, 1.0 / 256.0, 1.0 / 128.0]);
     assert_eq!(steps(constant), [1.0 / 64.0, 1.0 / 64.0, f32::INFINITY]);
