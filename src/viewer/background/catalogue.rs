@@ -149,6 +149,11 @@ pub fn name(title: &str, path: &Path) -> String {
     if title.is_empty() { path.file_stem().unwrap_or_default().to_string_lossy().replace('_', " ") } else { title.to_owned() }
 }
 
+/// The name of a scene with this text, in a file of this name.
+pub fn name_in(mut text: &[u8], file: &str) -> String {
+    name(&title(&mut text).unwrap_or_default(), Path::new(file))
+}
+
 /// The name of a file for a scene of this name, without extension.
 pub fn file_stem(name: &str) -> String {
     if name == BUILT_IN_NAME {

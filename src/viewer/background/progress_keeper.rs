@@ -8,6 +8,7 @@ use noisefall::render::{KeepHandle, checkpoint::KeptFile};
 
 use super::{
     background_task::BackgroundTask,
+    catalogue::name_in,
     kept_render::RenderToKeep,
     recovery_files::{OwnFile, begin, is_in_use, left_files, remove},
 };
@@ -28,7 +29,7 @@ const EXTENSION: &str = "nf";
 #[derive(Clone, Debug)]
 pub struct FoundRender {
     pub file: PathBuf,
-    /// Name of its scene file.
+    /// Name of its scene.
     pub scene: String,
     /// Time that it has been rendered.
     pub rendered: Duration,
@@ -129,7 +130,7 @@ fn find(folder: &Path) -> Option<FoundRender> {
         let header = KeptFile::open(&file).ok()?.header().clone();
         let age = file.metadata().and_then(|metadata| metadata.modified()).ok()?.elapsed().unwrap_or_default();
         let rendered = Duration::try_from_secs_f64(header.counters.seconds).ok()?;
-        Some(FoundRender { file, scene: header.scene.name, rendered, age })
+        Some(FoundRender { file, scene: name_in(header.scene.text.as_bytes(), &header.scene.name), rendered, age })
     });
     found.min_by_key(|found| found.age)
 }

@@ -66,7 +66,7 @@ impl PathForm {
         self.completion.follow(ui, &mut self.field, wanted.extensions);
         let entered = self.field.show(ui);
         self.field.remark(ui, "");
-        let clicked = self.completion.show(ui, &mut self.field, LIST);
+        let clicked = self.completion.show(ui, &self.field, LIST);
         let [takes, cancels] = self.buttons(ui, wanted);
         let chosen = clicked.or_else(|| self.completion.chosen(&self.field).filter(|_| entered));
         let path = match chosen {
