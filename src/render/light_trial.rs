@@ -8,7 +8,7 @@ use super::{
     estimate::Estimate,
     splats::SplatFilm,
     tile::Tile,
-    trial::{relative_difference, relative_variances},
+    trial::{relative_excess, relative_variances},
 };
 use crate::{
     integrator::{Batch, Interrupted, Work, trace},
@@ -57,16 +57,15 @@ fn best(scene: &Scene, interrupted: &(dyn Fn() -> bool + Sync)) -> Result<Estima
             RenderSettings { estimator, sampler: Sampler::Independent, reuse: Reuse::Off, seed: SEED, ..Default::default() };
         small_image(scene, &camera, &settings, interrupted)
     };
-    // All light has been found by some paths of this one, at least.
     let (of_both, rays_of_both) = with(Estimator::Bidirectional)?;
     let (mut costs, mut cost_of_both) = (Vec::new(), 0.0f64);
     for estimator in [Estimator::Mis, Estimator::Caustics] {
         let (found, rays) = with(estimator)?;
-        let difference = relative_difference(&found, &of_both);
+        // Light that one of them has not found yet is missing in its variance, but the other one is brighter by it.
+        let [missing, missing_in_both] = [relative_excess(&of_both, &found), relative_excess(&found, &of_both)];
         let [variance, variance_of_both] = relative_variances(&[[found, of_both.clone()]]);
-        // Light that one of them has not found yet is missing in its variance, but not in the difference.
-        costs.push((estimator, variance.max(difference - variance_of_both) * rays as f64));
-        let error_of_both = variance_of_both.max(difference - variance);
+        costs.push((estimator, variance.max(missing - variance_of_both) * rays as f64));
+        let error_of_both = variance_of_both.max(missing_in_both - variance);
         cost_of_both = cost_of_both.max(error_of_both * rays_of_both as f64 * COST);
     }
     costs.push((Estimator::Bidirectional, cost_of_both));
@@ -100,4 +99,21 @@ fn small_image(
     }
     let estimates = tiles.iter().flat_map(|(tile, _)| (0..tile.size[1] as usize).flat_map(|row| tile.estimates(row))).collect();
     Ok((estimates, tiles.iter().map(|(_, rays)| rays).sum()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::load;
+
+    /// Hardly any path from the camera finds the lamp through the ball of glass: images without its caustic agree with each other.
+    #[test]
+    fn paths_from_both_ends_are_chosen_for_a_caustic_and_not_for_a_diffuse_room() {
+        for (name, best) in [("glass_ball_caustic", Estimator::Bidirectional), ("cornell_spheres", Estimator::Mis)] {
+            let path = format!("{}/scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+            let scene = load(path.as_ref()).expect("a shipped scene compiles");
+            let settings = RenderSettings { estimator: Estimator::Auto, ..scene.settings };
+            assert_eq!(estimator_unless(&scene, &settings, &|| false).ok(), Some(best), "{name}");
+        }
+    }
 }

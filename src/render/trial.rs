@@ -19,16 +19,16 @@ pub(super) fn relative_variances(tiles: &[[Vec<Estimate>; 2]]) -> [f64; 2] {
     sums
 }
 
-/// The sum of the squared differences of two images, relative to the squared common means with the floor of relMSE.
-pub(super) fn relative_difference(a: &[Estimate], b: &[Estimate]) -> f64 {
-    // A difference d of the means is a variance of d² of an image with the mean of both.
+/// The sum of the squares of what an image has more than another, relative to the squared common means with the floor of relMSE.
+pub(super) fn relative_excess(a: &[Estimate], b: &[Estimate]) -> f64 {
+    // An excess d of the means is a variance of d² of an image with the mean of both.
     let with = |of: &Estimate, other: &Estimate| {
-        let square = |channel: usize| (of.mean[channel] - other.mean[channel]).powi(2);
+        let square = |channel: usize| (of.mean[channel] - other.mean[channel]).max(0.0).powi(2);
         Estimate { variance_of_mean: Some([square(0), square(1), square(2)]), ..*of }
     };
     let squares: Vec<Estimate> = a.iter().zip(b).map(|(a, b)| with(a, b)).collect();
-    let [difference, _] = relative_variances(&[[squares, b.to_vec()]]);
-    difference
+    let [excess, _] = relative_variances(&[[squares, b.to_vec()]]);
+    excess
 }
 
 #[cfg(test)]
@@ -46,5 +46,14 @@ mod tests {
         let dark = [of([0.0; 3], 0.02), of([0.0; 3], 0.0)];
         let [without, with] = relative_variances(&[[of([1.0; 3], 0.1), of([3.0, 1.0, 1.0], 0.3)], dark]);
         assert!((without - 0.1 / 4.01 - 2.0).abs() < 1e-12 && (with - 0.3 / 4.01).abs() < 1e-12, "{without} {with}");
+    }
+
+    #[test]
+    fn an_excess_counts_where_an_image_is_brighter_and_not_where_it_is_darker() {
+        let of = |red: f64| Estimate { mean: [red, 1.0, 1.0], variance_of_mean: None };
+        let (a, b) = ([of(3.0), of(1.0)], [of(1.0), of(1.0)]);
+        // The means of both are 2, 1, 1 and 1, 1, 1: their mean square is 1.5, a hundredth of which is the floor.
+        assert!((relative_excess(&a, &b) - 4.0 / 4.015).abs() < 1e-12, "{}", relative_excess(&a, &b));
+        assert_eq!(relative_excess(&b, &a), 0.0);
     }
 }
