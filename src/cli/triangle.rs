@@ -60,7 +60,7 @@ mod tests {
 
     #[test]
     fn a_scene_without_light_paths_says_why() {
-        let text = "format = 1\n[camera]\neye = [0, 0, 1]\nlook_at = [0, 0, 0]\n";
+        let text = "format = 1\n[camera]\neye = [0, 0, 1]\nlook_at = [0, 0, 0]\nfov = 40\nresolution = [8, 8]\n";
         let scene = noisefall::scene::parse("dark.toml", text.to_owned()).expect("a scene without light");
         let error = strategies(&scene, RenderSettings::default(), 2, true).expect_err("no light");
         assert!(error.contains("no strategies") && error.contains("light"), "{error}");

@@ -87,7 +87,7 @@ mod tests {
     /// Light reaches the wall through the sheets, and the viewer through them again: one bounce and two crossings for each sheet.
     #[test]
     fn light_needs_a_bounce_and_its_crossings() {
-        let lamp = "[[lamps]]\npoint = { position = [0, 0, 5], intensity = 100 }";
+        let lamp = "lamps = [{ point = { position = [0, 0, 5], intensity = 100 } }]";
         for (light, estimators) in [
             ("background.radiance = 1", &[Estimator::Path, Estimator::Light, Estimator::Mis][..]),
             (lamp, &[Estimator::Light, Estimator::Mis][..]),

@@ -1,5 +1,6 @@
 //! The random numbers that a path reads.
 mod lamps;
+mod sides;
 
 use std::collections::BTreeMap;
 

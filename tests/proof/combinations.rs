@@ -204,6 +204,13 @@ fn quarters(scene: &Scene, settings: &RenderSettings, spp: u32) -> Vec<Moments> 
             let [r, g, b, _] = batch.radiance()[(y * TILE + x) as usize];
             sums[(2 * y / height * 2 + 2 * x / width) as usize] += f64::from(luminance([r, g, b]));
         }
+        // What paths from lights bring is a sum over the paths of all pixels.
+        for splat in &batch.splats {
+            if let Some(([x, y], light)) = splat.land(rays.filter, [width, height]) {
+                let light = luminance(light.map(|channel| channel as f32));
+                sums[(2 * y / height * 2 + 2 * x / width) as usize] += f64::from(light) / f64::from(width * height);
+            }
+        }
         sums
     };
     let samples: Vec<[f64; 4]> = (0..spp).into_par_iter().map_init(Batch::default, sums).collect();
@@ -222,7 +229,10 @@ fn path_light_and_mis_agree_wherever_two_features_meet() {
             quarters(&scene, &settings, if estimator == Estimator::Path { 2048 } else { 768 })
         };
         let mis = of(Estimator::Mis);
-        for estimator in Estimator::ALL.into_iter().filter(|estimator| *estimator != Estimator::Mis) {
+        // Of light from far away, forward tracing finds so little that its means are not normally distributed.
+        let is_far = set.contains(&ImageSky) || set.contains(&ConstantSky);
+        let left_out = |estimator: &Estimator| *estimator == Estimator::Mis || is_far && *estimator == Estimator::Forward;
+        for estimator in Estimator::ALL.into_iter().filter(|estimator| !left_out(estimator)) {
             for (quarter, (a, b)) in of(estimator).iter().zip(&mis).enumerate() {
                 deviations.push((a.mean - b.mean) / (a.variance / a.count + b.variance / b.count).sqrt());
                 names.push(format!("{set:?}, {} and mis, quarter {quarter}", estimator.name()));

@@ -51,7 +51,10 @@ fn they_agree_on_every_shipped_scene() {
         let scene = load(&path).expect("a shipped scene compiles");
         let scene = Scene { camera: Camera { resolution: RESOLUTION, ..scene.camera }, ..scene };
         let mut found: Vec<(Estimator, Vec<Mean>)> = Vec::new();
-        for estimator in Estimator::ALL.into_iter().filter(|estimator| *estimator != Estimator::Auto) {
+        // Of light from far away, forward tracing finds so little that its means are not normally distributed.
+        let is_far = scene.lights.background.is_some();
+        let left_out = |estimator: &Estimator| *estimator == Estimator::Auto || is_far && *estimator == Estimator::Forward;
+        for estimator in Estimator::ALL.into_iter().filter(|estimator| !left_out(estimator)) {
             let settings =
                 RenderSettings { estimator, sampler: Sampler::Independent, seed: settings(estimator).seed, ..scene.settings };
             let spp = samples_per_pixel(&name, estimator);
@@ -62,9 +65,7 @@ fn they_agree_on_every_shipped_scene() {
                 // Hardly any light from far away hits what the camera sees.
                 let is_rarely_found = HARD.contains(&&*name) || [a, b].contains(&&Estimator::Forward);
                 for (i, (mean_a, mean_b)) in of_a.iter().zip(of_b).enumerate() {
-                    // Forward tracing that has found nothing says nothing, not that a block is black.
-                    let found_nothing = |by: Estimator, mean: &Mean| by == Estimator::Forward && mean.mean == 0.0;
-                    let is_known = are_known(*mean_a, *mean_b) && !found_nothing(*a, mean_a) && !found_nothing(*b, mean_b);
+                    let is_known = are_known(*mean_a, *mean_b);
                     compared += usize::from(!is_rarely_found);
                     left_out += usize::from(!is_known && !is_rarely_found);
                     if !is_known {
