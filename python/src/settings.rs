@@ -27,7 +27,6 @@ pub struct Settings {
     directions: Option<String>,
     roulette: Option<String>,
     max_bounces: Option<Cap>,
-            count_crossings: of_scene.count_crossings,
     reuse: Option<String>,
     adaptive: Option<bool>,
     seed: Option<u32>,
