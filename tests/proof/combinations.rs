@@ -231,8 +231,8 @@ fn path_light_and_mis_agree_wherever_two_features_meet() {
         let mis = of(Estimator::Mis);
         // Of light from far away, forward tracing finds so little that its means are not normally distributed.
         let is_far = set.contains(&ImageSky) || set.contains(&ConstantSky);
-        let left_out = |estimator: &Estimator| *estimator == Estimator::Mis || is_far && *estimator == Estimator::Forward;
-        for estimator in Estimator::ALL.into_iter().filter(|estimator| !left_out(estimator)) {
+        let is_left_out = |estimator: &Estimator| *estimator == Estimator::Mis || is_far && *estimator == Estimator::Forward;
+        for estimator in Estimator::ALL.into_iter().filter(|estimator| !is_left_out(estimator)) {
             for (quarter, (a, b)) in of(estimator).iter().zip(&mis).enumerate() {
                 deviations.push((a.mean - b.mean) / (a.variance / a.count + b.variance / b.count).sqrt());
                 names.push(format!("{set:?}, {} and mis, quarter {quarter}", estimator.name()));

@@ -53,8 +53,8 @@ fn they_agree_on_every_shipped_scene() {
         let mut found: Vec<(Estimator, Vec<Mean>)> = Vec::new();
         // Of light from far away, forward tracing finds so little that its means are not normally distributed.
         let is_far = scene.lights.background.is_some();
-        let left_out = |estimator: &Estimator| *estimator == Estimator::Auto || is_far && *estimator == Estimator::Forward;
-        for estimator in Estimator::ALL.into_iter().filter(|estimator| !left_out(estimator)) {
+        let is_left_out = |estimator: &Estimator| *estimator == Estimator::Auto || is_far && *estimator == Estimator::Forward;
+        for estimator in Estimator::ALL.into_iter().filter(|estimator| !is_left_out(estimator)) {
             let settings =
                 RenderSettings { estimator, sampler: Sampler::Independent, seed: settings(estimator).seed, ..scene.settings };
             let spp = samples_per_pixel(&name, estimator);
