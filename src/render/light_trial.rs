@@ -58,18 +58,13 @@ fn best(scene: &Scene, interrupted: &(dyn Fn() -> bool + Sync)) -> Result<Estima
         small_image(scene, &camera, &settings, interrupted)
     };
     let (of_both, rays_of_both) = with(Estimator::Bidirectional)?;
-    let (mut costs, mut cost_of_both) = (Vec::new(), 0.0f64);
-    for estimator in [Estimator::Mis, Estimator::Caustics] {
-        let (found, rays) = with(estimator)?;
-        // Light that one of them has not found yet is missing in its variance, but the other one is brighter by it.
-        let [missing, missing_in_both] = [relative_excess(&of_both, &found), relative_excess(&found, &of_both)];
-        let [variance, variance_of_both] = relative_variances(&[[found, of_both.clone()]]);
-        costs.push((estimator, variance.max(missing - variance_of_both) * rays as f64));
-        let error_of_both = variance_of_both.max(missing_in_both - variance);
-        cost_of_both = cost_of_both.max(error_of_both * rays_of_both as f64 * COST);
-    }
-    costs.push((Estimator::Bidirectional, cost_of_both));
-    Ok(costs.into_iter().min_by(|a, b| a.1.total_cmp(&b.1)).map_or(Estimator::Mis, |(estimator, _)| estimator))
+    let (of_mis, rays_of_mis) = with(Estimator::Mis)?;
+    // Light that one of them has not found yet is missing in its variance, but the other one is brighter by it.
+    let [missing, missing_in_both] = [relative_excess(&of_both, &of_mis), relative_excess(&of_mis, &of_both)];
+    let [variance, variance_of_both] = relative_variances(&[[of_mis, of_both]]);
+    let cost = variance.max(missing - variance_of_both) * rays_of_mis as f64;
+    let cost_of_both = variance_of_both.max(missing_in_both - variance) * rays_of_both as f64 * COST;
+    Ok(if cost_of_both < cost { Estimator::Bidirectional } else { Estimator::Mis })
 }
 
 /// Estimates of a small image, and the number of rays that it took.

@@ -5,7 +5,7 @@ use crate::{
     math::{F, Lanes},
 };
 
-/// `mis`, `caustics` or `bidirectional`, by a trial of the scene. The integrator itself treats it as `mis`.
+/// `mis` or `bidirectional`, by a trial of the scene. The integrator itself treats it as `mis`.
 pub(super) struct Auto;
 
 impl Strategy for Auto {
