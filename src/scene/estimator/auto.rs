@@ -12,7 +12,7 @@ impl Strategy for Auto {
     const WORD: Word = Word {
         name: "auto",
         title: "Auto",
-        doc: "Tries MIS, Caustics and Bidirectional on a small image, once per scene, and takes the one with the least error at equal cost.",
+        doc: "Tries MIS and Bidirectional on a small image, once per scene, and takes the one with the least error at equal cost.",
     };
     const COMPARISON: &'static str = "Estimator by trial";
     const COMPARES: bool = true;
