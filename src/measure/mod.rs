@@ -7,6 +7,7 @@ mod moments;
 mod ratio;
 mod sample_noise;
 
+#[cfg(feature = "reports")]
 pub(crate) use self::means::sample_image;
 pub use self::{
     bias::{Bias, Evidence, LEAST_EFFECTIVE_SAMPLES, as_normal},

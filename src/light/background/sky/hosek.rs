@@ -125,7 +125,8 @@ mod tests {
     }
 
     /// Turbidity, albedo, elevation of the sun, direction, and the radiance of `sunsky` in Mitsuba 3.9 without its sun.
-    const SKIES: [(f64, f64, f64, [f64; 3], [f64; 3]); 4] = [
+    type Sky = (f64, f64, f64, [f64; 3], [f64; 3]);
+    const SKIES: [Sky; 4] = [
         (3.0, 0.3, 30.0, [1.0, 0.5, 0.3], [0.170_177_24, 0.201_216_35, 0.228_313_25]),
         (4.4, 0.0, 51.0, [-1.0, 0.5, 0.3], [0.036_058_49, 0.064_781_52, 0.118_627_31]),
         (3.0, 0.6, 5.0, [0.0, 0.1, 1.0], [0.059_352_43, 0.063_948_91, 0.045_480_14]),
