@@ -27,7 +27,7 @@ fn a_material_that_nothing_uses_is_added_edited_and_deleted_without_a_restart() 
     select(&mut window, Subject::Material("material".to_owned()));
     keeps_samples(&mut window, |w| set(w, "Albedo ρ", 0, 0.25));
     keeps_samples(&mut window, |w| {
-        w.state_mut().act_on(Subject::Material("material".to_owned()), Action::ChangeKind("dielectric"))
+        w.state_mut().act_on(Subject::Material("material".to_owned()), Action::ChangeKind("dielectric"));
     });
     keeps_samples(&mut window, undo);
     keeps_samples(&mut window, |w| w.state_mut().add(New::Texture));
