@@ -121,12 +121,6 @@ pub fn samples(text: &str) -> Result<u32, String> {
     samples.ok_or_else(|| "expected a whole number, 1 or more".to_owned())
 }
 
-/// Parses a number of bounces of which all strategies fit on a sheet.
-pub fn strategy_bounces(text: &str) -> Result<u32, String> {
-    let bounces = text.parse().ok().filter(|bounces| (1..=12).contains(bounces));
-    bounces.ok_or_else(|| "expected a whole number of bounces from 1 to 12".to_owned())
-}
-
 /// Parses a range of sample indices `A..B`, without B.
 pub fn sample_range(text: &str) -> Result<Range<u32>, String> {
     range(text).ok_or_else(|| {

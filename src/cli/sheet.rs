@@ -47,7 +47,7 @@ pub struct Arguments {
     #[command(flatten)]
     lists: ListOptions,
     /// Each strategy (s, t) of bidirectional paths of up to N bounces, in place of the lists
-    #[arg(long, value_name = "N", value_parser = parse::strategy_bounces,
+    #[arg(long, value_name = "N", value_parser = triangle::strategy_bounces,
           conflicts_with_all = ["estimators", "directions", "samplers", "roulette", "max_bounces", "reuse", "adaptive", "columns"])]
     strategies: Option<u32>,
     /// With --strategies: all light that each strategy finds, without its weight among the others

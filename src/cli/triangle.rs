@@ -6,6 +6,12 @@ use noisefall::{
 
 use super::messages::Failure;
 
+/// Parses a number of bounces of which all strategies fit on a sheet.
+pub fn strategy_bounces(text: &str) -> Result<u32, String> {
+    let bounces = text.parse().ok().filter(|bounces| (1..=12).contains(bounces));
+    bounces.ok_or_else(|| "expected a whole number of bounces from 1 to 12".to_owned())
+}
+
 /// Settings of every strategy of paths with up to `bounces` bounces, row by row.
 pub fn strategies(scene: &Scene, base: RenderSettings, bounces: u32, weighted: bool) -> Result<Vec<RenderSettings>, Failure> {
     let base = RenderSettings { estimator: Estimator::Bidirectional, reuse: Reuse::Off, adaptive: false, ..base };
