@@ -93,7 +93,7 @@ impl Projection {
 
 /// Where points are in the image.
 pub struct Seen<L: Lanes> {
-    /// The point of the image, as in [`Projection::rays`].
+    /// The point of the image, as in `rays`.
     pub place: V<L>,
     /// Vector to the camera.
     pub way: V<L>,
