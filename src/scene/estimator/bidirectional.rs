@@ -1,9 +1,6 @@
 //! Bidirectional path tracing (E. Lafortune and Y. Willems 1993; E. Veach and L. Guibas 1994).
-use super::{Strategy, power_heuristic};
-use crate::{
-    declare::Word,
-    math::{F, Lanes},
-};
+use super::Strategy;
+use crate::declare::Word;
 
 /// Paths from the camera and from lights are joined at all of their vertices.
 pub(super) struct Bidirectional;
@@ -18,14 +15,4 @@ impl Strategy for Bidirectional {
     const COMPARES: bool = true;
     const TRACES_LIGHT_PATHS: bool = true;
     const CONNECTS: bool = true;
-
-    #[inline(always)]
-    fn hit_weight<L: Lanes>(_: L, pdf: F<L>, of_light: F<L>) -> F<L> {
-        power_heuristic(pdf, of_light)
-    }
-
-    #[inline(always)]
-    fn light_weight<L: Lanes>(_: L, pdf: F<L>, of_bsdf: F<L>) -> F<L> {
-        power_heuristic(pdf, of_bsdf)
-    }
 }

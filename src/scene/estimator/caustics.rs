@@ -1,9 +1,6 @@
 //! Path tracing with caustics by light tracing.
-use super::{Strategy, power_heuristic};
-use crate::{
-    declare::Word,
-    math::{F, Lanes},
-};
+use super::Strategy;
+use crate::declare::Word;
 
 /// Paths from lights go through mirrors and clear glass to the first other surface, and are joined with the camera there. All other light
 /// comes from paths from the camera.
@@ -19,14 +16,4 @@ impl Strategy for Caustics {
     const COMPARES: bool = true;
     const TRACES_LIGHT_PATHS: bool = true;
     const ONLY_CAUSTICS: bool = true;
-
-    #[inline(always)]
-    fn hit_weight<L: Lanes>(_: L, pdf: F<L>, of_light: F<L>) -> F<L> {
-        power_heuristic(pdf, of_light)
-    }
-
-    #[inline(always)]
-    fn light_weight<L: Lanes>(_: L, pdf: F<L>, of_bsdf: F<L>) -> F<L> {
-        power_heuristic(pdf, of_bsdf)
-    }
 }

@@ -1,10 +1,7 @@
 //! Light tracing (J. Arvo, "Backward Ray Tracing", 1986; P. Dutré, E. Lafortune and Y. Willems, "Monte Carlo Light Tracing with Direct
 //! Computation of Pixel Intensities", 1993).
-use super::{Strategy, power_heuristic};
-use crate::{
-    declare::Word,
-    math::{F, Lanes},
-};
+use super::Strategy;
+use crate::declare::Word;
 
 /// Paths start at lights. Every surface point that they reach is joined with the camera.
 ///
@@ -20,14 +17,4 @@ impl Strategy for Forward {
     const COMPARISON: &'static str = "Forward tracing";
     const COMPARES: bool = true;
     const TRACES_LIGHT_PATHS: bool = true;
-
-    #[inline(always)]
-    fn hit_weight<L: Lanes>(_: L, pdf: F<L>, of_light: F<L>) -> F<L> {
-        power_heuristic(pdf, of_light)
-    }
-
-    #[inline(always)]
-    fn light_weight<L: Lanes>(_: L, pdf: F<L>, of_bsdf: F<L>) -> F<L> {
-        power_heuristic(pdf, of_bsdf)
-    }
 }

@@ -15,16 +15,6 @@ impl Strategy for Mis {
         doc: "Combines path and light sampling, weighted by their pdfs (multiple importance sampling).",
     };
     const COMPARES: bool = true;
-
-    #[inline(always)]
-    fn hit_weight<L: Lanes>(_: L, pdf: F<L>, of_light: F<L>) -> F<L> {
-        power_heuristic(pdf, of_light)
-    }
-
-    #[inline(always)]
-    fn light_weight<L: Lanes>(_: L, pdf: F<L>, of_bsdf: F<L>) -> F<L> {
-        power_heuristic(pdf, of_bsdf)
-    }
 }
 
 /// The power heuristic with exponent 2 (Veach 1997, section 9.2): the weight of a sample with pdf `pdf`, whose pdf by another strategy

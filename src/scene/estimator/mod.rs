@@ -101,11 +101,14 @@ trait Strategy {
     const ONLY_CAUSTICS: bool = false;
 
     /// See [`Estimator::hit_weight`].
-    fn hit_weight<L: Lanes>(l: L, pdf: F<L>, of_light: F<L>) -> F<L>;
+    #[inline(always)]
+    fn hit_weight<L: Lanes>(_l: L, pdf: F<L>, of_light: F<L>) -> F<L> {
+        power_heuristic(pdf, of_light)
+    }
 
     /// See [`Estimator::light_weight`].
     #[inline(always)]
-    fn light_weight<L: Lanes>(l: L, _pdf: F<L>, _of_bsdf: F<L>) -> F<L> {
-        l.f(1.0)
+    fn light_weight<L: Lanes>(l: L, pdf: F<L>, of_bsdf: F<L>) -> F<L> {
+        if Self::COMPARES { power_heuristic(pdf, of_bsdf) } else { l.f(1.0) }
     }
 }
