@@ -12,15 +12,17 @@ impl Bounds {
     pub const EMPTY: Bounds = Bounds { min: [f32::INFINITY; 3], max: [f32::NEG_INFINITY; 3] };
 
     /// The smallest box around the points.
+    #[inline]
     pub fn of_points(points: impl IntoIterator<Item = [f32; 3]>) -> Bounds {
         points.into_iter().fold(Bounds::EMPTY, |bounds, p| bounds.union(&Bounds { min: p, max: p }))
     }
 
     /// The smallest box around two boxes.
+    #[inline]
     pub fn union(&self, other: &Bounds) -> Bounds {
         Bounds {
-            min: std::array::from_fn(|axis| self.min[axis].min(other.min[axis])),
-            max: std::array::from_fn(|axis| self.max[axis].max(other.max[axis])),
+            min: [self.min[0].min(other.min[0]), self.min[1].min(other.min[1]), self.min[2].min(other.min[2])],
+            max: [self.max[0].max(other.max[0]), self.max[1].max(other.max[1]), self.max[2].max(other.max[2])],
         }
     }
 

@@ -189,7 +189,8 @@ impl Tables {
             return None;
         }
         let [x, y, z, _] = four_rows(l, &self.turns, here, tag);
-        Some(Turn { here, axes: [x, y, z].map(|[x, y, z, _]| V { x, y, z }) })
+        let axis = |[x, y, z, _]: [F<L>; 4]| V { x, y, z };
+        Some(Turn { here, axes: [axis(x), axis(y), axis(z)] })
     }
 
     /// The lanes at quadrics, if there are any.
@@ -229,8 +230,8 @@ struct Turn<L: Lanes> {
 impl<L: Lanes> Turn<L> {
     #[inline(always)]
     fn to_local(&self, n: V<L>) -> V<L> {
-        let [x, y, z] = self.axes.map(|axis| axis.dot(n));
-        self.here.pick(V { x, y, z }, n)
+        let [x, y, z] = self.axes;
+        self.here.pick(V { x: x.dot(n), y: y.dot(n), z: z.dot(n) }, n)
     }
 
     #[inline(always)]

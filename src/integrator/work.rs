@@ -102,8 +102,8 @@ impl<'a> Work<'a> {
     /// The slots whose `pixel` lies inside the tile.
     #[inline(always)]
     pub(super) fn inside<L: Lanes>(&self, pixel: U<L>) -> M<L> {
-        let [right, bottom] = [0, 1].map(|axis| self.origin[axis] + self.size[axis]);
-        (pixel & 0xffff).below(right) & (pixel >> 16).below(bottom)
+        let ([left, top], [width, height]) = (self.origin, self.size);
+        (pixel & 0xffff).below(left + width) & (pixel >> 16).below(top + height)
     }
 
     /// The random numbers of slots.

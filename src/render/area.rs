@@ -93,5 +93,6 @@ impl Area {
 #[inline(always)]
 pub(super) fn valid(&[r, g, b, _]: &[f32; 4]) -> Option<[f64; 3]> {
     // One comparison a channel refuses negative numbers, infinities and NaN alike.
-    [r, g, b].iter().all(|c| (0.0..=f32::MAX).contains(c)).then(|| [f64::from(r), f64::from(g), f64::from(b)])
+    let is_valid = |c: f32| (0.0..=f32::MAX).contains(&c);
+    (is_valid(r) && is_valid(g) && is_valid(b)).then(|| [f64::from(r), f64::from(g), f64::from(b)])
 }

@@ -13,8 +13,9 @@ pub struct Estimate {
 
 impl Estimate {
     /// The estimate with the light of splats, which is independent of that of the pixel's own samples.
+    #[inline]
     pub(super) fn plus(self, splats: &SplatEstimate) -> Estimate {
-        let sum = |a: [f64; 3], b: [f32; 3]| [0, 1, 2].map(|c| a[c] + f64::from(b[c]));
+        let sum = |a: [f64; 3], b: [f32; 3]| [a[0] + f64::from(b[0]), a[1] + f64::from(b[1]), a[2] + f64::from(b[2])];
         let variance_of_mean = self.variance_of_mean.map(|variance| sum(variance, splats.variance));
         Estimate { mean: sum(self.mean, splats.mean), variance_of_mean }
     }

@@ -72,11 +72,13 @@ impl Frame {
             for tile in tiles {
                 for row in 0..tile.size[1] as usize {
                     let start = row * width as usize + tile.origin[0] as usize;
-                    for (i, estimate) in (start..).zip(tile.estimates(row)) {
+                    let mut i = start;
+                    tile.visit_estimates(row, |estimate| {
                         radiance[i] = single(estimate.mean);
                         error[i] = luminance_error(&estimate);
                         variance[i] = single(estimate.variance_of_mean.unwrap_or_default());
-                    }
+                        i += 1;
+                    });
                 }
             }
         });
@@ -156,6 +158,8 @@ fn counts(film: &Film) -> Vec<u32> {
 
 /// Standard error of the luminance. The channels of a sample come from one path: their errors are added as if fully correlated,
 /// which is an upper bound.
+#[inline]
 fn luminance_error(estimate: &Estimate) -> f32 {
-    estimate.variance_of_mean.map_or(f32::NAN, |variance| luminance(variance.map(|v| (v as f32).sqrt())))
+    let error = |variance: f64| (variance as f32).sqrt();
+    estimate.variance_of_mean.map_or(f32::NAN, |[r, g, b]| luminance([error(r), error(g), error(b)]))
 }

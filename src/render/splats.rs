@@ -78,7 +78,10 @@ impl SplatFilm {
         for of_tile in order.chunk_by(|a, b| share(a).tile() == share(b).tile()) {
             let mut tile = self.lock(share(&of_tile[0]).tile());
             for of_pixel in of_tile.chunk_by(|a, b| share(a).key == share(b).key) {
-                let light = of_pixel.iter().fold([0.0; 3], |sum, key| [0, 1, 2].map(|i| sum[i] + share(key).light[i]));
+                let mut light = [0.0; 3];
+                for key in of_pixel {
+                    (0..3).for_each(|channel| light[channel] += share(key).light[channel]);
+                }
                 tile.add(share(&of_pixel[0]).pixel(), light);
             }
         }
@@ -177,9 +180,14 @@ impl TileSplats {
         let (paths, batches) = (paths.max(1) as f64, batches.max(1) as f64);
         let estimate = |pixel: usize| {
             let sum = |plane: usize| self.sums.quick_value(PLANES * pixel + plane);
-            let mean = [0, 1, 2].map(|channel| (sum(channel) / paths) as f32);
-            let deviations = |channel: usize| (sum(channel + 3) - sum(channel).powi(2) / batches).max(0.0);
-            SplatEstimate { mean, variance: [0, 1, 2].map(|channel| (deviations(channel) / (paths * paths)) as f32) }
+            let mut estimate = SplatEstimate::default();
+            for channel in 0..3 {
+                let total = sum(channel);
+                let deviations = (sum(channel + 3) - total.powi(2) / batches).max(0.0);
+                estimate.mean[channel] = (total / paths) as f32;
+                estimate.variance[channel] = (deviations / (paths * paths)) as f32;
+            }
+            estimate
         };
         (0..self.counts.len()).map(estimate).collect()
     }

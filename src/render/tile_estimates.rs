@@ -40,7 +40,11 @@ impl Tile {
 
     /// The estimates of a block that has a sample, row by row.
     fn block_estimates(&self, block: usize) -> Vec<Estimate> {
-        self.area().block_rows(block).flat_map(|row| self.run(row, self.blocks[block].spp)).collect()
+        let mut estimates = Vec::with_capacity((BLOCK * BLOCK) as usize);
+        for row in self.area().block_rows(block) {
+            self.visit_run(row, self.blocks[block].spp, &mut |estimate| estimates.push(estimate));
+        }
+        estimates
     }
 
     /// The squared radiance of its blocks: see [`SquaredRadiance`].
@@ -80,27 +84,35 @@ impl Tile {
         Some(([mean, of_rest], (n / (n + rest)) as f32))
     }
 
-    /// The estimates of one row of the tile, which must have a sample; `row` counts from the tile's top.
-    pub fn estimates(&self, row: usize) -> impl Iterator<Item = Estimate> {
-        let [width, _] = self.size.map(|side| side as usize);
-        let columns = width.div_ceil(BLOCK as usize);
-        let blocks = &self.blocks[row / BLOCK as usize * columns..][..columns];
-        blocks.iter().enumerate().flat_map(move |(column, block)| {
-            let left = column * BLOCK as usize;
-            self.run(row * width + left..row * width + width.min(left + BLOCK as usize), block.spp)
-        })
+    /// The estimates of one row of the tile: see [`Tile::visit_estimates`].
+    pub fn estimates(&self, row: usize) -> Vec<Estimate> {
+        let mut estimates = Vec::with_capacity(self.size[0] as usize);
+        self.visit_estimates(row, |estimate| estimates.push(estimate));
+        estimates
     }
 
-    /// The estimates of some pixels with `spp` samples.
-    fn run(&self, pixels: Range<usize>, spp: u32) -> impl Iterator<Item = Estimate> {
+    /// Calls `visit` with the estimates of one row of the tile, which must have a sample; `row` counts from the tile's top.
+    #[inline]
+    pub fn visit_estimates(&self, row: usize, mut visit: impl FnMut(Estimate)) {
+        let [width, _] = self.size.map(|side| side as usize);
+        let columns = width.div_ceil(BLOCK as usize);
+        for (column, block) in self.blocks[row / BLOCK as usize * columns..][..columns].iter().enumerate() {
+            let left = column * BLOCK as usize;
+            self.visit_run(row * width + left..row * width + width.min(left + BLOCK as usize), block.spp, &mut visit);
+        }
+    }
+
+    /// Calls `visit` with the estimates of some pixels with `spp` samples.
+    #[inline]
+    fn visit_run(&self, pixels: Range<usize>, spp: u32, visit: &mut impl FnMut(Estimate)) {
         let n = f64::from(spp.max(1));
         let (per_sample, per_degree) = (1.0 / n, 1.0 / (n - 1.0));
-        let sums = self.sum[pixels.clone()].iter().zip(&self.sum_of_squares[pixels.clone()]);
-        sums.zip(pixels).map(move |((sum, square), pixel)| {
+        for pixel in pixels {
+            let (sum, square) = (&self.sum[pixel], &self.sum_of_squares[pixel]);
             let mean = [sum[0] / n, sum[1] / n, sum[2] / n];
             let variance = |c: usize| ((square[c] * per_sample - mean[c] * mean[c]) * per_degree).max(0.0);
             let estimate = Estimate { mean, variance_of_mean: (n > 1.0).then(|| [variance(0), variance(1), variance(2)]) };
-            self.splats.get(pixel).map_or(estimate, |splats| estimate.plus(splats))
-        })
+            visit(self.splats.get(pixel).map_or(estimate, |splats| estimate.plus(splats)));
+        }
     }
 }

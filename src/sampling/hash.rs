@@ -13,6 +13,7 @@ pub fn hash<L: Lanes>(x: U<L>) -> U<L> {
 }
 
 /// [`hash`] of one number.
+#[inline]
 pub fn hash_one(x: u32) -> u32 {
     hash(U::<crate::math::One>(x)).0
 }

@@ -186,6 +186,7 @@ impl Scene {
     /// Not where light passes through surfaces or materials are blended: the pdf with which another pixel finds a point would then
     /// contain the mean transmittance on the way and the mean opacity there, and a visibility ray tells neither. Not with paths from
     /// lights, which are shared by all pixels already.
+    #[inline]
     pub fn can_share(&self, rays: &CameraRays, settings: &RenderSettings) -> bool {
         settings.directions != Directions::Uniform
             && settings.max_bounces.is_none_or(|cap| cap > 1)

@@ -174,10 +174,11 @@ impl CameraRays {
         let seen = self.projection.seen(from_eye, self.forward);
         // Across the axis, from the upper left corner of the image.
         let place = seen.place + off_axis - self.corner;
-        let [(x, width), (y, height)] = [self.per_x, self.per_y].map(|edge| {
+        let along = |edge: [f32; 3]| {
             let square = edge[0] * edge[0] + (edge[1] * edge[1] + edge[2] * edge[2]);
             (place.dot_with(edge) * (1.0 / square), square.sqrt())
-        });
+        };
+        let ((x, width), (y, height)) = (along(self.per_x), along(self.per_y));
         let mut join = CameraJoin { way: seen.way, x, y, density: seen.scale * (1.0 / (width * height)), visible: seen.visible };
         if self.move_in_time() {
             let (way, squeeze) = self.motion.carry_vector(l, seen.way, time);

@@ -86,7 +86,9 @@ impl Grid {
         // Adding 2²³ rounds to an integer that stands in the last bits.
         const ROUNDER: f32 = 8_388_608.0;
         let place = (center - self.base) * self.scale - 0.5 + ROUNDER;
-        place.max(Vec4::splat(ROUNDER)).to_array().map(|place| place.to_bits() as usize & (BINS - 1))
+        let bin = |place: f32| place.to_bits() as usize & (BINS - 1);
+        let [x, y, z, w] = place.max(Vec4::splat(ROUNDER)).to_array();
+        [bin(x), bin(y), bin(z), bin(w)]
     }
 }
 

@@ -78,7 +78,7 @@ impl Branch {
     }
 
     fn around(bounds: &Extent) -> Branch {
-        let [min, max] = [bounds.min, bounds.max].map(|corner| corner.truncate().to_array());
+        let (min, max) = (bounds.min.truncate().to_array(), bounds.max.truncate().to_array());
         Branch { min, max, link: 0, count: 0, shares: [Shares::default(); WIDTH] }
     }
 

@@ -35,7 +35,7 @@ impl Mesh {
     pub fn build(data: &MeshData, map: &DAffine3, progress: &Progress) -> Result<Mesh, Cancelled> {
         let rows = Rows { data, posed: data.posed(map) };
         let (vertices, all) = (rows.vertices(), rows.posed.triangles());
-        let corners = |triangle: [u32; 3]| triangle.map(|vertex| position(&vertices, vertex));
+        let corners = |[a, b, c]: [u32; 3]| [position(&vertices, a), position(&vertices, b), position(&vertices, c)];
         let is_kept = |triangle: &[u32; 3]| has_area(corners(*triangle));
         // Almost all meshes keep all triangles.
         let kept: Cow<[[u32; 3]]> = match all.par_iter().all(is_kept) {

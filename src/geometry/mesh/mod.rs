@@ -153,7 +153,8 @@ impl Mesh {
 
     /// The vertices of a triangle.
     pub fn corners(&self, triangle: u32) -> [[f32; 3]; 3] {
-        ids(&self.triangles[triangle as usize]).map(|vertex| position(&self.vertices, vertex))
+        let [a, b, c] = ids(&self.triangles[triangle as usize]);
+        [position(&self.vertices, a), position(&self.vertices, b), position(&self.vertices, c)]
     }
 
     /// The box around all triangles.
@@ -199,6 +200,7 @@ fn ids(row: &[f32; 4]) -> [u32; 3] {
 }
 
 /// The position of a vertex.
+#[inline]
 fn position(vertices: &[[f32; 4]], vertex: u32) -> [f32; 3] {
     let [x, y, z, _] = vertices[vertex as usize];
     [x, y, z]

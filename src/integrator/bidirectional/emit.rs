@@ -11,7 +11,7 @@ use crate::{
         work::Work,
     },
     light::{LightRays, RayCoordinates},
-    math::{Lanes, U, V},
+    math::{Lanes, V},
     sampling::Dimension,
 };
 
@@ -40,8 +40,8 @@ pub(super) fn emit<L: Lanes>(l: L, work: &Work, rays: &LightRays, batch: &mut Ba
         let starts = inside & ray.inverse_density.above(0.0) & flux.max_component().above(0.0);
         let end = &mut state.ends[0];
         put(starts, slot, flux, ray.inverse_density, &mut state.fluxes);
-        let source = [ray.light, ray.place.primitive, ray.place.element].map(U::as_real_bits);
-        put(starts, slot, V { x: source[0], y: source[1], z: source[2] }, l.f(0.0), &mut state.sources);
+        let (x, y, z) = (ray.light.as_real_bits(), ray.place.primitive.as_real_bits(), ray.place.element.as_real_bits());
+        put(starts, slot, V { x, y, z }, l.f(0.0), &mut state.sources);
         end.put_partial(starts, slot, Partial { v: l.f(0.0), c: l.f(0.0) });
         Path { o: ray.o, d: ray.d, throughput: V::splat(l, [1.0; 3]), slot }.push(starts, &mut batch.paths[0].paths);
     }

@@ -7,7 +7,7 @@ use crate::{
         light_paths::{paths::LightPaths, records::CameraRay, splat::Splat},
         work::Work,
     },
-    math::{F, Lanes, MAX_LANES},
+    math::{Lanes, MAX_LANES},
     sampling::Dimension,
 };
 
@@ -18,7 +18,8 @@ pub(super) fn join<L: Lanes>(l: L, work: &Work, batch: &mut Batch, state: &mut L
         let nearest = work.scene.shapes.closest(l, at.live, o, d, work.time(l, slot));
         let (u, v) = work.stream(l, slot).two(Dimension::cell(Dimension::LIGHT_PATH + batch.bounce + 1));
         let seen = at.live & nearest.t.ge(distance);
-        let [x, y, u, v, r, g, b] = [x, y, u, v, light.x, light.y, light.z].map(F::to_array);
+        let [x, y, u, v] = [x.to_array(), y.to_array(), u.to_array(), v.to_array()];
+        let [r, g, b] = [light.x.to_array(), light.y.to_array(), light.z.to_array()];
         let mut lanes = seen.bits();
         while lanes != 0 {
             let lane = lanes.trailing_zeros() as usize % MAX_LANES;

@@ -84,7 +84,8 @@ fn at_first_surface<L: Lanes>(
 ) -> Partial<L> {
     let lights = &work.scene.lights;
     let [.., inverse_density] = l.rows(&state.fluxes, hit.slot);
-    let [light, primitive, element, _] = l.rows(&state.sources, hit.slot).map(F::bits);
+    let [light, primitive, element, _] = l.rows(&state.sources, hit.slot);
+    let (light, primitive, element) = (light.bits(), primitive.bits(), element.bits());
     let transmits = if stage.transmits() { l.first(L::N) } else { l.first(0) };
     let at = ReferencePoint { p: hit.p, n: hit.n, transmits, lobe: None };
     let lamps = *live & lights.are_lamps(light);
@@ -134,8 +135,9 @@ fn queue_join<L: Lanes>(
     let lens = work.stream(l, hit.slot).two(Dimension::light(Dimension::LIGHT_PATH + bounce + 1));
     let join = work.rays.join(l, hit.p, work.time(l, hit.slot), lens);
     let reach = work.rays.filter.reach();
-    let [width, height] = work.rays.resolution.map(|side| side as f32 + reach);
-    let shown = join.x.above(-reach) & join.x.below(width) & join.y.above(-reach) & join.y.below(height);
+    let [width, height] = work.rays.resolution;
+    let shown_across = join.x.above(-reach) & join.x.below(width as f32 + reach);
+    let shown = shown_across & join.y.above(-reach) & join.y.below(height as f32 + reach);
     let faces = *live & join.visible & shown;
     if !faces.any() {
         return;

@@ -20,7 +20,8 @@ impl Splat {
         let [(column, by_column), (row, by_row)] = [choose(filter, *x, *u)?, choose(filter, *y, *v)?];
         let (column, row) = (u32::try_from(column).ok()?, u32::try_from(row).ok()?);
         let weight = f64::from(by_column * by_row);
-        (column < width && row < height).then(|| ([column, row], light.map(|light| f64::from(light) * weight)))
+        let [r, g, b] = [f64::from(light[0]), f64::from(light[1]), f64::from(light[2])];
+        (column < width && row < height).then_some(([column, row], [r * weight, g * weight, b * weight]))
     }
 }
 

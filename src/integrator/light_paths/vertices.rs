@@ -102,18 +102,18 @@ impl LightVertices {
         }
         let bounce = l.u(bounce).as_real_bits();
         let [a, b, c, d, e, f, g, h, i] = chart;
+        let row = |a: F<L>, b: F<L>, c: F<L>, d: F<L>| [a.to_array(), b.to_array(), c.to_array(), d.to_array()];
         let rows = [
-            [hit.p.x, hit.p.y, hit.p.z, zero],
-            [hit.n.x, hit.n.y, hit.n.z, bounce],
-            [hit.colour.x, hit.colour.y, hit.colour.z, alpha],
-            [light.x, light.y, light.z, error],
-            [back.x, back.y, back.z, primitive.as_real_bits()],
-            [partial.v, partial.c, element.as_real_bits(), word.as_real_bits()],
-            [a, b, c, d],
-            [e, f, g, h],
-            [i, transmitted.x, transmitted.y, transmitted.z],
+            row(hit.p.x, hit.p.y, hit.p.z, zero),
+            row(hit.n.x, hit.n.y, hit.n.z, bounce),
+            row(hit.colour.x, hit.colour.y, hit.colour.z, alpha),
+            row(light.x, light.y, light.z, error),
+            row(back.x, back.y, back.z, primitive.as_real_bits()),
+            row(partial.v, partial.c, element.as_real_bits(), word.as_real_bits()),
+            row(a, b, c, d),
+            row(e, f, g, h),
+            row(i, transmitted.x, transmitted.y, transmitted.z),
         ];
-        let rows = rows.map(|row| row.map(F::to_array));
         let slot = hit.slot.to_array();
         let mut lanes = live.bits();
         while lanes != 0 {
@@ -121,7 +121,7 @@ impl LightVertices {
             lanes &= lanes - 1;
             let last = &mut self.last[slot[lane] as usize][0];
             let first_row = self.rows.len();
-            self.rows.extend(rows.iter().map(|row| row.map(|number| number[lane])));
+            self.rows.extend(rows.iter().map(|[a, b, c, d]| [a[lane], b[lane], c[lane], d[lane]]));
             self.rows[first_row][3] = *last;
             *last = f32::from_bits(first_row as u32 / ROWS + 1);
         }
@@ -191,7 +191,7 @@ impl LightVertices {
         }
         let (none, wo) = (l.u(0), V { x, y, z });
         Detail { wo, n, alpha, error, surface: read.word, media: none, medium: none }.push(keep, &mut queues.details);
-        let [of_chart, more, rest] = [6, 7, 8].map(|number| l.rows(&self.rows, row + number));
+        let (of_chart, more, rest) = (l.rows(&self.rows, row + 6), l.rows(&self.rows, row + 7), l.rows(&self.rows, row + 8));
         if work.scene.surfaces.charted && stage.reads_chart() {
             let ([u, v, x, y], [z, r, g, b], [vertex_opacity, ..]) = (of_chart, more, rest);
             Chart { u, v, along_u: V { x, y, z }, vertex: V { x: r, y: g, z: b }, vertex_opacity }.push(keep, &mut queues.charts);

@@ -11,7 +11,7 @@ fn tile() -> Tile {
 
 fn assert_estimates(tile: &Tile, samples: impl Fn(u32, u32) -> u32) {
     for row in 0..SIZE[1] {
-        let estimates: Vec<_> = tile.estimates(row as usize).collect();
+        let estimates = tile.estimates(row as usize);
         assert_eq!(estimates.len(), SIZE[0] as usize);
         for (column, estimate) in (0..).zip(estimates) {
             let [mean, variance] = exact(64 + column, 32 + row, samples(column, row));
@@ -33,7 +33,7 @@ fn assert_estimates(tile: &Tile, samples: impl Fn(u32, u32) -> u32) {
 fn every_pixel_has_the_mean_and_variance_of_its_own_samples() {
     let mut tile = tile();
     add(&mut tile, 0..1);
-    assert!(tile.estimates(0).all(|estimate| estimate.variance_of_mean.is_none()));
+    assert!(tile.estimates(0).iter().all(|estimate| estimate.variance_of_mean.is_none()));
     add(&mut tile, 1..5);
     assert_estimates(&tile, |_, _| 5);
     assert_eq!((tile.spp, tile.samples(), tile.invalid), (5, 5 * 19 * 13, 0));
@@ -55,7 +55,7 @@ fn samples_that_are_no_light_are_black_counted_and_named() {
             radiance[(12 * TILE + 19) as usize] = [bad; 4];
             assert_eq!(tile.add(&radiance), Some([64 + 17, 32 + 12]), "{bad} {channel}");
             assert_eq!(tile.invalid, 2);
-            assert_eq!(tile.estimates(12).map(|estimate| estimate.mean[0]).collect::<Vec<_>>()[16..], [1.0, 0.0, 0.0]);
+            assert_eq!(tile.estimates(12).iter().map(|estimate| estimate.mean[0]).collect::<Vec<_>>()[16..], [1.0, 0.0, 0.0]);
         }
     }
 }
