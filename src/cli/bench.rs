@@ -12,11 +12,10 @@ use noisefall::{
     math::SimdLevel,
     render::{
         profile::{CountedRays, PathStage, Profile, StageCost, settings_of},
-        sharing::sharing_name,
         threads::{PassJob, Threads},
     },
     report::stack::{Bar, stacked},
-    scene::{Camera, Reuse},
+    scene::{Camera, Sharing},
 };
 use serde_json::{Value, json};
 
@@ -65,7 +64,7 @@ struct Measured {
     elapsed: Duration,
     threads: usize,
     spp: u32,
-    shares: bool,
+    sharing: Sharing,
 }
 
 pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
@@ -88,8 +87,8 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let Ok(profile) = threads.profile(job, arguments.spp, &|| stop.load(Ordering::Relaxed)) else {
         return Ok(ExitCode::from(INTERRUPTED));
     };
-    let (elapsed, shares) = (start.elapsed(), settings.reuse == Reuse::On);
-    let measured = Measured { profile, build, elapsed, threads: threads.count(), spp: arguments.spp, shares };
+    let (elapsed, sharing) = (start.elapsed(), scene.sharing(&rays, &settings));
+    let measured = Measured { profile, build, elapsed, threads: threads.count(), spp: arguments.spp, sharing };
     if let Some(output) = &arguments.output {
         replace(output, measured.plot(&scene.title).as_bytes()).map_err(|error| error.to_string())?;
     }
@@ -149,7 +148,7 @@ impl Measured {
              stage            time  ns per sample   rays per sample   ns per ray\n",
             profile.samples,
             self.spp,
-            sharing_name(self.shares),
+            self.sharing.name(),
             self.elapsed.as_secs_f64(),
             self.threads,
             self.build.as_secs_f64(),
@@ -198,7 +197,8 @@ impl Measured {
             ("simd", json!(SimdLevel::best().name())),
             ("threads", json!(self.threads)),
             ("spp", json!(self.spp)),
-            ("shares", json!(self.shares)),
+            ("shares", json!(self.sharing.correlates())),
+            ("sharing", json!(self.sharing.name())),
             ("samples", json!(self.profile.samples)),
             ("build_seconds", json!(self.build.as_secs_f64())),
             ("seconds", json!(self.elapsed.as_secs_f64())),

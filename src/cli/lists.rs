@@ -24,7 +24,7 @@ pub struct ListOptions {
     /// Highest numbers of bounces, or none for no cap; a cap makes the estimate biased
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = item(parse::bounce_cap))]
     max_bounces: Vec<BounceCap>,
-    #[arg(long, help = format!("Whether neighbouring pixels reuse each other's paths: {}", parse::list_of::<Reuse>()),
+    #[arg(long, help = format!("What neighbouring pixels share: {}", parse::list_of::<Reuse>()),
           value_name = "LIST", value_delimiter = ',', value_parser = item(parse::word::<Reuse>))]
     reuse: Vec<Reuse>,
     /// Adaptive sampling, with more samples where there is more noise: on, off

@@ -112,7 +112,7 @@ impl SampleJob {
         let image = ImageFacts {
             title: self.scene.title.clone(),
             exposure: self.scene.exposure,
-            shares: self.scene.shares(&rays, &settings),
+            shares: self.scene.sharing(&rays, &settings).correlates(),
         };
         let header = Header {
             kind: Kind::Samples,

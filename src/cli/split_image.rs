@@ -11,6 +11,7 @@ use noisefall::{
     },
     render_file::{Counters, Header},
     sampling::Sampler,
+    scene::Sharing,
 };
 use serde_json::{Value, json};
 
@@ -44,8 +45,10 @@ pub fn is_sample_file(output: &Output) -> bool {
 impl SplitImage<'_> {
     /// An empty image.
     pub fn picture(&self) -> Result<Picture, Failure> {
+        // For the figures it makes no difference what exactly is shared.
         let shares = self.header.image.as_ref().is_some_and(|image| image.shares);
-        let picture = Picture::new(self.header.camera.resolution, self.samples.clone(), shares);
+        let sharing = if shares { Sharing::Suffixes } else { Sharing::Nothing };
+        let picture = Picture::new(self.header.camera.resolution, self.samples.clone(), sharing);
         picture.map_err(|error| error.to_string())
     }
 

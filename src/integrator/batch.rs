@@ -1,5 +1,6 @@
 //! The queues of one thread, which hold the paths of a batch between stages.
 use super::{
+    bright::Bright,
     crossings::Crossings,
     first_hits::FirstHits,
     light_paths::{paths::LightPaths, splat::Splat},
@@ -33,6 +34,8 @@ pub struct Batch {
     pub splats: Vec<Splat>,
     /// Queues of paths from both ends, after the first trace with such paths.
     pub(super) light_paths: Option<Box<LightPaths>>,
+    /// What sharing bright samples needs, after the first trace with it.
+    pub(super) bright: Option<Box<Bright>>,
     /// Paths cut at [`crate::scene::RenderSettings::last_bounce`] in the absence of a cap.
     pub cut_paths: u64,
 }
@@ -51,6 +54,7 @@ impl Default for Batch {
             rays: 0,
             splats: Vec::new(),
             light_paths: None,
+            bright: None,
             cut_paths: 0,
         }
     }

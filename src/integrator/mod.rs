@@ -5,6 +5,7 @@
 //! it (the sampler's dimension, the cap, whether roulette has begun) is decided once per stage and not once per path.
 mod batch;
 mod bidirectional;
+mod bright;
 mod collision;
 mod coordinates;
 mod crossings;
@@ -50,6 +51,7 @@ pub use self::fault::trace;
 pub use self::trace::trace;
 pub use self::{
     batch::Batch,
+    bright::{Replays, Thresholds},
     collision::{clear_fraction, is_blind},
     features::{Features, features},
     interrupted::Interrupted,

@@ -4,6 +4,7 @@ use fearless_simd_macros::simd;
 use super::{
     batch::Batch,
     bidirectional::trace_both_ends,
+    bright::{set_aside, share_bright},
     interrupted::Interrupted,
     intersect::intersect,
     passage::Decisions,
@@ -66,6 +67,17 @@ pub fn trace(level: SimdLevel, work: &Work, batch: &mut Batch, interrupted: &dyn
     if let Some(rays) = work.scene.light_rays(work.settings) {
         return in_few_lanes!(level, l => trace_both_ends(l, work, rays, batch, interrupted));
     }
+    trace_alone(level, work, batch, interrupted)?;
+    work.thresholds.map_or(Ok(()), |thresholds| share_bright(level, work, thresholds, batch, interrupted))
+}
+
+/// [`trace`] of paths from the camera. Their bright samples are not shared.
+pub(super) fn trace_alone(
+    level: SimdLevel,
+    work: &Work,
+    batch: &mut Batch,
+    interrupted: &dyn Fn() -> bool,
+) -> Result<(), Interrupted> {
     in_lanes!(level, l => trace_in(l, work, batch, interrupted, &mut ()))
 }
 
@@ -135,7 +147,10 @@ pub(super) fn trace_in<L: Lanes, O: Observer>(
         }
         batch.bounce += 1;
     }
-    if work.shares() {
+    if let Some(thresholds) = work.thresholds {
+        set_aside(work, thresholds, batch);
+    }
+    if work.shares() && work.replays.is_none() {
         observer.before_sharing(work, batch);
         if !share(l, work, batch, interrupted) {
             return Err(Interrupted);

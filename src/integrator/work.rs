@@ -1,7 +1,10 @@
 //! The work of a batch: one sample of each pixel of a tile, or of some blocks of pixels.
 use fearless_simd_macros::simd;
 
-use super::slots::{BLOCK, BLOCKS, SLOTS, TILE, place_in_groups};
+use super::{
+    bright::{Replays, Thresholds},
+    slots::{BLOCK, BLOCKS, SLOTS, TILE, place_in_groups},
+};
 use crate::{
     math::{F, Lanes, M, U},
     sampling::{Dimension, Stream},
@@ -25,6 +28,10 @@ pub struct Work<'a> {
     pub sample: u32,
     /// Blocks of the tile to compute instead of the whole tile. Always `None` with path reuse, which needs whole tiles.
     pub blocks: Option<&'a Blocks>,
+    /// Pixels of the tile to compute instead of the whole tile, with the random numbers of others.
+    pub replays: Option<&'a Replays>,
+    /// Above these, samples are shared between pixels; `None` if they are not.
+    pub thresholds: Option<&'a Thresholds>,
 }
 
 /// Up to [`BLOCKS`] blocks, each with its own sample index.
@@ -68,7 +75,7 @@ impl<'a> Work<'a> {
         size: [u32; 2],
         sample: u32,
     ) -> Self {
-        Work { scene, rays, settings, origin, size, sample, blocks: None }
+        Work { scene, rays, settings, origin, size, sample, blocks: None, replays: None, thresholds: None }
     }
 
     /// The tile or its blocks: corners, width and height, and sample indices.
@@ -81,10 +88,11 @@ impl<'a> Work<'a> {
 
     /// Number of slots to fill.
     pub(super) fn slots(&self) -> u32 {
-        match self.blocks {
-            Some(blocks) => blocks.count as u32 * BLOCK * BLOCK,
-            None if self.shares() => SLOTS as u32,
-            None => self.size[1] * TILE,
+        match (self.blocks, self.replays) {
+            (Some(blocks), _) => blocks.count as u32 * BLOCK * BLOCK,
+            (None, Some(replays)) => replays.len() as u32,
+            (None, None) if self.shares() => SLOTS as u32,
+            (None, None) => self.size[1] * TILE,
         }
     }
 
@@ -94,6 +102,9 @@ impl<'a> Work<'a> {
         if let Some(blocks) = self.blocks {
             let [corner, _] = blocks.rows(l, slot);
             return corner + in_block(slot);
+        }
+        if let Some(replays) = self.replays {
+            return replays.at(l, slot)[0];
         }
         let (x, y) = self.place(slot);
         ((y + self.origin[1]) << 16) + (x + self.origin[0])
@@ -114,7 +125,8 @@ impl<'a> Work<'a> {
             let [corner, sample] = blocks.rows(l, slot);
             return Stream::new(sampler, seed, corner + in_block(slot), sample);
         }
-        Stream::new(sampler, seed, self.pixel(l, slot), l.u(self.sample))
+        let pixel = self.replays.map_or_else(|| self.pixel(l, slot), |replays| replays.at(l, slot)[1]);
+        Stream::new(sampler, seed, pixel, l.u(self.sample))
     }
 
     /// The same sample of all pixels of the tile in which this work begins.

@@ -45,7 +45,7 @@ pub(super) fn spread(
 ) -> Result<(), Interrupted> {
     if film.is_piloted
         || !job.settings.adaptive
-        || job.scene.shares(job.rays, job.settings)
+        || job.scene.sharing(job.rays, job.settings).correlates()
         || job.scene.traces_light_paths(job.settings)
     {
         return Ok(());

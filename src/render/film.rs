@@ -5,6 +5,7 @@ use super::{area::Area, region::Region, splats::SplatFilm, tile::Tile};
 use crate::{
     integrator::{TERMS, TILE},
     memory::{self, Reservation, TooMuch},
+    scene::Sharing,
 };
 
 /// Sums of samples over all pixels, in tiles that each belong to one thread at a time.
@@ -15,7 +16,7 @@ pub struct Film {
     /// Whether all samples up to the next doubling are there, which must be recorded before there are more.
     pub(super) is_noting: bool,
     /// Whether pixels share paths, so that their noise is correlated.
-    pub(super) shares: bool,
+    pub(super) sharing: Sharing,
     /// Whether a pilot has measured the noise.
     pub(super) is_piloted: bool,
     /// The region that gets all samples.
@@ -28,7 +29,7 @@ impl Film {
     /// An empty film. The render threads allocate its memory with the first sample, tile by tile.
     pub fn new(resolution: [u32; 2]) -> Film {
         let tiles = Area::tiles(resolution).map(|Area { origin, size }| Tile::new(origin, size)).collect();
-        Film { resolution, tiles, is_noting: false, shares: false, is_piloted: false, focus: None, splats: None }
+        Film { resolution, tiles, is_noting: false, sharing: Sharing::Nothing, is_piloted: false, focus: None, splats: None }
     }
 
     /// Reserves memory for an image of this size: the film, its frames, and saving one of them.
@@ -63,7 +64,7 @@ impl Film {
             return Film::new(resolution);
         }
         self.tiles.iter_mut().for_each(Tile::forget);
-        (self.is_noting, self.shares, self.is_piloted, self.focus, self.splats) = (false, false, false, None, None);
+        (self.is_noting, self.sharing, self.is_piloted, self.focus, self.splats) = (false, Sharing::Nothing, false, None, None);
         self
     }
 

@@ -17,6 +17,7 @@ use crate::{
     integrator::TILE,
     math::colour::luminance,
     measure::{BlockErrors, SampleNoise},
+    scene::Sharing,
 };
 
 // The blocks of [`SampleNoise`] are the tiles.
@@ -43,7 +44,7 @@ pub struct Frame {
     /// Samples of every pixel, row by row; empty if all have `spp`.
     pub counts: Vec<u32>,
     /// Whether its pixels share paths.
-    pub shares: bool,
+    pub sharing: Sharing,
     /// Time spent rendering it.
     pub elapsed: Duration,
     /// The series by number of bounces, if requested.
@@ -92,7 +93,7 @@ impl Frame {
             standard_error,
             spp: film.spp(),
             counts: counts(film),
-            shares: film.shares,
+            sharing: film.sharing,
             elapsed: Duration::ZERO,
             series: Series::of_film(film),
             halves: None,
@@ -139,8 +140,8 @@ fn noise(film: &Film, variance: Vec<[f32; 3]>) -> Option<SampleNoise> {
     (least > 1).then(|| SampleNoise {
         width: film.resolution[0],
         variance,
-        blocks: film.tiles.iter().map(|tile| tile.variance_of_mean(film.shares)).collect(),
-        block_degrees: if film.shares { f64::from(least - 1) } else { f64::INFINITY },
+        blocks: film.tiles.iter().map(|tile| tile.variance_of_mean(film.sharing.correlates())).collect(),
+        block_degrees: if film.sharing.correlates() { f64::from(least - 1) } else { f64::INFINITY },
         effective_samples: Parts::effective_count(film.tiles.iter().flat_map(Tile::parts)),
     })
 }

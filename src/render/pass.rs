@@ -1,5 +1,8 @@
 //! A pass: brings all tiles of a film to a number of samples, on all threads.
-use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::{
+    panic::{AssertUnwindSafe, catch_unwind},
+    sync::Arc,
+};
 
 use rayon::prelude::*;
 
@@ -17,7 +20,7 @@ use super::{
     tile::Tile,
 };
 use crate::{
-    integrator::{Interrupted, Splat, Work, trace, trace_series},
+    integrator::{Interrupted, Splat, Thresholds, Work, trace, trace_series},
     math::SimdLevel,
     sampling::Filter,
 };
@@ -36,7 +39,7 @@ impl Threads {
         if job.scene.traces_light_paths(job.settings) && !film.has_series() {
             film.keep_splats();
         }
-        film.shares |= job.scene.shares(job.rays, job.settings);
+        film.sharing = job.scene.sharing(job.rays, job.settings);
         let mut count = PassCount::default();
         loop {
             let next = next_stop(film, spp);
@@ -122,6 +125,10 @@ impl SampledTile for Towards<'_> {
             if tile.is_adaptive() { NextSamples::OfBlocks(Box::new(tile.missing(*spp))) } else { NextSamples::OfTile(tile.spp) }
         };
         (!tile.has_reached(*spp)).then(next)
+    }
+
+    fn thresholds(&mut self) -> &mut Option<Arc<Thresholds>> {
+        &mut self.tile.thresholds
     }
 
     fn trace(

@@ -7,7 +7,7 @@ use super::{
     region::Region,
     target::Target,
 };
-use crate::scene::{Camera, RenderSettings, Scene};
+use crate::scene::{Camera, RenderSettings, Scene, Sharing};
 
 /// Everything that an image depends on. Display settings are not in it, so they cannot restart a render.
 #[derive(Clone)]
@@ -118,7 +118,7 @@ pub struct Status {
     /// Estimated relMSE; `None` before the second sample.
     pub rel_mse_estimate: Option<f64>,
     /// Whether pixels share paths.
-    pub shares: bool,
+    pub sharing: Sharing,
     /// Whether sampling is adaptive.
     pub adapts: bool,
     /// Samples dropped because they were negative or not finite.

@@ -1,7 +1,7 @@
 //! Takes the samples of one tile on one thread.
 use std::{
     panic::{AssertUnwindSafe, catch_unwind},
-    sync::PoisonError,
+    sync::{Arc, PoisonError},
 };
 
 use super::{
@@ -10,7 +10,7 @@ use super::{
     threads::{Buffers, PassJob, Threads},
 };
 use crate::{
-    integrator::{Blocks, Interrupted, Splat, Work, replay, trace},
+    integrator::{Blocks, Interrupted, Splat, Thresholds, Work, replay, trace},
     math::SimdLevel,
     scene::{RenderSettings, Reuse},
 };
@@ -30,6 +30,9 @@ pub trait SampledTile {
 
     /// The next samples; `None` at the goal.
     fn next(&self) -> Option<NextSamples>;
+
+    /// The thresholds of its bright samples, once they are known.
+    fn thresholds(&mut self) -> &mut Option<Arc<Thresholds>>;
 
     /// Traces samples.
     fn trace(
@@ -61,6 +64,7 @@ impl Threads {
     ) -> PassCount {
         let PassJob { scene, rays, settings } = job;
         let Area { origin, size } = tile.area();
+        let shares_bright = scene.sharing(rays, settings).has_bright_samples();
         let mut count = PassCount::default();
         let thread = rayon::current_thread_index().unwrap_or(0);
         let mut buffers = self.buffers[thread].lock().unwrap_or_else(PoisonError::into_inner);
@@ -72,7 +76,13 @@ impl Threads {
                     Work { blocks: Some(blocks), ..Work::tile(scene, rays, settings, origin, size, 0) }
                 }
             };
-            let traced = catch_unwind(AssertUnwindSafe(|| tile.trace(self.level, &work, &mut buffers, interrupted)));
+            let traced = catch_unwind(AssertUnwindSafe(|| {
+                if shares_bright && tile.thresholds().is_none() {
+                    *tile.thresholds() = Some(Arc::new(Thresholds::of(self.level, &work, &mut buffers.batch, interrupted)?));
+                }
+                let thresholds = tile.thresholds().clone();
+                tile.trace(self.level, &Work { thresholds: thresholds.as_deref(), ..work }, &mut buffers, interrupted)
+            }));
             match traced {
                 Ok(Ok(())) => {
                     tile.splat(&buffers.batch.splats);

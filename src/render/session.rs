@@ -21,7 +21,7 @@ use super::{
 };
 use crate::{
     memory::{Reservation, TooMuch},
-    scene::{Estimator, RenderSettings, Reuse},
+    scene::{Estimator, RenderSettings, Reuse, Sharing},
 };
 
 /// Camera samples per second before the first measurement: those of a slow machine with a simple scene.
@@ -46,8 +46,8 @@ pub(super) struct Session {
     rel_mse_estimate: Option<f64>,
     /// The same for the region that is rendered before the rest.
     region_estimate: Option<(Region, f64)>,
-    /// Whether pixels share paths.
-    shares: bool,
+    /// What pixels share.
+    sharing: Sharing,
     last_frame: Option<Instant>,
     /// Whether there are samples that no frame shows.
     stale: bool,
@@ -78,7 +78,7 @@ impl Session {
             steps_done: budget.steps,
             rel_mse_estimate: None,
             region_estimate: None,
-            shares: false,
+            sharing: Sharing::Nothing,
             last_frame: None,
             stale: false,
             memory: [None, None],
@@ -212,8 +212,12 @@ impl Session {
         let target = if budget.paused { spp + 1 } else { self.target_of_pass(budget, publish) };
         let RenderRequest { scene, camera, settings } = &self.request;
         let rays = scene.rays(camera);
-        let Ok(settings) = threads.install(|| resolved_unless(scene, &rays, settings, interrupted)) else { return };
-        self.shares = scene.shares(&rays, &settings);
+        let begun = Instant::now();
+        let resolved = threads.install(|| resolved_unless(scene, &rays, settings, interrupted));
+        // What a trial takes is part of the time of the image.
+        self.elapsed += begun.elapsed();
+        let Ok(settings) = resolved else { return };
+        self.sharing = scene.sharing(&rays, &settings);
         let start = Instant::now();
         let time_left = budget.max_time.filter(|_| spp > 0).map(|most| most.saturating_sub(self.elapsed));
         let last_frame = self.last_frame;

@@ -1,29 +1,36 @@
-//! Decides whether path reuse pays in a scene, by a trial of a few tiles with and without it.
+//! Decides what pixels share, by a trial of a few tiles.
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use rayon::prelude::*;
 
-use super::{estimate::Estimate, light_trial::estimator_unless, tile::Tile, trial::relative_variances};
+use super::{light_trial::estimator_unless, tile::Tile};
 use crate::{
-    integrator::{Batch, Interrupted, TILE, Work, trace},
+    integrator::{Batch, Interrupted, TILE, Thresholds, Work, trace},
     math::SimdLevel,
-    sampling::Sampler,
-    scene::{CameraRays, RenderSettings, Reuse, Scene},
+    measure::{Floor, relative},
+    scene::{CameraRays, RenderSettings, Reuse, Scene, Sharing},
 };
 
 /// Positions of the tiles in the image.
 const PLACES: [[f64; 2]; 5] = [[0.25, 0.25], [0.75, 0.25], [0.5, 0.5], [0.25, 0.75], [0.75, 0.75]];
-/// Samples per pixel, with and without sharing.
+/// Samples per pixel, for each way to share and each seed.
 const SPP: u32 = 4;
-/// Cost of a sample with sharing relative to one without: in scenes of lists, and in scenes with trees. Measured costs are 1.7 to
-/// 2.2 and 1.1 to 1.5.
+/// Pixels next to each other that errors are relative to the mean of: a row of a tile. The mean of a pixel alone follows its noise.
+const ROW: usize = TILE as usize;
+/// Cost of a sample with shared path suffixes relative to one without: in scenes of lists, and in scenes with trees. Measured costs are 1.7
+/// to 2.2 and 1.1 to 1.5.
 const COST: f64 = 2.1;
 const COST_WITH_TREES: f64 = 1.4;
-/// A seed that images are unlikely to have.
-const SEED: u32 = 0x7f4a_7c15;
+/// Cost of a ray of a replay relative to other rays: replays are few, and go where paths are long.
+const COST_OF_REPLAYS: f64 = 1.5;
+/// The gain that bright samples must bring: the trial sees few of them.
+const LEAST_GAIN: f64 = 1.15;
+/// Seeds that images are unlikely to have.
+const SEEDS: [u32; 2] = [0x7f4a_7c15, 0x2545_f491];
 
-/// The same settings, with [`Estimator::Auto`](crate::scene::Estimator::Auto) and [`Reuse::Auto`] resolved. Where sharing is possible, the decision depends on the scene alone and is made
-/// once, with the scene's own estimator: a change of sampler, estimator or cap never turns sharing on or off.
+/// The same settings, with [`Estimator::Auto`](crate::scene::Estimator::Auto) and [`Reuse::Auto`] resolved. Where sharing is possible, the
+/// decision depends on the scene alone and is made once, with the scene's own estimator: a change of sampler, estimator or cap never turns
+/// sharing on or off.
 pub fn resolved(scene: &Scene, rays: &CameraRays, settings: &RenderSettings) -> RenderSettings {
     resolved_unless(scene, rays, settings, &|| false).unwrap_or(*settings)
 }
@@ -35,61 +42,116 @@ pub(super) fn resolved_unless(
     settings: &RenderSettings,
     interrupted: &(dyn Fn() -> bool + Sync),
 ) -> Result<RenderSettings, Interrupted> {
-    let pays = || {
-        let known = &scene.sharing_pays;
-        if let Some(pays) = known.get() {
-            return Ok(*pays);
+    let decided = || {
+        let known = &scene.sharing_by_trial;
+        if let Some(best) = known.get() {
+            return Ok(*best);
         }
         // A scene that fails will fail again in the pass, which reports the place.
-        let pays = catch_unwind(AssertUnwindSafe(|| pays(scene, interrupted))).unwrap_or(Ok(false))?;
-        Ok(*known.get_or_init(|| pays))
+        let best = catch_unwind(AssertUnwindSafe(|| best(scene, interrupted))).unwrap_or(Ok(Sharing::Nothing))?;
+        Ok(*known.get_or_init(|| best))
     };
     let settings = &RenderSettings { estimator: estimator_unless(scene, settings, interrupted)?, ..*settings };
-    let reuse = match settings.reuse {
-        Reuse::Auto if scene.can_share(rays, settings) && pays()? => Reuse::On,
-        Reuse::Auto => Reuse::Off,
-        said => said,
-    };
+    if settings.reuse != Reuse::Auto {
+        return Ok(*settings);
+    }
+    let possible = scene.possible_sharing(rays, settings);
+    let best = if possible.len() > 1 { decided()? } else { Sharing::Nothing };
+    let reuse = if possible.contains(&best) { best.reuse() } else { Reuse::Off };
     Ok(RenderSettings { reuse, ..*settings })
 }
 
-/// Name of path sharing in legends and tables.
-pub fn sharing_name(shares: bool) -> &'static str {
-    if shares { "shared paths" } else { "no sharing" }
+/// What a trial of a way to share has made.
+struct Trial {
+    /// Means of the pixels of all tiles, row by row, with each seed.
+    images: [Vec<[f64; 3]>; 2],
+    rays: f64,
 }
 
-fn pays(scene: &Scene, interrupted: &(dyn Fn() -> bool + Sync)) -> Result<bool, Interrupted> {
-    let settings =
-        RenderSettings { estimator: scene.settings.estimator, sampler: Sampler::Independent, seed: SEED, ..Default::default() };
+/// Tries path suffixes first, and then bright samples in addition to what is better.
+fn best(scene: &Scene, interrupted: &(dyn Fn() -> bool + Sync)) -> Result<Sharing, Interrupted> {
+    let settings = RenderSettings { estimator: scene.settings.estimator, ..Default::default() };
     let rays = scene.rays(&scene.camera);
+    let possible = scene.possible_sharing(&rays, &settings);
+    let trial = |sharing: Sharing| trial(scene, &rays, &RenderSettings { reuse: sharing.reuse(), ..settings }, interrupted);
+    let mut best = (Sharing::Nothing, trial(Sharing::Nothing)?);
+    if possible.contains(&Sharing::Suffixes) {
+        let suffixes = trial(Sharing::Suffixes)?;
+        let cost = if scene.shapes.are_listed() { COST } else { COST_WITH_TREES };
+        if gain(&best.1, &suffixes) > cost {
+            best = (Sharing::Suffixes, suffixes);
+        }
+    }
+    let with_bright = if best.0.has_suffixes() { Sharing::Both } else { Sharing::BrightSamples };
+    if possible.contains(&with_bright) {
+        let bright = trial(with_bright)?;
+        let cost = 1.0 + COST_OF_REPLAYS * (bright.rays / best.1.rays.max(1.0) - 1.0);
+        if gain(&best.1, &bright) > LEAST_GAIN * cost {
+            return Ok(with_bright);
+        }
+    }
+    Ok(best.0)
+}
+
+/// The factor by which the relative squared error falls.
+fn gain(before: &Trial, after: &Trial) -> f64 {
+    let images = || [before, after].into_iter().flat_map(|trial| &trial.images);
+    let values = images().map(Vec::len).sum::<usize>().max(1) * 3;
+    let floor = Floor::DEFAULT.of(images().flatten().flatten().map(|x| x * x).sum::<f64>() / values as f64);
+    let rows: Vec<[f64; 3]> = (0..before.images[0].len().div_ceil(ROW))
+        .map(|row| {
+            let pixels = || images().flat_map(|image| image.chunks(ROW).nth(row)).flatten();
+            [0, 1, 2].map(|channel| pixels().map(|pixel| pixel[channel]).sum::<f64>() / pixels().count() as f64)
+        })
+        .collect();
+    let error = |Trial { images: [a, b], .. }: &Trial| {
+        let pixels = a.iter().zip(b).enumerate();
+        let of = |(i, (a, b)): (usize, (&[f64; 3], &[f64; 3]))| {
+            (0..3).map(|c| relative((a[c] - b[c]).powi(2), rows[i / ROW][c], floor)).sum::<f64>()
+        };
+        pixels.map(of).sum::<f64>()
+    };
+    error(before) / error(after)
+}
+
+/// A few samples of some tiles, with two seeds: the difference of the images shows the error that Sobol points leave.
+fn trial(
+    scene: &Scene,
+    rays: &CameraRays,
+    settings: &RenderSettings,
+    interrupted: &(dyn Fn() -> bool + Sync),
+) -> Result<Trial, Interrupted> {
     let [width, height] = scene.camera.resolution;
     let tile = |[x, y]: &[f64; 2]| {
         let origin = [(width, x), (height, y)].map(|(side, part)| (f64::from(side) * part) as u32 / TILE * TILE);
         let size = [TILE.min(width - origin[0]), TILE.min(height - origin[1])];
-        let with = |reuse| estimates(scene, &rays, RenderSettings { reuse, ..settings }, Tile::new(origin, size), interrupted);
-        Ok([with(Reuse::Off)?, with(Reuse::On)?])
+        let with = |seed| sampled(scene, rays, &RenderSettings { seed, ..*settings }, Tile::new(origin, size), interrupted);
+        Ok([with(SEEDS[0])?, with(SEEDS[1])?])
     };
-    let tiles = PLACES.par_iter().map(tile).collect::<Result<Vec<[Vec<Estimate>; 2]>, Interrupted>>()?;
-    let [without, with] = relative_variances(&tiles);
-    let cost = if scene.shapes.are_listed() { COST } else { COST_WITH_TREES };
-    Ok(without > cost * with)
+    let tiles = PLACES.par_iter().map(tile).collect::<Result<Vec<_>, Interrupted>>()?;
+    let image = |which: usize| tiles.iter().flat_map(|pair| pair[which].0.iter().copied()).collect();
+    Ok(Trial { images: [image(0), image(1)], rays: tiles.iter().flatten().map(|(_, rays)| *rays as f64).sum() })
 }
 
-/// Estimates from a few samples of a tile.
-fn estimates(
+/// The means of the pixels of a tile after a few samples, and the number of rays.
+fn sampled(
     scene: &Scene,
     rays: &CameraRays,
-    settings: RenderSettings,
+    settings: &RenderSettings,
     mut tile: Tile,
     interrupted: &dyn Fn() -> bool,
-) -> Result<Vec<Estimate>, Interrupted> {
-    let mut batch = Batch::default();
+) -> Result<(Vec<[f64; 3]>, u64), Interrupted> {
+    let (level, mut batch) = (SimdLevel::best(), Batch::default());
+    let first = Work::tile(scene, rays, settings, tile.origin, tile.size, 0);
+    let shares_bright = scene.sharing(rays, settings).has_bright_samples();
+    let thresholds = shares_bright.then(|| Thresholds::of(level, &first, &mut batch, interrupted)).transpose()?;
+    batch.rays = 0;
     for sample in 0..SPP {
-        let work = Work::tile(scene, rays, &settings, tile.origin, tile.size, sample);
-        trace(SimdLevel::best(), &work, &mut batch, interrupted)?;
+        trace(level, &Work { sample, thresholds: thresholds.as_ref(), ..first }, &mut batch, interrupted)?;
         tile.add(batch.radiance());
     }
-    Ok((0..tile.size[1] as usize).flat_map(|row| tile.estimates(row)).collect())
+    let means = (0..tile.size[1] as usize).flat_map(|row| tile.estimates(row)).map(|of| of.mean).collect();
+    Ok((means, batch.rays))
 }
 
 #[cfg(test)]

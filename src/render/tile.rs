@@ -1,4 +1,6 @@
 //! A tile of the film: sums of samples per pixel, and counts per block of pixels.
+use std::sync::Arc;
+
 use super::{
     area::{Area, valid},
     block::Block,
@@ -7,7 +9,7 @@ use super::{
     splats::SplatEstimate,
     tile_series::TileSeries,
 };
-use crate::integrator::{BLOCK, Blocks, TILE};
+use crate::integrator::{BLOCK, Blocks, TILE, Thresholds};
 
 /// The pixels of one tile, row by row. Sums are f64, so that the millionth sample still counts.
 pub struct Tile {
@@ -32,6 +34,8 @@ pub struct Tile {
     pub(super) series: Option<TileSeries>,
     /// What paths from lights have brought to the pixels; empty if there are none.
     pub(super) splats: Vec<SplatEstimate>,
+    /// Thresholds of bright samples, once they are known.
+    pub(super) thresholds: Option<Arc<Thresholds>>,
     /// Samples that were negative or not finite; they count as black.
     pub invalid: u64,
 }
@@ -50,6 +54,7 @@ impl Tile {
             whole: Scatter::default(),
             series: None,
             splats: Vec::new(),
+            thresholds: None,
             invalid: 0,
         }
     }
@@ -80,6 +85,7 @@ impl Tile {
         (self.spp, self.invalid, self.series, self.whole) = (0, 0, None, Scatter::default());
         self.blocks.fill(Block::default());
         self.splats.clear();
+        self.thresholds = None;
     }
 
     pub(super) fn samples(&self) -> u64 {

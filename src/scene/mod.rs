@@ -27,6 +27,7 @@ mod read;
 pub mod roulette;
 mod same_image;
 mod settings;
+mod sharing;
 mod shipped;
 mod shutter;
 mod strategy;
@@ -68,6 +69,7 @@ pub use self::{
     rays::{CameraJoin, CameraRays},
     roulette::Roulette,
     settings::{RenderSettings, Reuse},
+    sharing::Sharing,
     shipped::ShippedScene,
     shutter::{Moments, Shutter},
     strategy::Strategy,
@@ -123,7 +125,7 @@ pub struct Scene {
     /// The settings that the scene opens with.
     pub settings: RenderSettings,
     /// Whether sharing paths between pixels pays, once it has been tried.
-    pub sharing_pays: OnceLock<bool>,
+    pub sharing_by_trial: OnceLock<Sharing>,
     /// The rays with which paths from lights start, or what keeps them from it: see [`Scene::light_rays`].
     pub light_paths: OnceLock<Result<LightRays, &'static str>>,
     /// The estimator that [`Estimator::Auto`] stands for, once it has been tried.
@@ -178,7 +180,7 @@ impl Scene {
     /// Whether pixels share path suffixes.
     #[inline(always)]
     pub fn shares(&self, rays: &CameraRays, settings: &RenderSettings) -> bool {
-        settings.reuse == Reuse::On && self.can_share(rays, settings)
+        matches!(settings.reuse, Reuse::On | Reuse::Both) && self.can_share(rays, settings)
     }
 
     /// Whether they could: from diffuse surfaces by cosine-distributed directions, in empty space, while nothing moves.

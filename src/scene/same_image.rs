@@ -54,7 +54,7 @@ impl Scene {
         if self.compiled.parts.iter().all(|part| part.made == 0 || HARMLESS.contains(&part.part)) {
             self.identity = before.identity.clone();
             before.estimator_by_trial.get().into_iter().for_each(|best| _ = self.estimator_by_trial.set(*best));
-            before.sharing_pays.get().into_iter().for_each(|pays| _ = self.sharing_pays.set(*pays));
+            before.sharing_by_trial.get().into_iter().for_each(|sharing| _ = self.sharing_by_trial.set(*sharing));
         }
     }
 }
@@ -66,7 +66,7 @@ mod tests {
         declare::Precision,
         light::background::{BackgroundDescription, image::Image},
         material::{Dielectric, Lambertian},
-        scene::{BUILT_IN, built_in, describe},
+        scene::{BUILT_IN, Sharing, built_in, describe},
     };
 
     fn built_in_description() -> SceneDescription {
@@ -108,7 +108,7 @@ mod tests {
         let mut description = built_in_description();
         description.background = Some(BackgroundDescription::from(Image { path: "sky.png".to_owned(), ..Image::default() }));
         let before = description.build(folder.path()).expect("it is valid");
-        before.sharing_pays.set(true).expect("it is not known yet");
+        before.sharing_by_trial.set(Sharing::Suffixes).expect("it is not known yet");
         description.title = "Room".to_owned();
         let description = Arc::new(description);
         let renamed = || {
@@ -117,7 +117,9 @@ mod tests {
             after
         };
         let after = renamed();
-        assert!(after.has_same_image(&before) && after.title == "Room" && after.sharing_pays.get() == Some(&true));
+        assert!(
+            after.has_same_image(&before) && after.title == "Room" && after.sharing_by_trial.get() == Some(&Sharing::Suffixes)
+        );
         write(16);
         assert!(!renamed().has_same_image(&before));
         assert!(after.is_of_same_file(&before) && !built_in().is_of_same_file(&before));

@@ -23,7 +23,7 @@ pub struct RenderSettings {
     /// Whether crossing a surface by its opacity counts as a bounce for the cap.
     #[serde(default)]
     pub count_crossings: bool,
-    /// Whether neighbouring pixels share path suffixes.
+    /// What neighbouring pixels share.
     pub reuse: Reuse,
     /// Whether pixels get more samples where a pilot found more noise. Not where they share paths.
     pub adaptive: bool,
@@ -52,23 +52,29 @@ pub enum InjectedFault {
     OneBounceMore,
 }
 
-/// Whether neighbouring pixels share path suffixes beyond the first surface (Bekaert, Sbert and Halton 2002).
+/// What neighbouring pixels share.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Reuse {
-    /// Shares paths if a short trial of the scene shows a gain. The integrator itself treats it as [`Reuse::Off`].
+    /// What a short trial of the scene shows to pay, if anything. The integrator itself treats it as [`Reuse::Off`].
     #[default]
     Auto,
-    /// Wherever neighbouring pixels can share.
+    /// Path suffixes beyond the first surface, wherever that is possible (Bekaert, Sbert and Halton 2002).
     On,
-    /// Every pixel on its own.
+    /// Bright samples, which are replayed.
+    Bright,
+    /// Path suffixes, and what is bright in the rest of a sample.
+    Both,
+    /// Nothing: every pixel on its own.
     Off,
 }
 
 crate::declare::words! {
     Reuse {
-        Auto: "auto", "Auto", "Shares paths if a short trial of the scene shows a gain. The decision is made once per scene.";
-        On: "on", "Always", "Reuses each path in a 4 × 4 block of pixels, weighted by multiple importance sampling.";
+        Auto: "auto", "Auto", "Shares what a short trial of the scene shows to pay. The decision is made once per scene.";
+        On: "on", "Paths", "Reuses each path in a 4 × 4 block of pixels, weighted by multiple importance sampling.";
+        Bright: "bright", "Bright", "Replays bright samples, such as those of caustics, in a 4 × 4 block of pixels, weighted by multiple importance sampling.";
+        Both: "both", "Both", "Reuses each path, and replays samples whose rest is bright.";
         Off: "off", "Never", "Every pixel uses only its own paths, so the noise of neighbouring pixels is independent.";
     }
 }
@@ -98,11 +104,13 @@ impl RenderSettings {
     pub const ROULETTE: Parameter =
         Parameter::new("roulette", "Ends paths at random and weights the survivors, so that the mean does not change.")
             .aliases("russian_roulette rr");
-    /// Whether pixels share path suffixes, as files and the window name it.
-    pub const REUSE: Parameter =
-        Parameter::new("reuse", "Whether neighbouring pixels share path suffixes (Bekaert, Sbert and Halton 2002).")
-            .title("Share paths")
-            .aliases("sharing share");
+    /// What neighbouring pixels share, as files and the window name it.
+    pub const REUSE: Parameter = Parameter::new(
+        "reuse",
+        "Whether neighbouring pixels share path suffixes (Bekaert, Sbert and Halton 2002) or bright samples.",
+    )
+    .title("Share paths")
+    .aliases("sharing share");
     /// Whether noisier pixels get more samples, as files and the window name it.
     pub const ADAPTIVE: Parameter = Parameter::new("adaptive", "Whether noisier pixels get more samples.");
     /// The seed, as files and the window name it.

@@ -11,7 +11,7 @@ use crate::{
         sharing::resolved,
         threads::{PassJob, Threads},
     },
-    scene::{Camera, RenderSettings, Scene},
+    scene::{Camera, RenderSettings, Scene, Sharing},
 };
 
 /// The errors at one sample count.
@@ -56,8 +56,8 @@ pub struct Run {
     pub invalid_samples: u64,
     /// Why the estimate is biased; empty if it is not.
     pub bias: String,
-    /// Whether paths were reused, as the settings and the scene decided.
-    pub shares: bool,
+    /// What pixels shared, as the settings and the scene decided.
+    pub sharing: Sharing,
     /// Whether sampling was adaptive.
     pub adapts: bool,
 }
@@ -119,8 +119,8 @@ pub fn measure(bench: Bench, settings: &RenderSettings, plan: &Plan, reference: 
     })?;
     let bias = settings.bias().or((cut_paths > 0).then(|| format!("{cut_paths} paths cut"))).unwrap_or_default();
     let rays = bench.scene.rays(bench.camera);
-    let shares = bench.scene.shares(&rays, &resolved(bench.scene, &rays, settings));
-    Ok(Run { invalid_samples: film.invalid_samples(), bias, shares, adapts: film.is_adaptive(), ..run })
+    let sharing = bench.scene.sharing(&rays, &resolved(bench.scene, &rays, settings));
+    Ok(Run { invalid_samples: film.invalid_samples(), bias, sharing, adapts: film.is_adaptive(), ..run })
 }
 
 /// The checkpoints of a run up to the limits of the plan, and the number of paths that were cut. `to` renders up to a sample

@@ -7,8 +7,7 @@ use super::{
 };
 use crate::{
     measure::{LEAST_EFFECTIVE_SAMPLES, Moments},
-    render::sharing::sharing_name,
-    scene::{RenderSettings, Reuse},
+    scene::{RenderSettings, Reuse, Sharing},
 };
 
 /// A relMSE below this is rounding in single precision, not noise.
@@ -64,7 +63,7 @@ pub struct Outcome {
     /// E (x − μ)² = V x + (E x − μ)², so for an unbiased estimate this is the variance of a pixel.
     pub variances: Vec<Vec<(f64, f64)>>,
     /// Whether paths were reused.
-    pub shares: bool,
+    pub sharing: Sharing,
     /// Whether sampling was adaptive.
     pub adapts: bool,
     /// Means over the runs minus the reference's own error, up to where they come close to it; never empty.
@@ -111,7 +110,7 @@ impl Outcome {
             bias,
             mean_error: mean_error(runs, limits.variance_of_mean),
             variances: runs.iter().map(|run| variances(&run.checkpoints[..length], limits.floor)).collect(),
-            shares: runs[0].shares,
+            sharing: runs[0].sharing,
             adapts: runs[0].adapts,
             efficiencies: runs_of_points.iter().filter_map(efficiency).collect(),
             slope: slope(&runs_of_points.iter().map(|run| fitted(run)).collect::<Vec<_>>()),
@@ -123,7 +122,7 @@ impl Outcome {
     /// All settings in one line. Names what became of sharing where the program decided about it.
     pub fn label(&self) -> String {
         let label = label(&self.settings);
-        if self.settings.reuse == Reuse::Auto { format!("{label}, {}", sharing_name(self.shares)) } else { label }
+        if self.settings.reuse == Reuse::Auto { format!("{label}, {}", self.sharing.name()) } else { label }
     }
 
     /// The last point of the curve.

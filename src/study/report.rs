@@ -8,7 +8,10 @@ use super::{
     setting::Setting,
     wording::{certainty, command, error, mean_error, percent, significant, slope, verdict},
 };
-use crate::{report, scene::Reuse};
+use crate::{
+    report,
+    scene::{Reuse, Sharing},
+};
 
 const STYLE: &str = "
 :root { --width: 72rem; }
@@ -198,13 +201,12 @@ pub fn values(setting: Setting, outcome: &Outcome) -> String {
     let same = outcome.twins.iter().filter(only_this_differs).map(|twin| setting.value(twin));
     let values: Vec<String> = std::iter::once(setting.value(&outcome.settings)).chain(same).collect();
     let became = match setting {
-        Setting::Reuse if outcome.settings.reuse == Reuse::Auto => {
-            if outcome.shares {
-                ": on"
-            } else {
-                ": off"
-            }
-        }
+        Setting::Reuse if outcome.settings.reuse == Reuse::Auto => match outcome.sharing {
+            Sharing::Nothing => ": off",
+            Sharing::Suffixes => ": on",
+            Sharing::BrightSamples => ": bright",
+            Sharing::Both => ": both",
+        },
         Setting::Adaptive if outcome.settings.adaptive && !outcome.adapts => ": without effect",
         _ => "",
     };

@@ -2,7 +2,10 @@
 use serde::{Deserialize, Serialize};
 
 use super::{Checkpoint, Machine, Run, StudyScene, key::is_key, reference::Reference, setting::Setting};
-use crate::{measure::Floor, scene::RenderSettings};
+use crate::{
+    measure::Floor,
+    scene::{RenderSettings, Sharing},
+};
 
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Row {
@@ -15,8 +18,8 @@ pub struct Row {
     pub roulette: String,
     pub max_bounces: String,
     pub reuse: String,
-    /// Whether paths were reused.
-    pub shares: bool,
+    /// What pixels shared.
+    pub shares: Sharing,
     pub adaptive: String,
     /// Whether sampling was adaptive.
     pub adapts: bool,
@@ -91,7 +94,7 @@ pub fn rows(header: &Header, run: &Run) -> Vec<Row> {
         roulette: Setting::Roulette.value(settings),
         max_bounces: Setting::Cap.value(settings),
         reuse: Setting::Reuse.value(settings),
-        shares: run.shares,
+        shares: run.sharing,
         adaptive: Setting::Adaptive.value(settings),
         adapts: run.adapts,
         repeat,
@@ -127,5 +130,5 @@ pub fn run(rows: &[Row]) -> Option<Run> {
     let complete = rows.len() == first.checkpoints && (1..).zip(rows).all(|(place, row)| row.checkpoint == place);
     let checkpoints = rows.iter().map(Row::point).collect();
     let Row { invalid_samples, shares, adapts, .. } = *first;
-    complete.then(|| Run { checkpoints, invalid_samples, bias: first.biased.clone(), shares, adapts })
+    complete.then(|| Run { checkpoints, invalid_samples, bias: first.biased.clone(), sharing: shares, adapts })
 }

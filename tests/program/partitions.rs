@@ -12,7 +12,7 @@ use noisefall::{
     },
     render_file::{Header, ImageFacts, Kind, Target},
     sampling::Sampler,
-    scene::Reuse,
+    scene::{Reuse, Sharing},
 };
 use rand::{Rng, SeedableRng, rngs::SmallRng, seq::SliceRandom};
 use std::sync::Arc;
@@ -39,7 +39,7 @@ impl Image {
         let settings = RenderSettings {
             sampler: samplers[random.random_range(0..samplers.len())],
             adaptive: random.random_bool(0.4),
-            reuse: [Reuse::Auto, Reuse::On, Reuse::Off][random.random_range(0..3)],
+            reuse: [Reuse::Auto, Reuse::On, Reuse::Bright, Reuse::Both, Reuse::Off][random.random_range(0..5)],
             seed: random.random_range(0..1000),
             ..scene.settings
         };
@@ -64,9 +64,9 @@ impl Image {
         film
     }
 
-    fn shares(&self) -> bool {
+    fn sharing(&self) -> Sharing {
         let rays = self.scene.rays(&self.camera);
-        self.scene.shares(&rays, &resolved(&self.scene, &rays, &self.settings))
+        self.scene.sharing(&rays, &resolved(&self.scene, &rays, &self.settings))
     }
 
     fn header(&self, samples: [u32; 2]) -> Header {
@@ -74,7 +74,7 @@ impl Image {
         let kept = keep_scene(&scene, Path::new("a.toml"), &ImportOptions::default());
         let threads = Threads::new(1, SimdLevel::best()).expect("a thread");
         let header = kept_header(&RenderRequest { scene, camera, settings }, kept, None, Target::default(), &threads);
-        let image = Some(ImageFacts { shares: self.shares(), ..ImageFacts::default() });
+        let image = Some(ImageFacts { shares: self.sharing().correlates(), ..ImageFacts::default() });
         Header { kind: Kind::Samples, samples: vec![samples], image, ..header.expect("a header") }
     }
 
@@ -86,7 +86,7 @@ impl Image {
     }
 
     fn picture(&self, samples: SampleRanges) -> Picture {
-        Picture::new(self.camera.resolution, samples, self.shares()).expect("there is memory")
+        Picture::new(self.camera.resolution, samples, self.sharing()).expect("there is memory")
     }
 }
 
@@ -177,7 +177,7 @@ fn exact_sums_have_the_image_of_a_film() {
             a.as_flattened().iter().zip(b.as_flattened()).all(|(a, b)| is_near(f64::from(*a), f64::from(*b)))
         };
         assert!(near(&exact.radiance, &plain.radiance), "{:?}", image.settings);
-        assert_eq!((&exact.counts, exact.spp, exact.shares), (&plain.counts, plain.spp, plain.shares));
+        assert_eq!((&exact.counts, exact.spp, exact.sharing), (&plain.counts, plain.spp, plain.sharing));
         let (exact, plain) = (exact.noise.expect("its noise"), plain.noise.expect("its noise"));
         assert!(near(&exact.variance, &plain.variance), "{:?}", image.settings);
         assert!(exact.blocks.iter().zip(&plain.blocks).all(|(a, b)| is_near(*a, *b)), "{:?} {:?}", exact.blocks, plain.blocks);

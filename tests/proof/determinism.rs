@@ -14,7 +14,7 @@ use noisefall::{
 };
 
 const RESOLUTION: [u32; 2] = [75, 50];
-const SHARING: [Reuse; 2] = [Reuse::Off, Reuse::On];
+const SHARING: [Reuse; 4] = [Reuse::Off, Reuse::On, Reuse::Bright, Reuse::Both];
 /// Enough samples for adaptive sampling to distribute them.
 const SPP: u32 = 8;
 

@@ -1,9 +1,11 @@
-//! Path reuse: the image is the same, and the light of a path is distributed without loss.
+//! Shared paths and bright samples: the image is the same, and the light of a path is distributed without loss.
+use std::{ops::Range, path::Path};
+
 use noisefall::{
-    integrator::{Batch, TILE, Work, trace},
+    integrator::{Batch, TILE, Thresholds, Work, trace},
     math::SimdLevel,
     sampling::{Directions, Sampler},
-    scene::{Camera, Estimator, RenderSettings, Reuse, Roulette, Scene, built_in},
+    scene::{Camera, Estimator, RenderSettings, Reuse, Roulette, Scene, built_in, load},
 };
 
 use crate::{
@@ -67,22 +69,34 @@ shape = { mesh = { vertices = [[1.0, 0.0, 1.0], [1.6, 0.0, 1.2], [1.2, 0.0, 1.8]
 material = "white"
 "#;
 
-/// The radiance of every pixel of one tile for one sample.
-fn tile(scene: &Scene, settings: RenderSettings, size: u32, sample: u32) -> Vec<[f32; 4]> {
+/// The radiance of every pixel of one tile for some samples, one after the other.
+fn tiles(scene: &Scene, settings: RenderSettings, size: u32, samples: Range<u32>) -> impl Iterator<Item = Vec<[f32; 4]>> {
     let rays = scene.rays(&Camera { resolution: [size; 2], ..scene.camera });
-    let work = Work::tile(scene, &rays, &settings, [0, 0], [size; 2], sample);
     let mut batch = Batch::default();
-    trace(SimdLevel::best(), &work, &mut batch, &|| false).expect("nobody interrupts");
-    (0..size * size).map(|i| batch.radiance()[(i / size * TILE + i % size) as usize]).collect()
+    let level = SimdLevel::best();
+    let first = Work::tile(scene, &rays, &settings, [0, 0], [size; 2], 0);
+    let shares_bright = scene.sharing(&rays, &settings).has_bright_samples();
+    let thresholds = shares_bright.then(|| Thresholds::of(level, &first, &mut batch, &|| false).expect("nobody interrupts"));
+    let tile = |sample| {
+        let work = Work { sample, thresholds: thresholds.as_ref(), ..first };
+        trace(level, &work, &mut batch, &|| false).expect("nobody interrupts");
+        (0..size * size).map(|i| batch.radiance()[(i / size * TILE + i % size) as usize]).collect()
+    };
+    samples.map(tile).collect::<Vec<_>>().into_iter()
+}
+
+/// The same for one sample.
+fn tile(scene: &Scene, settings: RenderSettings, size: u32, sample: u32) -> Vec<[f32; 4]> {
+    tiles(scene, settings, size, sample..sample + 1).next().expect("one sample")
 }
 
 /// Every channel of 16 blocks of a tile, by sample. Pixels share paths; samples do not.
 fn blocks(scene: &Scene, settings: RenderSettings, spp: u32) -> Vec<Vec<f64>> {
     const SIDE: usize = TILE as usize / 4;
     let mut values = vec![Vec::new(); 48];
-    for sample in 0..spp {
+    for tile in tiles(scene, settings, TILE, 0..spp) {
         let mut sums = [0.0; 48];
-        for (i, radiance) in tile(scene, settings, TILE, sample).iter().enumerate() {
+        for (i, radiance) in tile.iter().enumerate() {
             let (x, y) = (i % TILE as usize / SIDE, i / TILE as usize / SIDE);
             (0..3).for_each(|c| sums[(4 * y + x) * 3 + c] += f64::from(radiance[c]));
         }
@@ -92,23 +106,54 @@ fn blocks(scene: &Scene, settings: RenderSettings, spp: u32) -> Vec<Vec<f64>> {
 }
 
 #[track_caller]
-fn assert_same_picture(scene: &Scene, settings: RenderSettings, spp: u32, what: &str) {
+fn assert_same_picture(scene: &Scene, settings: RenderSettings, shared: Reuse, spp: u32, what: &str) {
     let of = |reuse, seed| blocks(scene, RenderSettings { reuse, seed, ..settings }, spp);
     let deviation = |(a, b): (Vec<f64>, Vec<f64>)| {
         let (a, b) = (Moments::of(a), Moments::of(b));
         (a.mean - b.mean) / ((a.variance + b.variance) / f64::from(spp)).sqrt().max(1e-9)
     };
-    let deviations: Vec<f64> = of(Reuse::Off, 1).into_iter().zip(of(Reuse::On, 2)).map(deviation).collect();
+    let deviations: Vec<f64> = of(Reuse::Off, 1).into_iter().zip(of(shared, 2)).map(deviation).collect();
     assert_all_within(&deviations, what);
 }
 
 #[test]
 fn shared_paths_give_the_same_picture() {
     for estimator in Estimator::ALL {
-        assert_same_picture(&scene(ROOM), settings(estimator), 800, estimator.name());
+        assert_same_picture(&scene(ROOM), settings(estimator), Reuse::On, 800, estimator.name());
         let box_of_walls = RenderSettings { max_bounces: Some(3), roulette: Roulette::fixed(0.7), ..settings(estimator) };
-        assert_same_picture(&built_in(), box_of_walls, 400, "the built-in scene, with a cap");
+        assert_same_picture(&built_in(), box_of_walls, Reuse::On, 400, "the built-in scene, with a cap");
     }
+}
+
+/// Caustics, with and without shared suffixes; lens, motion, media and opacity, in which suffixes are not shared.
+#[test]
+fn shared_bright_samples_give_the_same_picture() {
+    for estimator in [Estimator::Path, Estimator::Light, Estimator::Mis] {
+        for shared in [Reuse::Bright, Reuse::Both] {
+            assert_same_picture(&scene(ROOM), settings(estimator), shared, 800, estimator.name());
+        }
+    }
+    let capped = RenderSettings { max_bounces: Some(4), roulette: Roulette::fixed(0.7), ..settings(Estimator::Mis) };
+    for name in ["sky_lit", "depth_of_field", "motion_blur", "tinted_glass", "leaves", "lamps"] {
+        let scene = load(Path::new(&format!("scenes/{name}.toml"))).expect("it is shipped");
+        assert_same_picture(&scene, settings(Estimator::Mis), Reuse::Bright, 600, name);
+        assert_same_picture(&scene, capped, Reuse::Bright, 300, name);
+    }
+}
+
+/// That is what they are shared for.
+#[test]
+fn shared_bright_samples_have_less_noise_where_there_are_caustics() {
+    let scene = load(Path::new("scenes/sky_lit.toml")).expect("it is shipped");
+    let noise = |reuse| {
+        let mut pixels = vec![Vec::new(); (TILE * TILE) as usize];
+        for tile in tiles(&scene, RenderSettings { reuse, ..settings(Estimator::Mis) }, TILE, 0..400) {
+            pixels.iter_mut().zip(tile).for_each(|(pixel, radiance)| pixel.push(f64::from(radiance[1])));
+        }
+        pixels.into_iter().map(|pixel| Moments::of(pixel).variance).sum::<f64>()
+    };
+    let gain = noise(Reuse::Off) / noise(Reuse::Bright);
+    assert!(gain > 2.0, "{gain}");
 }
 
 /// If all surfaces have the same albedo, the light of a path is distributed among the pixels without loss or gain.

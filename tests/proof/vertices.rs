@@ -4,7 +4,7 @@ mod tally;
 use std::{f32::consts::PI, path::Path};
 
 use noisefall::{
-    integrator::{Batch, Outcome, Replay, SharedLight, TILE, Vertex, Work, pixel_samples, replay, trace},
+    integrator::{Batch, Outcome, Replay, SharedLight, TILE, Thresholds, Vertex, Work, pixel_samples, replay, trace},
     math::SimdLevel,
     sampling::Sampler,
     scene::{Camera, CameraRays, Estimator, RenderSettings, Reuse, Roulette, Scene, load},
@@ -72,8 +72,8 @@ fn all_settings(seed: u32) -> Vec<RenderSettings> {
         for (roulette, max_bounces) in endings {
             let settings = RenderSettings { estimator, roulette, max_bounces, seed, ..RenderSettings::default() };
             all.extend(Sampler::ALL.into_iter().map(|sampler| RenderSettings { sampler, reuse: Reuse::Off, ..settings }));
-            let sampler = Sampler::ALL[all.len() / 5 % Sampler::ALL.len()];
-            all.push(RenderSettings { sampler, reuse: Reuse::On, ..settings });
+            let sampler = Sampler::ALL[all.len() / 7 % Sampler::ALL.len()];
+            all.extend([Reuse::On, Reuse::Bright, Reuse::Both].map(|reuse| RenderSettings { sampler, reuse, ..settings }));
         }
     }
     all
@@ -89,7 +89,9 @@ fn rendered(
 ) -> impl Fn([u32; 2]) -> [u32; 3] {
     let size = [0, 1].map(|axis| TILE.min(RESOLUTION[axis] - origin[axis]));
     let work = Work::tile(scene, rays, settings, origin, size, sample);
-    trace(level, &work, batch, &|| false).expect("nothing interrupts");
+    let shares_bright = scene.sharing(rays, settings).has_bright_samples();
+    let thresholds = shares_bright.then(|| Thresholds::of(level, &work, batch, &|| false).expect("nothing interrupts"));
+    trace(level, &Work { thresholds: thresholds.as_ref(), ..work }, batch, &|| false).expect("nothing interrupts");
     let radiance = batch.radiance();
     move |[x, y]| {
         let [r, g, b, _] = radiance[((y - origin[1]) * TILE + x - origin[0]) as usize];
@@ -114,7 +116,7 @@ fn replayed_samples_are_those_of_the_renderer_and_their_vertices_add_up_to_them(
         let rays = rays(scene);
         for (i, settings) in all_settings(number as u32).iter().enumerate() {
             // With path reuse, each sample needs a whole tile.
-            let pixels = if settings.reuse == Reuse::On { &PIXELS[i % 4..=i % 4] } else { &PIXELS[..] };
+            let pixels = if settings.reuse != Reuse::Off { &PIXELS[i % 4..=i % 4] } else { &PIXELS[..] };
             let rendered = rendered(levels[i % levels.len()], (scene, &rays, settings), [0, 0], i as u32, &mut batch);
             for pixel in pixels {
                 let replay = replay(scene, &rays, settings, *pixel, i as u32);
@@ -263,7 +265,7 @@ fn the_samples_of_a_pixel_are_those_of_the_renderer() {
     let mut batch = Batch::default();
     for (name, scene) in scenes() {
         let rays = rays(&scene);
-        for reuse in [Reuse::Off, Reuse::On] {
+        for reuse in [Reuse::Off, Reuse::On, Reuse::Bright, Reuse::Both] {
             let estimator = if scene.traces_light_paths(&scene.settings) { Estimator::Mis } else { scene.settings.estimator };
             let settings = RenderSettings { reuse, estimator, ..scene.settings };
             // The range neither starts nor ends at a multiple of the batch.

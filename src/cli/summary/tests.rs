@@ -4,7 +4,7 @@ use std::time::Duration;
 use noisefall::{
     import::Remark,
     render::{Target, image_file::Format},
-    scene::{Roulette, built_in},
+    scene::{Roulette, Sharing, built_in},
 };
 
 use super::*;
@@ -20,7 +20,7 @@ fn status(state: State) -> Status {
         rays: 77,
         elapsed: Duration::from_secs(1),
         rel_mse_estimate: Some(0.0009),
-        shares: true,
+        sharing: Sharing::Suffixes,
         adapts: false,
         invalid_samples: 4,
         first_invalid: None,
@@ -81,9 +81,10 @@ fn every_figure_stands_under_its_name() {
         "rmse": 0.125, "rel_mse": 0.0004, "bias": -2.0, "bias_standard_error": null, "bias_in_standard_errors": null,
         "exact_samples": false, "heavy_tails": false, "replay": "noisefall render a.toml --pixel 1,0",
     });
+    (expected["render_seconds"], expected["sharing"]) = (json!(0.5), json!("shared paths"));
     expected["remarks"] = json!(["a.xml:1:1: `hair` → plastic: it looks smooth"]);
     assert_eq!(line, expected);
-    let other = Status { shares: false, adapts: true, cut_paths: 0, ..status(State::Paused) };
+    let other = Status { sharing: Sharing::Nothing, adapts: true, cut_paths: 0, ..status(State::Paused) };
     let adaptive = RenderSettings { adaptive: true, roulette: Roulette::fixed(0.5), ..RenderSettings::default() };
     let line = said(&other, &frame(1.0), adaptive).json;
     let keys = ["shares", "adapts", "adaptive", "roulette", "roulette_start", "max_bounces", "biased"];

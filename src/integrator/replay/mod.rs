@@ -3,6 +3,7 @@
 //!
 //! The path is traced with one lane, and a [`Follower`] reads the queues between the stages. It computes all other terms with the
 //! functions of the stages, so every term is that of the estimator, bit for bit.
+mod bright;
 mod follower;
 mod light;
 mod samples;
@@ -49,7 +50,9 @@ pub struct Replay {
 /// it.
 pub fn replay(scene: &Scene, rays: &CameraRays, settings: &RenderSettings, pixel: [u32; 2], sample: u32) -> Replay {
     let settings = &from_camera(scene, settings);
-    let (work, [x, y]) = work_of(scene, rays, settings, pixel, sample);
+    let one = Work::tile(scene, rays, settings, pixel, [1, 1], sample);
+    let work = if one.shares() { one.whole_tile() } else { one };
+    let [x, y] = place_in(&work, pixel);
     let is_here = |slot: &u32| {
         let (column, row) = work.place::<One>(U(*slot));
         (column.0, row.0) == (x, y)
@@ -66,7 +69,11 @@ pub fn replay(scene: &Scene, rays: &CameraRays, settings: &RenderSettings, pixel
         let from_neighbours = [0, 1, 2].map(|c| (radiance[c] - unshared[c] - kept[c]).max(0.0));
         SharedLight { unshared, kept, from_neighbours }
     });
-    Replay { radiance, alone, shared, vertices: follower.vertices, end }
+    let mut replay = Replay { radiance, alone, shared, vertices: follower.vertices, end };
+    if let Ok(Some(thresholds)) = bright::thresholds_at(scene, rays, settings, pixel, &|| false) {
+        bright::share(&mut replay, &thresholds, scene, rays, settings, (pixel, sample));
+    }
+    replay
 }
 
 /// The settings without paths from lights.
@@ -94,7 +101,7 @@ fn end_at(scene: &Scene, settings: &RenderSettings, last: &Vertex) -> End {
     }
 }
 
-/// The work that takes a sample of a pixel, and the pixel's column and row in it. Path reuse needs the paths of the whole tile.
+/// The work that takes a sample of a pixel, and the pixel's column and row in it. Pixels that share need the paths of the whole tile.
 fn work_of<'a>(
     scene: &'a Scene,
     rays: &'a CameraRays,
@@ -103,8 +110,13 @@ fn work_of<'a>(
     sample: u32,
 ) -> (Work<'a>, [u32; 2]) {
     let one = Work::tile(scene, rays, settings, pixel, [1, 1], sample);
-    let work = if one.shares() { one.whole_tile() } else { one };
-    (work, [0, 1].map(|axis| pixel[axis] - work.origin[axis]))
+    let work = if scene.sharing(rays, settings).correlates() { one.whole_tile() } else { one };
+    (work, place_in(&work, pixel))
+}
+
+/// Column and row of a pixel in its tile.
+fn place_in(work: &Work, pixel: [u32; 2]) -> [u32; 2] {
+    [0, 1].map(|axis| pixel[axis] - work.origin[axis])
 }
 
 /// The radiance of a pixel of a traced tile.

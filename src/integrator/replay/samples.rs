@@ -1,7 +1,7 @@
 //! Many samples of one pixel: their distribution says more about its noise than their mean.
 use std::ops::Range;
 
-use super::{from_camera, radiance_at, work_of};
+use super::{bright::thresholds_at, from_camera, radiance_at, work_of};
 use crate::{
     integrator::{
         batch::Batch,
@@ -15,7 +15,7 @@ use crate::{
 
 /// The radiance of these samples of a pixel, bit for bit as in the renderer, without paths from lights. `None` if interrupted.
 ///
-/// A batch takes one sample in each of its blocks, so that registers are full; with path reuse it takes one sample.
+/// A batch takes one sample in each of its blocks, so that registers are full; where pixels share it takes one sample.
 pub fn pixel_samples(
     scene: &Scene,
     rays: &CameraRays,
@@ -29,10 +29,11 @@ pub fn pixel_samples(
     let level = SimdLevel::best();
     let mut batch = Batch::default();
     let mut samples = Vec::with_capacity(numbers.len());
-    if scene.shares(rays, settings) {
+    if scene.sharing(rays, settings).correlates() {
+        let thresholds = thresholds_at(scene, rays, settings, pixel, interrupted).ok()?;
         for number in numbers {
             let (work, place) = work_of(scene, rays, settings, pixel, number);
-            trace(level, &work, &mut batch, interrupted).ok()?;
+            trace(level, &Work { thresholds: thresholds.as_ref(), ..work }, &mut batch, interrupted).ok()?;
             samples.push(radiance_at(&batch, place));
         }
         return Some(samples);

@@ -16,6 +16,7 @@ use crate::{
         tile::Tile,
     },
     render_file::{Encode, Encoded, Fields, Reader, RenderFileError, Tag},
+    scene::Sharing,
 };
 
 const FILM: Tag = Tag(*b"FILM");
@@ -43,7 +44,7 @@ pub fn encode(film: &Film) -> Vec<Encoded> {
 fn encode_film(film: &Film) -> Encoded {
     Encoded::new(FILM, 64, |to| {
         film.resolution.encode(to);
-        [film.is_noting, film.shares, film.is_piloted, film.focus.is_some()].map(u8::from).encode(to);
+        [u8::from(film.is_noting), film.sharing as u8, u8::from(film.is_piloted), u8::from(film.focus.is_some())].encode(to);
         let focus = film.focus.unwrap_or(Region { from: [0, 0], to: [0, 0] });
         [focus.from, focus.to].encode(to);
     })
@@ -152,11 +153,18 @@ fn read_film(mut fields: Fields, film: &mut Film) -> Result<(), RenderFileError>
     if fields.take::<[u32; 2]>()? != film.resolution {
         return Err(RenderFileError::contents("the film has another size than the image"));
     }
-    let [is_noting, shares, is_piloted, has_focus] = fields.take::<[u8; 4]>()?.map(|flag| flag != 0);
+    let flags = fields.take::<[u8; 4]>()?;
+    let [is_noting, _, is_piloted, has_focus] = flags.map(|flag| flag != 0);
     let [from, to] = fields.take::<[[u32; 2]; 2]>()?;
-    (film.is_noting, film.shares, film.is_piloted) = (is_noting, shares, is_piloted);
+    (film.is_noting, film.sharing, film.is_piloted) = (is_noting, sharing_of(flags[1])?, is_piloted);
     film.focus = has_focus.then_some(Region { from, to });
     fields.end()
+}
+
+fn sharing_of(number: u8) -> Result<Sharing, RenderFileError> {
+    let known = [Sharing::Nothing, Sharing::Suffixes, Sharing::BrightSamples, Sharing::Both];
+    let of_number = known.into_iter().find(|sharing| *sharing as u8 == number);
+    of_number.ok_or_else(|| RenderFileError::contents("the film shares what is not known"))
 }
 
 fn read_tile(mut fields: Fields, place: u32, tile: &mut Tile) -> Result<(), RenderFileError> {

@@ -16,7 +16,7 @@ impl Session {
         let KeptState { film, count, elapsed } = kept;
         // The budget may be reached already.
         session.rel_mse_estimate = rel_mse_estimate(&film);
-        session.shares = film.shares;
+        session.sharing = film.sharing;
         (session.film, session.count, session.elapsed) = (film, PassCount { failure, ..count }, elapsed);
         session.stale = true;
         session

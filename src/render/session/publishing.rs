@@ -61,7 +61,7 @@ impl Session {
             rays: self.count.rays,
             elapsed: self.elapsed,
             rel_mse_estimate: self.rel_mse_estimate,
-            shares: self.shares,
+            sharing: self.sharing,
             adapts: self.film.is_adaptive(),
             invalid_samples: self.film.invalid_samples(),
             first_invalid: self.count.invalid,

@@ -5,7 +5,7 @@ use super::*;
 use crate::{
     math::SimdLevel,
     render::Target,
-    scene::{Camera, Scene, built_in, parse},
+    scene::{Camera, Scene, Sharing, built_in, parse},
 };
 
 const NEVER: &(dyn Fn() -> bool + Sync) = &|| false;
@@ -171,7 +171,7 @@ fn figures_are_those_of_the_whole_picture_so_far() {
             (4, spp, u64::from(spp) * 1600, u64::from(spp) * 1600)
         );
         assert_eq!((status.invalid_samples, status.cut_paths, status.first_invalid), (0, 0, None));
-        assert_eq!((status.shares, status.adapts, status.state), (false, false, State::Done(Target::Samples(spp))));
+        assert_eq!((status.sharing, status.adapts, status.state), (Sharing::Nothing, false, State::Done(Target::Samples(spp))));
         assert_eq!((status.elapsed, status.rel_mse_estimate), (session.elapsed(), Some(0.0)));
     }
     assert!(session.elapsed() > Duration::ZERO);

@@ -1,5 +1,5 @@
 //! A film of a range of samples.
-use std::ops::Range;
+use std::{ops::Range, sync::Arc};
 
 use rayon::prelude::*;
 
@@ -8,7 +8,7 @@ use super::{
     sums::{TileSums, TooManySamples},
 };
 use crate::{
-    integrator::{BLOCK, Interrupted, Splat},
+    integrator::{BLOCK, Interrupted, Splat, Thresholds},
     math::SimdLevel,
     memory::{self, Reservation, TooMuch},
     render::{
@@ -59,6 +59,8 @@ struct RangeTile {
     /// Exponents of the blocks' rates; empty if all have one sample per sample of the average.
     rates: Vec<i8>,
     start: u32,
+    /// Of bright samples, once they are known.
+    thresholds: Option<Arc<Thresholds>>,
 }
 
 impl SampleFilm {
@@ -90,6 +92,7 @@ impl SampleFilm {
             sums: TileSums::new(tile.area()),
             rates: tile.blocks.iter().filter(|_| is_adaptive).map(|block| block.rate).collect(),
             start,
+            thresholds: None,
         };
         let tiles: Vec<RangeTile> = plan.tiles.iter().map(tile).collect();
         if tiles.iter().any(|tile| tile.most_samples(end) > MOST_VALUES) {
@@ -167,6 +170,10 @@ struct Towards<'a> {
 impl SampledTile for Towards<'_> {
     fn area(&self) -> Area {
         self.tile.sums.area
+    }
+
+    fn thresholds(&mut self) -> &mut Option<Arc<Thresholds>> {
+        &mut self.tile.thresholds
     }
 
     fn next(&self) -> Option<NextSamples> {

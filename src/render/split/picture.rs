@@ -11,6 +11,7 @@ use crate::{
         frame::Frame,
         splats::SplatEstimate,
     },
+    scene::Sharing,
 };
 
 /// Some pixels have no sample.
@@ -22,7 +23,7 @@ pub struct NoSamples(pub SampleRanges);
 pub struct Picture {
     resolution: [u32; 2],
     samples: SampleRanges,
-    shares: bool,
+    sharing: Sharing,
     radiance: Vec<[f32; 3]>,
     variance: Vec<[f32; 3]>,
     counts: Vec<u32>,
@@ -34,8 +35,8 @@ pub struct Picture {
 }
 
 impl Picture {
-    /// An empty image, with memory for its file. `shares` says whether pixels share paths.
-    pub fn new(resolution: [u32; 2], samples: SampleRanges, shares: bool) -> Result<Picture, TooMuch> {
+    /// An empty image, with memory for its file. `sharing` says what pixels share.
+    pub fn new(resolution: [u32; 2], samples: SampleRanges, sharing: Sharing) -> Result<Picture, TooMuch> {
         /// Bytes per pixel: two means and a count, the planes of an EXR, and the file.
         const PIXEL: u64 = 2 * 12 + 4 + 2 * 28;
         let [width, height] = resolution;
@@ -45,7 +46,7 @@ impl Picture {
         Ok(Picture {
             resolution,
             samples,
-            shares,
+            sharing,
             radiance: vec![[0.0; 3]; pixels],
             variance: vec![[0.0; 3]; pixels],
             counts: vec![0; pixels],
@@ -65,7 +66,7 @@ impl Picture {
         for block in 0..sums.area.blocks() {
             of_blocks += self.add_block(sums, block);
         }
-        let of_sum = if self.shares { of_whole(sums) } else { of_blocks } + self.add_splats(sums, &splats);
+        let of_sum = if self.sharing.correlates() { of_whole(sums) } else { of_blocks } + self.add_splats(sums, &splats);
         let values = 3.0 * sums.area.pixels() as f64;
         self.tiles.push(of_sum / (values * values));
         Ok(())
@@ -128,17 +129,17 @@ impl Picture {
         let least = self.counts.iter().copied().min().unwrap_or(0);
         let rel_mse_estimate = (least > 1).then(|| self.rel_mse());
         let [sum, squares] = self.variances;
-        let Picture { resolution: [width, height], shares, radiance, variance, counts, tiles, .. } = self;
+        let Picture { resolution: [width, height], sharing, radiance, variance, counts, tiles, .. } = self;
         let noise = (least > 1).then(|| SampleNoise {
             width,
             variance,
             blocks: tiles,
-            block_degrees: if shares { f64::from(least - 1) } else { f64::INFINITY },
+            block_degrees: if sharing.correlates() { f64::from(least - 1) } else { f64::INFINITY },
             effective_samples: if squares > 0.0 { sum * sum / squares } else { f64::INFINITY },
         });
         let counts = if counts.iter().all(|count| *count == spp) { Vec::new() } else { counts };
         let full_resolution = [width, height];
-        Frame { width, height, full_resolution, radiance, spp, counts, shares, rel_mse_estimate, noise, ..Frame::default() }
+        Frame { width, height, full_resolution, radiance, spp, counts, sharing, rel_mse_estimate, noise, ..Frame::default() }
     }
 
     /// The mean over pixels and channels of the variance relative to the squared radiance, smoothed over blocks.

@@ -223,7 +223,9 @@ fn paths_are_shared_where_that_pays() {
         resolved(&scene, &scene.rays(&scene.camera), &settings).reuse
     };
     assert_eq!(["cornell_box", "cornell_spheres"].map(shares), [Reuse::On; 2]);
-    assert_eq!(["veach_plates", "glass_and_mirror", "bright_sky"].map(shares), [Reuse::Off; 3]);
+    assert_eq!(["glass_and_mirror", "sky_lit", "motion_blur"].map(shares), [Reuse::Bright; 3]);
+    assert_eq!(shares("room_window"), Reuse::Both);
+    assert_eq!(["bright_sky", "shapes"].map(shares), [Reuse::Off; 2]);
     let scene = shipped("cornell_box");
     let said = |reuse| resolved(&scene, &scene.rays(&scene.camera), &RenderSettings { reuse, ..scene.settings }).reuse;
     assert_eq!([Reuse::On, Reuse::Off].map(said), [Reuse::On, Reuse::Off]);

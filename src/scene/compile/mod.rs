@@ -171,7 +171,7 @@ impl Parts {
             lamps: lamp_instances,
             camera,
             settings,
-            sharing_pays: Default::default(),
+            sharing_by_trial: Default::default(),
             light_paths: OnceLock::new(),
             estimator_by_trial: OnceLock::new(),
             spp,

@@ -16,11 +16,11 @@ const ESTIMATORS: [Estimator; 4] = [Estimator::Path, Estimator::Light, Estimator
 /// The settings in use and each sampler.
 pub const MOST_OF_SECOND_STAGE: usize = 1 + Sampler::ALL.len();
 
-/// The settings in use, then those with another roulette, another estimator or `other_reuse`.
-pub fn first_stage(in_use: &RenderSettings, other_reuse: Option<Reuse>) -> Vec<RenderSettings> {
+/// The settings in use, then those with another roulette, another estimator or one of `other_reuses`.
+pub fn first_stage(in_use: &RenderSettings, other_reuses: &[Reuse]) -> Vec<RenderSettings> {
     let roulettes = ROULETTES.map(|roulette| RenderSettings { roulette, ..*in_use });
     let estimators = ESTIMATORS.map(|estimator| RenderSettings { estimator, ..*in_use });
-    let reuse = other_reuse.map(|reuse| RenderSettings { reuse, ..*in_use });
+    let reuse = other_reuses.iter().map(|&reuse| RenderSettings { reuse, ..*in_use });
     each_once(in_use, roulettes.into_iter().chain(estimators).chain(reuse))
 }
 

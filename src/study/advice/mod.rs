@@ -28,7 +28,7 @@ use self::{
 use super::{StudyError, measure::Bench, plan::study_size};
 use crate::{
     render::{sharing::resolved, threads::Threads},
-    scene::{Camera, RenderSettings, Reuse, Scene},
+    scene::{Camera, RenderSettings, Reuse, Scene, Sharing},
 };
 
 /// Rounds of a stage. Fewer would give a poor estimate of the spread, so if time is short the images are made smaller instead.
@@ -48,7 +48,7 @@ pub fn advise(
     stop: &(dyn Fn() -> bool + Sync),
 ) -> Result<Advice, StudyError> {
     let camera = Camera { resolution: study_size(camera.resolution), ..*camera };
-    let first = first_stage(settings, threads.install(|| other_reuse(scene, &camera, settings)));
+    let first = first_stage(settings, &threads.install(|| other_reuses(scene, &camera, settings)));
     let bench = Bench { scene, camera: &camera, threads, stop };
     let in_a_round = first.len() + MOST_OF_SECOND_STAGE;
     let seconds = sample_of_each(bench, &first)? * f64::from(SPP) * in_a_round as f64 / first.len() as f64;
@@ -71,11 +71,12 @@ pub fn advise(
     Ok(advice)
 }
 
-/// The opposite of the present path sharing; `None` if sharing is impossible.
-fn other_reuse(scene: &Scene, camera: &Camera, settings: &RenderSettings) -> Option<Reuse> {
+/// What pixels could share in place of what they share now.
+fn other_reuses(scene: &Scene, camera: &Camera, settings: &RenderSettings) -> Vec<Reuse> {
     let rays = scene.rays(camera);
-    let shares = scene.shares(&rays, &resolved(scene, &rays, settings));
-    scene.can_share(&rays, settings).then_some(if shares { Reuse::Off } else { Reuse::On })
+    let now = scene.sharing(&rays, &resolved(scene, &rays, settings));
+    let possible = scene.possible_sharing(&rays, settings);
+    possible.into_iter().filter(|sharing| *sharing != now).map(Sharing::reuse).collect()
 }
 
 /// The time in seconds of one sample per pixel of every candidate. A warm-up sample before that does not count: it allocates

@@ -165,9 +165,9 @@ fn without_noise_nothing_is_better() {
 
 #[test]
 fn the_second_stage_adopts_the_best_of_the_first() {
-    let first = first_stage(&IN_USE, None);
+    let first = first_stage(&IN_USE, &[]);
     assert_eq!(first.len(), 1 + 4 + 3);
-    assert_eq!(first_stage(&ADVISED, None).len(), 1 + 3 + 3);
+    assert_eq!(first_stage(&ADVISED, &[]).len(), 1 + 3 + 3);
     let seconds = |settings: &RenderSettings| match (settings.roulette, settings.estimator) {
         (roulette, _) if roulette == Roulette::by_throughput_from(2) => 0.2,
         (Roulette::Throughput(_), _) => 0.4,
@@ -184,7 +184,7 @@ fn the_second_stage_adopts_the_best_of_the_first() {
 
 #[test]
 fn sharing_is_tried_and_taken_over_where_it_stands_out() {
-    let first = first_stage(&IN_USE, Some(Reuse::On));
+    let first = first_stage(&IN_USE, &[Reuse::On]);
     let shared = RenderSettings { reuse: Reuse::On, ..IN_USE };
     assert_eq!((first.len(), first.last()), (1 + 4 + 3 + 1, Some(&shared)));
     let seconds = |settings: &RenderSettings| if *settings == shared { 0.2 } else { 1.0 };
@@ -193,16 +193,15 @@ fn sharing_is_tried_and_taken_over_where_it_stands_out() {
     assert_eq!((adopted(&advice), advice.best().name.as_str()), (shared, "shared paths"));
 }
 
-/// The other of sharing and no sharing, whatever the word for it: what runs already is not tried twice.
+/// What is not in use already, whatever the word for that.
 #[test]
-fn the_other_sharing_is_the_one_that_is_not_in_use() {
+fn all_sharing_is_tried_that_is_possible_and_not_in_use() {
     let (scene, glass) = (scene(), parse("scene.toml", include_str!("../../../scenes/tinted_glass.toml").to_owned()));
-    let other = |scene: &Scene, reuse| other_reuse(scene, &scene.camera, &RenderSettings { reuse, ..IN_USE });
-    assert_eq!(
-        [Reuse::Auto, Reuse::On, Reuse::Off].map(|reuse| other(&scene, reuse)),
-        [Reuse::Off, Reuse::Off, Reuse::On].map(Some)
-    );
-    assert_eq!(other(&glass.expect("it is a scene"), Reuse::Auto), None);
+    let other = |scene: &Scene, reuse| other_reuses(scene, &scene.camera, &RenderSettings { reuse, ..IN_USE });
+    let without_paths = vec![Reuse::Off, Reuse::Bright];
+    assert_eq!([Reuse::Auto, Reuse::On].map(|reuse| other(&scene, reuse)), [&without_paths; 2].map(Clone::clone));
+    assert_eq!(other(&scene, Reuse::Off), [Reuse::On, Reuse::Bright]);
+    assert_eq!(other(&glass.expect("it is a scene"), Reuse::Off), [Reuse::Bright]);
 }
 
 fn scene() -> Scene {

@@ -1,8 +1,7 @@
 //! Advice in words.
 use super::{Advice, Candidate};
 use crate::{
-    render::sharing::sharing_name,
-    scene::{RenderSettings, Reuse},
+    scene::{RenderSettings, Reuse, Sharing},
     study::setting::Setting,
 };
 
@@ -17,7 +16,7 @@ pub fn difference(settings: &RenderSettings, in_use: &RenderSettings) -> String 
         Setting::Estimator => format!("estimator {}", settings.estimator.name()),
         Setting::Sampler => settings.sampler.word().title.to_owned(),
         Setting::Roulette => settings.roulette.words(),
-        Setting::Reuse if settings.reuse != Reuse::Auto => sharing_name(settings.reuse == Reuse::On).to_owned(),
+        Setting::Reuse if settings.reuse != Reuse::Auto => Sharing::asked(settings.reuse).name().to_owned(),
         Setting::Directions | Setting::Cap | Setting::Reuse | Setting::Adaptive => {
             format!("{} {}", setting.name(), setting.value(settings))
         }

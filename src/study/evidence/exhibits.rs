@@ -123,7 +123,7 @@ impl Exhibits<'_> {
 
 /// Whether paths were reused, in words.
 fn sharing(findings: &Findings) -> &'static str {
-    let share = || findings.outcomes.iter().map(|outcome| outcome.shares);
+    let share = || findings.outcomes.iter().map(|outcome| outcome.sharing.correlates());
     match (share().any(|shares| shares), share().all(|shares| shares)) {
         (false, _) => "no paths shared by pixels",
         (true, true) => "paths shared by neighbouring pixels",

@@ -4,7 +4,7 @@ use std::time::Duration;
 use crate::{
     measure::Floor,
     sampling::{Directions, Sampler},
-    scene::{Estimator, RenderSettings, Reuse, Roulette, parse},
+    scene::{Estimator, RenderSettings, Reuse, Roulette, Sharing, parse},
     study::{
         Checkpoint, Findings, Lists, Machine, Outcome, Plan, Run, StudyScene, checkpoints, differing_labels, html, label,
         outcome::Limits,
@@ -39,7 +39,7 @@ fn points(rel_mse: f64, seconds: f64) -> Run {
         checkpoints: checkpoints(16).into_iter().map(point).collect(),
         invalid_samples: 3,
         bias: "cap at 2".to_owned(),
-        shares: true,
+        sharing: Sharing::Suffixes,
         adapts: true,
     }
 }
@@ -85,7 +85,7 @@ fn lines_of_a_run_say_all_that_it_depends_on() {
     assert_eq!((row.width, row.height, row.repeat, row.seed, row.checkpoint, row.checkpoints, row.spp), (20, 10, 2, 9, 4, 5, 8));
     let names = [&row.estimator, &row.directions, &row.sampler, &row.roulette, &row.max_bounces, &row.floor, &row.scene];
     assert_eq!(names, ["light", "cosine", "stratified", "off", "2", "0.5", "a/scene.toml"]);
-    assert_eq!((row.reuse.as_str(), row.shares, row.adaptive.as_str(), row.adapts), ("off", true, "on", true));
+    assert_eq!((row.reuse.as_str(), row.shares, row.adaptive.as_str(), row.adapts), ("off", Sharing::Suffixes, "on", true));
     assert_eq!((row.seconds, row.rel_mse, row.rmse, row.bias), (4.0, 0.04, 0.25, -0.125));
     assert_eq!((row.bias_standard_error, row.effective_samples), (Some(0.03), Some(500.0)));
     assert_eq!((row.paths_per_second, row.reference_rel_mse, row.invalid_samples), (20.0 * 10.0 * 8.0 / 4.0, 0.01, 3));

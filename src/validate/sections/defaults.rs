@@ -28,20 +28,22 @@ struct KnownScene {
 type Change = fn(RenderSettings) -> RenderSettings;
 
 /// Plain settings with one of the defaults each.
-const ALONE: [(&str, Change); 7] = [
+const ALONE: [(&str, Change); 8] = [
     ("plain: path, independent, cosine, q = 0.9", |plain| plain),
     ("plain but MIS", |plain| RenderSettings { estimator: Estimator::Mis, ..plain }),
     ("plain but Sobol", |plain| RenderSettings { sampler: Sampler::Sobol, ..plain }),
     ("plain but bsdf directions", |plain| RenderSettings { directions: RenderSettings::default().directions, ..plain }),
     ("plain but roulette by throughput", |plain| RenderSettings { roulette: Roulette::BY_THROUGHPUT, ..plain }),
     ("plain but shared paths", |plain| RenderSettings { reuse: Reuse::On, ..plain }),
+    ("plain but bright samples", |plain| RenderSettings { reuse: Reuse::Bright, ..plain }),
     ("plain but adaptive", |plain| RenderSettings { adaptive: true, ..plain }),
 ];
 
 /// All defaults, with each decision that the program may take.
-const TOGETHER: [(&str, Change); 4] = [
+const TOGETHER: [(&str, Change); 5] = [
     ("all defaults", |defaults| defaults),
     ("all defaults, shared paths", |defaults| RenderSettings { reuse: Reuse::On, ..defaults }),
+    ("all defaults, shared paths and bright samples", |defaults| RenderSettings { reuse: Reuse::Both, ..defaults }),
     ("all defaults, adaptive, nothing shared", |defaults| RenderSettings { adaptive: true, reuse: Reuse::Off, ..defaults }),
     ("all defaults, blue noise", |defaults| RenderSettings { sampler: Sampler::BlueNoise, ..defaults }),
 ];
@@ -112,7 +114,9 @@ impl KnownScene {
         let job = PassJob { scene: &self.scene, rays: &rays, settings: &settings };
         // A pass ends when the number of samples has doubled.
         while film.spp() < spp && threads.pass(job, &mut film, spp, &|| false).failure.is_none() {}
-        if (asked.reuse == Reuse::On && !self.scene.shares(&rays, &settings)) || (asked.adaptive && !film.is_adaptive()) {
+        let sharing = self.scene.sharing(&rays, &settings);
+        let does_not_share = asked.reuse != Reuse::Auto && sharing.reuse() != asked.reuse;
+        if does_not_share || (asked.adaptive && !film.is_adaptive()) {
             return None;
         }
         let (mut sum, mut count) = (0.0, 0.0);

@@ -25,7 +25,9 @@ fn every_choice_of_the_estimate_sets_what_it_names() {
         expected.directions = directions;
         sets(&mut window, label, expected);
     }
-    for (label, reuse) in [("Always", Reuse::On), ("Auto", Reuse::Auto), ("Never", Reuse::Off)] {
+    for (label, reuse) in
+        [("Paths", Reuse::On), ("Auto", Reuse::Auto), ("Bright", Reuse::Bright), ("Both", Reuse::Both), ("Never", Reuse::Off)]
+    {
         expected.reuse = reuse;
         sets(&mut window, label, expected);
     }

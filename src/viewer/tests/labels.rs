@@ -4,7 +4,7 @@ use std::sync::Arc;
 use noisefall::{
     measure::LogRatio,
     render::{Frame, Series, pass::SampleId},
-    scene::{CompileReport, RenderSettings, built_in},
+    scene::{CompileReport, RenderSettings, Sharing, built_in},
 };
 
 use super::*;
@@ -186,7 +186,7 @@ fn lines_are_estimates_points_are_true_and_clear_keeps_the_curve_that_grows() {
             app.instruments.history.record(
                 &settings,
                 generation,
-                Moment { spp, seconds: 1.0, estimated, true_error, bias: None, shares: false },
+                Moment { spp, seconds: 1.0, estimated, true_error, bias: None, sharing: Sharing::Nothing },
             );
         }
     }
@@ -209,7 +209,7 @@ fn where_no_truth_is_known_the_plot_of_bias_says_what_it_needs() {
     app.instruments.history.what = Quantity::Bias;
     let needs = |texts: &[String]| texts.iter().any(|text| text.starts_with("The bias needs a reference"));
     for (spp, bias, is_known) in [(1, None, false), (4, Some(0.1), true), (16, None, true)] {
-        let moment = Moment { spp, seconds: 1.0, estimated: Some(0.5), true_error: None, bias, shares: false };
+        let moment = Moment { spp, seconds: 1.0, estimated: Some(0.5), true_error: None, bias, sharing: Sharing::Nothing };
         app.instruments.history.record(&scene.settings, 5, moment);
         assert_eq!(needs(&said(&mut app, |app, ui| app.instrument(ui, InstrumentTab::Convergence))), !is_known, "{spp}");
     }

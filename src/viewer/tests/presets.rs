@@ -1,5 +1,5 @@
 //! Sharing and presets: experiments compare what they say they compare.
-use noisefall::scene::RenderSettings;
+use noisefall::scene::{RenderSettings, Sharing};
 
 use super::*;
 use crate::viewer::{instruments::tabs::InstrumentTab, panels::presets::Preset};
@@ -22,14 +22,14 @@ fn sharing_stays_as_it_is_while_other_settings_change_and_every_curve_names_it()
     let sampled =
         |window: &mut Window| wait(window, "samples", |app| app.results.shown.as_ref().is_some_and(|frame| frame.spp >= 2));
     sampled(&mut window);
-    assert!(window.state().results.status.shares);
+    assert!(window.state().results.status.sharing == Sharing::Suffixes);
     restarts(&mut window, "independent samples", |w| choose(w, "Sampler", "Independent"));
     sampled(&mut window);
     restarts(&mut window, "paths alone", |w| choose(w, "Estimator", "Path"));
     sampled(&mut window);
     restarts(&mut window, "a cap", |w| w.state_mut().session.settings.max_bounces = Some(4));
     sampled(&mut window);
-    assert!(window.state().results.status.shares, "the decision is that of the scene");
+    assert!(window.state().results.status.sharing == Sharing::Suffixes, "the decision is that of the scene");
     restarts(&mut window, "no sharing", |w| click(w, "Never"));
     sampled(&mut window);
     window.run_steps(3);
@@ -63,12 +63,12 @@ fn a_preset_sets_what_it_says_and_the_panel_marks_the_one_in_force() {
     restarts(&mut window, "the textbook estimator", |w| click(w, "Teaching"));
     assert_eq!(window.state().session.settings, RenderSettings { reuse: Reuse::Off, adaptive: false, ..before });
     assert!(is_marked(&window, "Teaching") && !is_marked(&window, "Fastest") && window.query_by_label("Custom").is_none());
-    wait(&mut window, "its samples", |app| app.results.status.spp >= 1 && !app.results.status.shares);
+    wait(&mut window, "its samples", |app| app.results.status.spp >= 1 && app.results.status.sharing == Sharing::Nothing);
     restarts(&mut window, "the fastest one", |w| click(w, "Fastest"));
     assert!(is_marked(&window, "Fastest") && !is_marked(&window, "Teaching"));
     let settings = window.state().session.settings;
     assert_eq!((Preset::of(&settings), settings.max_bounces), (Some(Preset::Fastest), Some(6)), "a cap is no matter of speed");
-    wait(&mut window, "its samples", |app| app.results.status.spp >= 1 && app.results.status.shares);
+    wait(&mut window, "its samples", |app| app.results.status.spp >= 1 && app.results.status.sharing == Sharing::Suffixes);
     window.get_by_role_and_label(Role::CheckBox, "Adaptive").click();
     window.run_steps(3);
     assert!(window.query_by_label("Custom").is_some() && !is_marked(&window, "Fastest"));

@@ -13,7 +13,7 @@ fn every_setting_of_the_estimate_starts_a_new_picture() {
     restarts(&mut window, "uniform directions", |w| click(w, "Uniform"));
     assert_eq!(window.state().session.settings.directions, Directions::Uniform);
     restarts(&mut window, "cosine directions", |w| click(w, "Cosine"));
-    restarts(&mut window, "shared paths", |w| click(w, "Always"));
+    restarts(&mut window, "shared paths", |w| click(w, "Paths"));
     assert_eq!(window.state().session.settings.reuse, Reuse::On);
     restarts(&mut window, "adaptive samples", |w| {
         w.get_by_role_and_label(Role::CheckBox, "Adaptive").click();

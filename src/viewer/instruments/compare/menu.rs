@@ -34,7 +34,13 @@ fn alternatives(settings: &RenderSettings) -> Vec<(String, RenderSettings)> {
     for roulette in Roulette::alternatives() {
         all.push((capitalized(&roulette.words()), RenderSettings { roulette, ..*settings }));
     }
-    for (reuse, title) in [(Reuse::On, "Shared paths"), (Reuse::Off, "No path sharing")] {
+    let reuses = [
+        (Reuse::On, "Shared paths"),
+        (Reuse::Bright, "Shared bright samples"),
+        (Reuse::Both, "Shared paths and bright samples"),
+        (Reuse::Off, "No path sharing"),
+    ];
+    for (reuse, title) in reuses {
         all.push(of(title, RenderSettings { reuse, ..*settings }));
     }
     all.push(of("A cap of 3 bounces", RenderSettings { max_bounces: Some(3), ..*settings }));

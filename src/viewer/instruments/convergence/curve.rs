@@ -1,7 +1,7 @@
 //! A curve of the error of one setting, run by run.
 use noisefall::{
     render::Frame,
-    scene::RenderSettings,
+    scene::{RenderSettings, Sharing},
     study::{Slope, slope},
 };
 
@@ -27,8 +27,8 @@ pub struct Moment {
     pub true_error: Option<f64>,
     /// Bias of the mean over the image, in standard errors.
     pub bias: Option<f64>,
-    /// Whether pixels share paths.
-    pub shares: bool,
+    /// What pixels share.
+    pub sharing: Sharing,
 }
 
 /// The figures of one setting.
@@ -51,7 +51,7 @@ impl Moment {
             estimated: frame.rel_mse_estimate.map(f64::sqrt),
             true_error: comparison.map(|comparison| comparison.rel_mse.sqrt()),
             bias: comparison.and_then(|comparison| comparison.bias),
-            shares: frame.shares,
+            sharing: frame.sharing,
         }
     }
 
@@ -89,9 +89,9 @@ impl Curve {
         moments.for_each(|moment| (moment.true_error, moment.bias) = (None, None));
     }
 
-    /// Whether the pixels of its picture share paths.
-    pub fn shares(&self) -> bool {
-        self.moments.last().is_some_and(|moment| moment.shares)
+    /// What the pixels of its picture share.
+    pub fn sharing(&self) -> Sharing {
+        self.moments.last().map_or(Sharing::Nothing, |moment| moment.sharing)
     }
 
     /// Places with a positive error, which a logarithm needs.
@@ -150,7 +150,7 @@ mod tests {
             estimated: Some(error),
             true_error: None,
             bias: None,
-            shares: false,
+            sharing: Sharing::Nothing,
         };
         let mut curve = Curve::new(RenderSettings::default(), 1);
         [8, 16, 100].into_iter().for_each(|spp| curve.record(1, moment(spp, 0.1)));

@@ -1,6 +1,5 @@
 //! The curves as files: CSV of every figure, SVG of the plot.
 use noisefall::{
-    render::settings_text::on_or_off,
     report::plot::{Axis, Style, curve, svg},
     scene::RenderSettings,
 };
@@ -33,7 +32,7 @@ impl History {
                 let text = |x: Option<f64>| x.map_or_else(String::new, |x| format!("{x:e}"));
                 let [estimated, truth, bias] = [moment.estimated, moment.true_error, moment.bias].map(text);
                 let [spp, seconds] = [moment.spp.to_string(), moment.seconds.to_string()];
-                let row = [name.clone(), on_or_off(moment.shares).to_owned(), spp, seconds, estimated, truth, bias];
+                let row = [name.clone(), moment.sharing.reuse().word().name.to_owned(), spp, seconds, estimated, truth, bias];
                 writer.write_record(row).map_err(failed)?;
             }
         }
@@ -76,7 +75,10 @@ impl History {
 mod tests {
     use std::sync::Arc;
 
-    use noisefall::{sampling::Sampler, scene::built_in};
+    use noisefall::{
+        sampling::Sampler,
+        scene::{Sharing, built_in},
+    };
 
     use super::*;
     use crate::viewer::instruments::convergence::curve::Moment;
@@ -88,8 +90,8 @@ mod tests {
         let mut history = History::default();
         history.look_at(&scene, &scene.camera, None);
         let moment = |spp, seconds, estimated, true_error, bias| {
-            let shares = spp == 64 || spp == 4;
-            Moment { spp, seconds, estimated, true_error, bias, shares }
+            let sharing = if spp == 64 || spp == 4 { Sharing::Suffixes } else { Sharing::Nothing };
+            Moment { spp, seconds, estimated, true_error, bias, sharing }
         };
         history.record(&scene.settings, 1, moment(1, 0.5, None, Some(0.25), None));
         history.record(&scene.settings, 1, moment(16, 2.0, Some(0.125), Some(0.0625), Some(-1.5)));

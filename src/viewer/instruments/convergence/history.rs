@@ -2,8 +2,8 @@
 use std::sync::Arc;
 
 use noisefall::{
-    render::{sharing::sharing_name, truth::Reference},
-    scene::{Camera, RenderSettings, Scene},
+    render::truth::Reference,
+    scene::{Camera, RenderSettings, Scene, Sharing},
 };
 
 use super::{
@@ -99,13 +99,13 @@ impl History {
     pub fn name(&self, curve: &Curve) -> String {
         let of_scene = self.subject.as_ref().map_or_else(RenderSettings::default, |(scene, _)| scene.settings);
         let bias = if curve.settings.bias().is_some() { " (biased)" } else { "" };
-        name(&curve.settings, &of_scene, curve.shares()) + bias
+        name(&curve.settings, &of_scene, curve.sharing()) + bias
     }
 }
 
-/// Names settings by what differs from those of the scene, or by estimator and sampler if nothing does, and by whether pixels share paths.
+/// Names settings by what differs from those of the scene, or by estimator and sampler if nothing does, and by what pixels share.
 /// The words are those of the panel.
-pub fn name(settings: &RenderSettings, of_scene: &RenderSettings, shares: bool) -> String {
+pub fn name(settings: &RenderSettings, of_scene: &RenderSettings, sharing: Sharing) -> String {
     let RenderSettings { estimator, directions, sampler, roulette, max_bounces, reuse, adaptive, seed, .. } = *settings;
     let cap = max_bounces.map_or_else(|| "no cap".to_owned(), |cap| format!("cap of {}", counted(cap, "bounce")));
     let parts = [
@@ -121,7 +121,7 @@ pub fn name(settings: &RenderSettings, of_scene: &RenderSettings, shares: bool) 
     if parts.is_empty() && reuse == of_scene.reuse {
         parts.extend([estimator.word().title, sampler.word().title].map(str::to_owned));
     }
-    parts.push(sharing_name(shares).to_owned());
+    parts.push(sharing.name().to_owned());
     parts.join(", ")
 }
 
@@ -135,7 +135,14 @@ mod tests {
     use super::*;
 
     fn moment(spp: u32, error: f64) -> Moment {
-        Moment { spp, seconds: f64::from(spp) * 0.5, estimated: Some(error), true_error: None, bias: None, shares: false }
+        Moment {
+            spp,
+            seconds: f64::from(spp) * 0.5,
+            estimated: Some(error),
+            true_error: None,
+            bias: None,
+            sharing: Sharing::Nothing,
+        }
     }
 
     fn looking_at(scene: &Arc<Scene>) -> History {
@@ -227,7 +234,7 @@ mod tests {
         assert_eq!(names[0], "MIS, Sobol (Owen), no sharing");
         assert!(names[1] == "Independent, cap of 3 bounces, no sharing (biased)", "{}", names[1]);
         let never = RenderSettings { reuse: Reuse::Off, ..scene.settings };
-        assert_eq!(name(&never, &scene.settings, false), "no sharing");
-        assert_eq!(name(&scene.settings, &scene.settings, true), "MIS, Sobol (Owen), shared paths");
+        assert_eq!(name(&never, &scene.settings, Sharing::Nothing), "no sharing");
+        assert_eq!(name(&scene.settings, &scene.settings, Sharing::Suffixes), "MIS, Sobol (Owen), shared paths");
     }
 }

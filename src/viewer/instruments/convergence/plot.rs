@@ -208,15 +208,21 @@ fn label(x: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use noisefall::scene::RenderSettings;
+    use noisefall::scene::{RenderSettings, Sharing};
 
     use super::*;
     use crate::viewer::instruments::convergence::curve::Moment;
 
     #[test]
     fn a_curve_says_its_last_figures_each_by_its_name() {
-        let last =
-            Moment { spp: 16, seconds: 2.0, estimated: Some(0.125), true_error: Some(0.0625), bias: Some(-1.5), shares: false };
+        let last = Moment {
+            spp: 16,
+            seconds: 2.0,
+            estimated: Some(0.125),
+            true_error: Some(0.0625),
+            bias: Some(-1.5),
+            sharing: Sharing::Nothing,
+        };
         let curve = |bias| {
             let moments = vec![Moment { spp: 8, seconds: 1.0, ..last }, Moment { bias: Some(bias), ..last }];
             let mut curve = Curve::new(RenderSettings::default(), 1);

@@ -148,7 +148,9 @@ mod tests {
         let scene = built_in();
         let rays = scene.rays(&scene.camera);
         let (mut checked, mut shared) = (0, 0);
-        for (reuse, sample) in [Reuse::Off, Reuse::On].into_iter().flat_map(|reuse| (0..40).map(move |sample| (reuse, sample))) {
+        for (reuse, sample) in
+            [Reuse::Off, Reuse::On, Reuse::Both].into_iter().flat_map(|reuse| (0..40).map(move |sample| (reuse, sample)))
+        {
             let settings = RenderSettings { reuse, ..scene.settings };
             let middle = scene.camera.resolution.map(|side| side / 3);
             let replay = replay(&scene, &rays, &settings, middle, sample);

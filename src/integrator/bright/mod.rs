@@ -1,0 +1,214 @@
+//! Shares bright samples between the pixels of a group.
+//!
+//! A sample of pixel j is a function f_j(u) of its random numbers u. A sample that pixel i has found with f_i(u) above a threshold t_i is
+//! replayed: it is traced with the same u from the other pixels of the group ("random replay" in D. Lin et al., "Generalized Resampled
+//! Importance Sampling: Foundations of ReSTIR", SIGGRAPH 2022). Where f_j(u) > t_j, the samples of all n pixels k with f_k(u) > t_k are
+//! strategies with the same pdf, so the balance heuristic (Veach 1997, equation 9.8) weights each by 1/n: pixel j adds f_j(u)/n. Samples
+//! below the threshold stay with their pixel. The mean does not change, and rare bright light, which makes most of the noise of caustics,
+//! is found by n pixels in place of one. Where path suffixes are shared as well, f is the rest of the sample.
+mod replays;
+mod thresholds;
+
+use self::thresholds::brightness;
+pub use self::{replays::Replays, thresholds::Thresholds};
+use super::{
+    batch::Batch,
+    interrupted::Interrupted,
+    slots::{SLOTS, TILE},
+    trace::trace_alone,
+    work::Work,
+};
+use crate::{
+    math::{One, SimdLevel, U},
+    sampling::hash::hash_one,
+};
+
+/// Width and height of a group in pixels.
+const WIDTH: u32 = 4;
+/// Number of pixels in a group.
+const MEMBERS: usize = (WIDTH * WIDTH) as usize;
+
+/// What sharing needs beside the queues of a batch. Allocated by the first trace that shares.
+#[derive(Default)]
+pub struct Bright {
+    found: Vec<BrightSample>,
+    replays: Replays,
+    /// The radiance of the tile, while the batch traces replays.
+    radiance: Vec<[f32; 4]>,
+}
+
+/// A bright sample of a pixel.
+#[derive(Clone, Copy, Default)]
+struct BrightSample {
+    /// The pixel, by column and row in the tile.
+    place: [u32; 2],
+    radiance: [f32; 4],
+    /// Number of pixels that share it.
+    n: u32,
+}
+
+/// Takes the bright samples out of a batch whose paths have all ended, before path suffixes are shared.
+pub fn set_aside(work: &Work, thresholds: &Thresholds, batch: &mut Batch) {
+    let bright = batch.bright.get_or_insert_default();
+    bright.found.clear();
+    for (index, radiance) in batch.radiance[..work.slots() as usize].iter_mut().enumerate() {
+        let (column, row) = work.place::<One>(U(index as u32));
+        let place = [column.0, row.0];
+        let is_inside = column.0 < work.size[0] && row.0 < work.size[1];
+        if is_inside && is_bright(radiance, thresholds.at(place)) {
+            bright.found.push(BrightSample { place, radiance: std::mem::take(radiance), n: 1 });
+        }
+    }
+}
+
+/// Adds the samples that were set aside to the radiance of all pixels that share them.
+pub fn share_bright(
+    level: SimdLevel,
+    work: &Work,
+    thresholds: &Thresholds,
+    batch: &mut Batch,
+    interrupted: &dyn Fn() -> bool,
+) -> Result<(), Interrupted> {
+    let mut bright = batch.bright.take().unwrap_or_default();
+    bright.radiance.clear();
+    bright.radiance.extend_from_slice(batch.radiance());
+    let shared = bright.share(level, work, thresholds, batch, interrupted);
+    batch.radiance[..SLOTS].copy_from_slice(&bright.radiance);
+    batch.bright = Some(bright);
+    shared
+}
+
+/// The number of pixels that share the sample of a pixel in the last tile; `None` if it is not bright.
+pub fn sharers(batch: &Batch, place: [u32; 2]) -> Option<u32> {
+    let found = &batch.bright.as_ref()?.found;
+    found.iter().find(|sample| sample.place == place).map(|sample| sample.n)
+}
+
+impl Bright {
+    /// Replays what was set aside, as many samples at a time as a batch takes, and adds it to all pixels that share it.
+    fn share(
+        &mut self,
+        level: SimdLevel,
+        work: &Work,
+        thresholds: &Thresholds,
+        batch: &mut Batch,
+        interrupted: &dyn Fn() -> bool,
+    ) -> Result<(), Interrupted> {
+        for samples in self.found.chunks_mut(SLOTS / MEMBERS) {
+            fill(&mut self.replays, work, samples);
+            if !self.replays.is_empty() {
+                let replay = Work { replays: Some(&self.replays), thresholds: None, ..*work };
+                trace_alone(level, &replay, batch, interrupted)?;
+            }
+            let mut replayed = batch.radiance();
+            for sample in samples {
+                let count = others(work, sample.place).count();
+                let (own, rest) = replayed.split_at(count);
+                divide(work, thresholds, sample, own, &mut self.radiance);
+                replayed = rest;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The replays of samples in the other pixels of their groups.
+fn fill(replays: &mut Replays, work: &Work, samples: &[BrightSample]) {
+    let pixel = |place: [u32; 2]| [0, 1].map(|axis| work.origin[axis] + place[axis]);
+    replays.clear();
+    for sample in samples {
+        others(work, sample.place).for_each(|place| replays.push(pixel(place), pixel(sample.place)));
+    }
+}
+
+/// Divides a sample among the pixels of its group where it is bright. `replayed` is that of the others.
+fn divide(work: &Work, thresholds: &Thresholds, sample: &mut BrightSample, replayed: &[[f32; 4]], sums: &mut [[f32; 4]]) {
+    let of_others = || others(work, sample.place).zip(replayed);
+    let all = std::iter::once((sample.place, &sample.radiance)).chain(of_others());
+    let shares = |(place, radiance): &([u32; 2], &[f32; 4])| is_bright(radiance, thresholds.at(*place));
+    let n = all.clone().filter(shares).count() as u32;
+    for (place, radiance) in all.filter(shares) {
+        let sum = &mut sums[slot(place)];
+        sum.iter_mut().zip(radiance).for_each(|(sum, x)| *sum += x / n as f32);
+    }
+    sample.n = n;
+}
+
+fn is_bright(radiance: &[f32; 4], threshold: f32) -> bool {
+    brightness(radiance).is_some_and(|sum| sum > threshold)
+}
+
+fn slot([x, y]: [u32; 2]) -> usize {
+    (y * TILE + x) as usize
+}
+
+/// The other pixels of the group of a pixel. Groups are shifted in every sample, so that their edges are not visible. At the edges of the
+/// tile they are smaller.
+fn others(work: &Work, source: [u32; 2]) -> impl Iterator<Item = [u32; 2]> + Clone {
+    let offset = hash_one(work.sample);
+    let range = |axis: usize, offset: u32| {
+        let start = (source[axis] + offset) / WIDTH * WIDTH;
+        start.saturating_sub(offset)..(start + WIDTH - offset).min(work.size[axis])
+    };
+    let (columns, rows) = (range(0, offset % WIDTH), range(1, (offset >> 16) % WIDTH));
+    rows.flat_map(move |y| columns.clone().map(move |x| [x, y])).filter(move |place| *place != source)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{RenderSettings, built_in};
+
+    const BRIGHT: f32 = 50.0;
+    const SIZE: [u32; 2] = [13, 10];
+
+    fn places() -> impl Iterator<Item = [u32; 2]> {
+        (0..SIZE[1]).flat_map(|y| (0..SIZE[0]).map(move |x| [x, y]))
+    }
+
+    /// The sample of a pixel for random numbers u: a third is bright, as chance will have it.
+    fn f([x, y]: [u32; 2], u: u32) -> [f32; 4] {
+        let chance = hash_one(x + 64 * y + 4096 * u) % 3;
+        [if chance == 0 { 2.0 * BRIGHT + x as f32 } else { chance as f32 }, y as f32, 0.0, 0.0]
+    }
+
+    fn with_work(test: impl Fn(&Work)) {
+        let scene = built_in();
+        let (rays, settings) = (scene.rays(&scene.camera), RenderSettings::default());
+        (0..9).for_each(|sample| test(&Work::tile(&scene, &rays, &settings, [32, 0], SIZE, sample)));
+    }
+
+    #[test]
+    fn every_pixel_is_in_one_group_of_at_most_sixteen() {
+        with_work(|work| {
+            for place in places() {
+                let group: Vec<[u32; 2]> = others(work, place).collect();
+                assert!(group.len() < MEMBERS && !group.contains(&place));
+                assert!(group.iter().all(|other| others(work, *other).any(|back| back == place)));
+            }
+        });
+    }
+
+    /// The sum over all random numbers, each of which every pixel draws once, is the same with and without sharing.
+    #[test]
+    fn bright_samples_are_divided_without_loss() {
+        const ALL: u32 = 40;
+        let thresholds = Thresholds::uniform(BRIGHT);
+        with_work(|work| {
+            let mut sums = vec![[0.0; 4]; SLOTS];
+            for (place, u) in places().flat_map(|place| (0..ALL).map(move |u| (place, u))) {
+                if is_bright(&f(place, u), BRIGHT) {
+                    let replayed: Vec<[f32; 4]> = others(work, place).map(|other| f(other, u)).collect();
+                    divide(work, &thresholds, &mut BrightSample { place, radiance: f(place, u), n: 0 }, &replayed, &mut sums);
+                }
+            }
+            for place in places() {
+                for c in 0..2 {
+                    let alone: f32 = (0..ALL).map(|u| f(place, u)).filter(|of| is_bright(of, BRIGHT)).map(|of| of[c]).sum();
+                    let shared = sums[slot(place)][c];
+                    assert!((shared - alone).abs() <= 1e-4 * alone, "{place:?}: {shared} {alone}");
+                }
+            }
+        });
+    }
+}
