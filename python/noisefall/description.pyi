@@ -707,8 +707,8 @@ class Render:
     """Exposure of the displayed image. One stop doubles the brightness; samples do not change. (stops)"""
     max_bounces: int | None = None
     """Highest number of bounces. A cap makes the image too dark. Default: no cap."""
-    reuse: Literal['auto', 'on', 'off'] | None = None
-    """Whether neighbouring pixels share path suffixes (Bekaert, Sbert and Halton 2002)."""
+    reuse: Literal['auto', 'on', 'bright', 'both', 'off'] | None = None
+    """What neighbouring pixels share: path suffixes (Bekaert, Sbert and Halton 2002), bright samples, or both."""
     roulette: Literal['off', 'throughput'] | Roulette | Mapping[str, Any] | None = None
     """Ends paths at random and weights the survivors, so that the mean does not change."""
     sampler: Literal['independent', 'stratified', 'sobol', 'bluenoise'] | None = None

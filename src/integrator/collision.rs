@@ -9,7 +9,7 @@
 //! behind it is blind, and less otherwise.
 use glam::DVec3;
 
-use super::{batch::Batch, trace::trace, work::Work};
+use super::{batch::Batch, trace::trace_alone, work::Work};
 use crate::{
     geometry::{MISS, PrimitiveRef},
     math::{Lanes, One, Pick, SimdLevel, V},
@@ -54,7 +54,7 @@ pub fn is_blind(scene: &Scene, place: DVec3) -> bool {
     let mut sees_light = |axis: DVec3, sample: u32| {
         let rays = scene.rays(&view(place, axis));
         let work = Work::tile(scene, &rays, &settings, [0, 0], [SIDE, SIDE], sample);
-        let done = trace(SimdLevel::best(), &work, &mut batch, &|| false);
+        let done = trace_alone(SimdLevel::best(), &work, &mut batch, &|| false);
         done.is_ok() && batch.radiance().iter().any(|[r, g, b, _]| r.max(*g).max(*b) > 0.0)
     };
     let axes = [DVec3::X, DVec3::Y, DVec3::Z].into_iter().flat_map(|axis| [axis, -axis]);

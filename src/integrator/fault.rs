@@ -8,7 +8,8 @@ use super::{
     records::{Hit, Path},
     shading::{Reflected, Shading, shares_first},
     slots::SLOTS,
-    trace::{self, Observer, trace_in},
+    tile_sample,
+    trace::{Observer, trace_in},
     work::Work,
 };
 use crate::{
@@ -20,9 +21,9 @@ use crate::{
 /// Bounce cap with a fault, which may let paths go on for ever.
 const MOST_BOUNCES: u32 = 60;
 
-/// [`trace::trace`] with the fault that the settings name.
+/// [`tile_sample::trace`] with the fault that the settings name.
 pub fn trace(level: SimdLevel, work: &Work, batch: &mut Batch, interrupted: &dyn Fn() -> bool) -> Result<(), Interrupted> {
-    let Some(fault) = work.settings.fault else { return trace::trace(level, work, batch, interrupted) };
+    let Some(fault) = work.settings.fault else { return tile_sample::trace(level, work, batch, interrupted) };
     let cap = work.settings.last_bounce().min(MOST_BOUNCES) + u32::from(fault == InjectedFault::OneBounceMore);
     let settings = RenderSettings { max_bounces: Some(cap), ..*work.settings };
     let work = Work { settings: &settings, ..*work };

@@ -6,6 +6,7 @@
 mod batch;
 mod bidirectional;
 mod bright;
+mod bright_samples;
 mod collision;
 mod coordinates;
 mod crossings;
@@ -40,6 +41,7 @@ mod spawn;
 mod surface;
 #[cfg(test)]
 mod tests;
+mod tile_sample;
 mod trace;
 mod variation;
 mod weight;
@@ -48,10 +50,11 @@ mod work;
 #[cfg(test)]
 pub use self::fault::trace;
 #[cfg(not(test))]
-pub use self::trace::trace;
+pub use self::tile_sample::trace;
 pub use self::{
     batch::Batch,
-    bright::{Replays, Thresholds},
+    bright::thresholds,
+    bright_samples::{Replays, Thresholds},
     collision::{clear_fraction, is_blind},
     features::{Features, features},
     interrupted::Interrupted,

@@ -3,6 +3,7 @@ use std::time::{Duration, Instant};
 
 use super::{
     batch::Batch,
+    bright::{set_aside, share_bright},
     interrupted::Interrupted,
     records::Path,
     trace::{Observer, PathStage, trace_in},
@@ -41,7 +42,7 @@ pub struct Profile {
     pub bounces: Vec<[StageCost; 4]>,
     /// Generation of camera rays.
     pub spawn: StageCost,
-    /// Path reuse.
+    /// Path reuse, and replays of bright samples.
     pub reuse: StageCost,
     /// Adding samples to the film.
     pub film: StageCost,
@@ -147,7 +148,13 @@ pub fn trace_profiled(
 ) -> Result<(), Interrupted> {
     let rays = batch.rays;
     let mut clock = Clock { profile, last: Instant::now(), rays };
-    in_lanes!(level, l => trace_in(l, work, batch, interrupted, &mut clock))
+    in_lanes!(level, l => trace_in(l, work, batch, interrupted, &mut clock))?;
+    let Some(thresholds) = work.thresholds else { return Ok(()) };
+    clock.last = Instant::now();
+    set_aside(work, thresholds, batch);
+    share_bright(level, work, thresholds, batch, interrupted)?;
+    clock.after(PathStage::Reuse, batch);
+    Ok(())
 }
 
 #[cfg(test)]

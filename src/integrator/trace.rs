@@ -3,8 +3,6 @@ use fearless_simd_macros::simd;
 
 use super::{
     batch::Batch,
-    bidirectional::trace_both_ends,
-    bright::{set_aside, share_bright},
     interrupted::Interrupted,
     intersect::intersect,
     passage::Decisions,
@@ -20,7 +18,7 @@ use super::{
 };
 use crate::{
     material::in_stage,
-    math::{Lanes, One, SimdLevel, in_few_lanes, in_lanes},
+    math::{Lanes, One, SimdLevel, in_lanes},
 };
 
 /// Observes a batch between the stages; `()` does nothing.
@@ -32,7 +30,7 @@ pub trait Observer {
     fn at_shaded(&mut self, _work: &Work, _batch: &mut Batch) {}
 
     /// Called when all paths have ended, before pixels share them.
-    fn before_sharing(&mut self, _work: &Work, _batch: &Batch) {}
+    fn before_sharing(&mut self, _work: &Work, _batch: &mut Batch) {}
 
     /// Called after each stage.
     fn after(&mut self, _stage: PathStage, _batch: &Batch) {}
@@ -51,33 +49,19 @@ pub enum PathStage {
     Shade,
     /// Traces shadow rays.
     Shadow,
-    /// Shares paths between pixels.
+    /// Shares paths and bright samples between pixels.
     Reuse,
 }
 
 impl Observer for () {}
 
-/// Traces one sample of every pixel of a tile; the result is [`Batch::radiance`]. Calls `interrupted` before every bounce, and in
-/// the reuse stage.
+/// Traces one sample of every pixel of a tile by paths from the camera; the result is [`Batch::radiance`]. Calls `interrupted` before every
+/// bounce, and in the reuse stage.
 ///
 /// The estimate is the sum over bounces k of throughput × emitted radiance at the k-th surface: the rendering equation (Kajiya
 /// 1986, equation 1), with one sampled direction in place of the integral at every surface. Light samples replace the emission at
 /// the next surface or are combined with it by multiple importance sampling (Veach 1997, chapter 9).
-pub fn trace(level: SimdLevel, work: &Work, batch: &mut Batch, interrupted: &dyn Fn() -> bool) -> Result<(), Interrupted> {
-    if let Some(rays) = work.scene.light_rays(work.settings) {
-        return in_few_lanes!(level, l => trace_both_ends(l, work, rays, batch, interrupted));
-    }
-    trace_alone(level, work, batch, interrupted)?;
-    work.thresholds.map_or(Ok(()), |thresholds| share_bright(level, work, thresholds, batch, interrupted))
-}
-
-/// [`trace`] of paths from the camera. Their bright samples are not shared.
-pub(super) fn trace_alone(
-    level: SimdLevel,
-    work: &Work,
-    batch: &mut Batch,
-    interrupted: &dyn Fn() -> bool,
-) -> Result<(), Interrupted> {
+pub fn trace_alone(level: SimdLevel, work: &Work, batch: &mut Batch, interrupted: &dyn Fn() -> bool) -> Result<(), Interrupted> {
     in_lanes!(level, l => trace_in(l, work, batch, interrupted, &mut ()))
 }
 
@@ -96,7 +80,7 @@ impl Observer for Segments {
     }
 }
 
-/// [`trace`] of a tile, which also counts the path segments of its blocks.
+/// [`trace_alone`] of a tile, which also counts the path segments of its blocks.
 pub fn trace_counting(
     level: SimdLevel,
     work: &Work,
@@ -147,11 +131,8 @@ pub(super) fn trace_in<L: Lanes, O: Observer>(
         }
         batch.bounce += 1;
     }
-    if let Some(thresholds) = work.thresholds {
-        set_aside(work, thresholds, batch);
-    }
+    observer.before_sharing(work, batch);
     if work.shares() && work.replays.is_none() {
-        observer.before_sharing(work, batch);
         if !share(l, work, batch, interrupted) {
             return Err(Interrupted);
         }

@@ -2,7 +2,7 @@
 use fearless_simd_macros::simd;
 
 use super::{
-    bright::{Replays, Thresholds},
+    bright_samples::{Replays, Thresholds},
     slots::{BLOCK, BLOCKS, SLOTS, TILE, place_in_groups},
 };
 use crate::{

@@ -15,7 +15,7 @@ pub struct Film {
     pub tiles: Vec<Tile>,
     /// Whether all samples up to the next doubling are there, which must be recorded before there are more.
     pub(super) is_noting: bool,
-    /// Whether pixels share paths, so that their noise is correlated.
+    /// What pixels share. If they do, their noise is correlated.
     pub(super) sharing: Sharing,
     /// Whether a pilot has measured the noise.
     pub(super) is_piloted: bool,
@@ -34,15 +34,15 @@ impl Film {
 
     /// Reserves memory for an image of this size: the film, its frames, and saving one of them.
     pub fn reserve([width, height]: [u32; 2]) -> Result<Reservation, TooMuch> {
-        /// Bytes per pixel: sums, squares and two means in the film; means and errors in up to two frames; display codes; and the
+        /// Bytes per pixel: sums, squares, two means and a threshold in the film; means and errors in up to two frames; display codes; and the
         /// file.
-        const PIXEL: u64 = 72 + 2 * 20 + 4 + 24;
+        const PIXEL: u64 = 76 + 2 * 20 + 4 + 24;
         memory::reserve(format_args!("images of {width} × {height} pixels"), PIXEL * u64::from(width) * u64::from(height))
     }
 
-    /// Bytes of a film without its frames: sums, squares and means.
+    /// Bytes of a film without its frames: sums, squares, means and thresholds.
     pub(super) fn kept_bytes([width, height]: [u32; 2]) -> u64 {
-        72 * u64::from(width) * u64::from(height)
+        76 * u64::from(width) * u64::from(height)
     }
 
     /// Reserves memory for a film without its frames.

@@ -43,7 +43,7 @@ pub struct Frame {
     pub spp: u32,
     /// Samples of every pixel, row by row; empty if all have `spp`.
     pub counts: Vec<u32>,
-    /// Whether its pixels share paths.
+    /// What its pixels share.
     pub sharing: Sharing,
     /// Time spent rendering it.
     pub elapsed: Duration,

@@ -1,8 +1,5 @@
 //! A pass: brings all tiles of a film to a number of samples, on all threads.
-use std::{
-    panic::{AssertUnwindSafe, catch_unwind},
-    sync::Arc,
-};
+use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use rayon::prelude::*;
 
@@ -127,7 +124,7 @@ impl SampledTile for Towards<'_> {
         (!tile.has_reached(*spp)).then(next)
     }
 
-    fn thresholds(&mut self) -> &mut Option<Arc<Thresholds>> {
+    fn thresholds(&mut self) -> &mut Option<Thresholds> {
         &mut self.tile.thresholds
     }
 

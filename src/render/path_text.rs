@@ -30,7 +30,7 @@ pub fn text(id: &PathId, replay: &Replay) -> String {
     text += &format!("\nThe path {}.", replay.end.name());
     if let Some(alone) = replay.alone {
         text += &format!(
-            "\nThis path alone would have made it {}: pixels share path suffixes (--reuse off stops that).",
+            "\nThis path alone would have made it {}: pixels share light with their neighbours (--reuse off stops that).",
             three(alone)
         );
     }
@@ -41,7 +41,7 @@ pub fn text(id: &PathId, replay: &Replay) -> String {
 pub fn latex(id: &PathId, replay: &Replay) -> String {
     let heading = heading(id, replay);
     let comments: String = heading.lines().map(|line| format!("% {line}\n")).collect();
-    let shared = replay.alone.map_or("", |_| "% Pixels share path suffixes: the sum is that of this path alone.\n");
+    let shared = replay.alone.map_or("", |_| "% Pixels share light with their neighbours: the sum is that of this path alone.\n");
     format!("{comments}% The path {}.\n{shared}{}", replay.end.name(), path_formula::latex(replay))
 }
 

@@ -9,7 +9,7 @@ use super::{
 };
 pub use crate::integrator::{CountedRays, PathStage, Profile, StageCost};
 use crate::{
-    integrator::{Batch, Interrupted, Work, trace_profiled},
+    integrator::{Batch, Interrupted, Work, thresholds, trace_profiled},
     scene::{Camera, RenderSettings, Scene},
 };
 
@@ -34,8 +34,10 @@ impl Threads {
         interrupted: &dyn Fn() -> bool,
     ) -> Result<Profile, Interrupted> {
         let (mut tile, mut profile) = (Tile::new(origin, size), Profile::default());
+        let first = Work::tile(scene, rays, settings, origin, size, 0);
+        let thresholds = thresholds(self.level, &first, batch, interrupted)?;
         for sample in 0..spp {
-            let work = Work::tile(scene, rays, settings, origin, size, sample);
+            let work = Work { sample, thresholds: thresholds.as_ref(), ..first };
             trace_profiled(self.level, &work, batch, interrupted, &mut profile)?;
             let start = std::time::Instant::now();
             tile.add(batch.radiance());
@@ -46,7 +48,7 @@ impl Threads {
     }
 }
 
-/// The settings of a scene as a profile takes them: uniform, and with path reuse decided.
+/// The settings of a scene as a profile takes them: uniform, and with sharing decided.
 pub fn settings_of(scene: &Scene, camera: &Camera) -> RenderSettings {
     let settings = RenderSettings { adaptive: false, ..scene.settings };
     resolved(scene, &scene.rays(camera), &settings)

@@ -117,7 +117,7 @@ pub struct Status {
     pub elapsed: Duration,
     /// Estimated relMSE; `None` before the second sample.
     pub rel_mse_estimate: Option<f64>,
-    /// Whether pixels share paths.
+    /// What pixels share.
     pub sharing: Sharing,
     /// Whether sampling is adaptive.
     pub adapts: bool,

@@ -1,7 +1,7 @@
 //! Takes the samples of one tile on one thread.
 use std::{
     panic::{AssertUnwindSafe, catch_unwind},
-    sync::{Arc, PoisonError},
+    sync::PoisonError,
 };
 
 use super::{
@@ -10,7 +10,7 @@ use super::{
     threads::{Buffers, PassJob, Threads},
 };
 use crate::{
-    integrator::{Blocks, Interrupted, Splat, Thresholds, Work, replay, trace},
+    integrator::{Blocks, Interrupted, Splat, Thresholds, Work, replay, thresholds, trace},
     math::SimdLevel,
     scene::{RenderSettings, Reuse},
 };
@@ -32,7 +32,7 @@ pub trait SampledTile {
     fn next(&self) -> Option<NextSamples>;
 
     /// The thresholds of its bright samples, once they are known.
-    fn thresholds(&mut self) -> &mut Option<Arc<Thresholds>>;
+    fn thresholds(&mut self) -> &mut Option<Thresholds>;
 
     /// Traces samples.
     fn trace(
@@ -64,11 +64,11 @@ impl Threads {
     ) -> PassCount {
         let PassJob { scene, rays, settings } = job;
         let Area { origin, size } = tile.area();
-        let shares_bright = scene.sharing(rays, settings).has_bright_samples();
         let mut count = PassCount::default();
         let thread = rayon::current_thread_index().unwrap_or(0);
         let mut buffers = self.buffers[thread].lock().unwrap_or_else(PoisonError::into_inner);
         (buffers.batch.rays, buffers.batch.cut_paths) = (0, 0);
+        let mut known = tile.thresholds().take();
         while let Some(samples) = tile.next().filter(|_| !interrupted()) {
             let work = match &samples {
                 NextSamples::OfTile(sample) => Work::tile(scene, rays, settings, origin, size, *sample),
@@ -76,12 +76,13 @@ impl Threads {
                     Work { blocks: Some(blocks), ..Work::tile(scene, rays, settings, origin, size, 0) }
                 }
             };
+            let is_whole = matches!(samples, NextSamples::OfTile(_));
             let traced = catch_unwind(AssertUnwindSafe(|| {
-                if shares_bright && tile.thresholds().is_none() {
-                    *tile.thresholds() = Some(Arc::new(Thresholds::of(self.level, &work, &mut buffers.batch, interrupted)?));
+                if is_whole && known.is_none() {
+                    known = thresholds(self.level, &work, &mut buffers.batch, interrupted)?;
                 }
-                let thresholds = tile.thresholds().clone();
-                tile.trace(self.level, &Work { thresholds: thresholds.as_deref(), ..work }, &mut buffers, interrupted)
+                let thresholds = known.as_ref().filter(|_| is_whole);
+                tile.trace(self.level, &Work { thresholds, ..work }, &mut buffers, interrupted)
             }));
             match traced {
                 Ok(Ok(())) => {
@@ -101,6 +102,7 @@ impl Threads {
                 }
             }
         }
+        *tile.thresholds() = known;
         (count.rays, count.cut_paths) = (buffers.batch.rays, buffers.batch.cut_paths);
         count
     }

@@ -245,7 +245,8 @@ impl Session {
         let job = PassJob {
             scene: &self.request.scene,
             rays: &self.request.scene.rays(&coarse.camera),
-            settings: &self.request.settings,
+            // It is shown for too short a time for a pilot of bright samples.
+            settings: &RenderSettings { reuse: Reuse::Off, ..self.request.settings },
         };
         let start = Instant::now();
         let before = coarse.film.samples();

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use super::{light_trial::estimator_unless, tile::Tile};
 use crate::{
-    integrator::{Batch, Interrupted, TILE, Thresholds, Work, trace},
+    integrator::{Batch, Interrupted, TILE, Work, thresholds, trace},
     math::SimdLevel,
     measure::{Floor, relative},
     scene::{CameraRays, RenderSettings, Reuse, Scene, Sharing},
@@ -15,7 +15,7 @@ use crate::{
 const PLACES: [[f64; 2]; 5] = [[0.25, 0.25], [0.75, 0.25], [0.5, 0.5], [0.25, 0.75], [0.75, 0.75]];
 /// Samples per pixel, for each way to share and each seed.
 const SPP: u32 = 4;
-/// Pixels next to each other that errors are relative to the mean of: a row of a tile. The mean of a pixel alone follows its noise.
+/// Errors are relative to the mean of so many pixels, a row of a tile: the mean of a pixel alone follows its noise.
 const ROW: usize = TILE as usize;
 /// Cost of a sample with shared path suffixes relative to one without: in scenes of lists, and in scenes with trees. Measured costs are 1.7
 /// to 2.2 and 1.1 to 1.5.
@@ -23,8 +23,8 @@ const COST: f64 = 2.1;
 const COST_WITH_TREES: f64 = 1.4;
 /// Cost of a ray of a replay relative to other rays: replays are few, and go where paths are long.
 const COST_OF_REPLAYS: f64 = 1.5;
-/// The gain that bright samples must bring: the trial sees few of them.
-const LEAST_GAIN: f64 = 1.15;
+/// The gain that makes correlated noise worth it. The trial sees few bright samples.
+const LEAST_GAIN: f64 = 1.3;
 /// Seeds that images are unlikely to have.
 const SEEDS: [u32; 2] = [0x7f4a_7c15, 0x2545_f491];
 
@@ -93,25 +93,23 @@ fn best(scene: &Scene, interrupted: &(dyn Fn() -> bool + Sync)) -> Result<Sharin
     Ok(best.0)
 }
 
-/// The factor by which the relative squared error falls.
+/// The factor by which the squared error falls, relative to the means of both trials.
 fn gain(before: &Trial, after: &Trial) -> f64 {
-    let images = || [before, after].into_iter().flat_map(|trial| &trial.images);
-    let values = images().map(Vec::len).sum::<usize>().max(1) * 3;
-    let floor = Floor::DEFAULT.of(images().flatten().flatten().map(|x| x * x).sum::<f64>() / values as f64);
-    let rows: Vec<[f64; 3]> = (0..before.images[0].len().div_ceil(ROW))
-        .map(|row| {
-            let pixels = || images().flat_map(|image| image.chunks(ROW).nth(row)).flatten();
-            [0, 1, 2].map(|channel| pixels().map(|pixel| pixel[channel]).sum::<f64>() / pixels().count() as f64)
-        })
-        .collect();
+    let images = [before, after].into_iter().flat_map(|trial| &trial.images).map(Vec::as_slice).collect::<Vec<_>>();
+    let squares = images.iter().copied().flatten().flatten().map(|x| x * x);
+    let floor = Floor::DEFAULT.of(squares.sum::<f64>() / (3 * images.len() * images[0].len().max(1)) as f64);
+    let rows: Vec<[f64; 3]> = (0..images[0].len()).step_by(ROW).map(|start| mean_of_row(&images, start)).collect();
     let error = |Trial { images: [a, b], .. }: &Trial| {
-        let pixels = a.iter().zip(b).enumerate();
-        let of = |(i, (a, b)): (usize, (&[f64; 3], &[f64; 3]))| {
-            (0..3).map(|c| relative((a[c] - b[c]).powi(2), rows[i / ROW][c], floor)).sum::<f64>()
-        };
-        pixels.map(of).sum::<f64>()
+        let of = |pixel: usize, c: usize| relative((a[pixel][c] - b[pixel][c]).powi(2), rows[pixel / ROW][c], floor);
+        (0..a.len()).flat_map(|pixel| (0..3).map(move |c| (pixel, c))).map(|(pixel, c)| of(pixel, c)).sum::<f64>()
     };
     error(before) / error(after)
+}
+
+/// The mean over all images of the pixels from one on.
+fn mean_of_row(images: &[&[[f64; 3]]], start: usize) -> [f64; 3] {
+    let pixels = || images.iter().flat_map(|image| image.iter().skip(start).take(ROW));
+    [0, 1, 2].map(|channel| pixels().map(|pixel| pixel[channel]).sum::<f64>() / pixels().count() as f64)
 }
 
 /// A few samples of some tiles, with two seeds: the difference of the images shows the error that Sobol points leave.
@@ -143,8 +141,7 @@ fn sampled(
 ) -> Result<(Vec<[f64; 3]>, u64), Interrupted> {
     let (level, mut batch) = (SimdLevel::best(), Batch::default());
     let first = Work::tile(scene, rays, settings, tile.origin, tile.size, 0);
-    let shares_bright = scene.sharing(rays, settings).has_bright_samples();
-    let thresholds = shares_bright.then(|| Thresholds::of(level, &first, &mut batch, interrupted)).transpose()?;
+    let thresholds = thresholds(level, &first, &mut batch, interrupted)?;
     batch.rays = 0;
     for sample in 0..SPP {
         trace(level, &Work { sample, thresholds: thresholds.as_ref(), ..first }, &mut batch, interrupted)?;
@@ -157,6 +154,19 @@ fn sampled(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Two rows, the second of which is ten times as bright and as noisy. The floor is a hundredth of the mean square.
+    #[test]
+    fn a_gain_is_that_of_the_errors_relative_to_rows() {
+        let trial = |noise: f64| {
+            let image = |sign: f64| {
+                (0..2 * ROW).map(|i| if i < ROW { [1.0 + sign * noise; 3] } else { [10.0 + sign * 10.0 * noise; 3] }).collect()
+            };
+            Trial { images: [image(1.0), image(-1.0)], rays: 1.0 }
+        };
+        assert!((gain(&trial(0.02), &trial(0.01)) - 4.0).abs() < 1e-9);
+        assert!((gain(&trial(0.01), &trial(0.02)) - 0.25).abs() < 1e-9);
+    }
 
     #[test]
     fn a_trial_that_is_interrupted_decides_nothing() {

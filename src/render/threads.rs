@@ -4,7 +4,7 @@ use std::sync::{Mutex, PoisonError};
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 
 use crate::{
-    integrator::{Batch, Interrupted, Segments, Terms, Work, trace_counting},
+    integrator::{Batch, Interrupted, Segments, Terms, Work, thresholds, trace, trace_counting},
     math::SimdLevel,
     scene::{CameraRays, RenderSettings, Scene},
 };
@@ -51,6 +51,18 @@ impl Threads {
     /// Runs a task on the pool, so that rayon's parallel iterators in it use these threads.
     pub fn install<T: Send>(&self, task: impl FnOnce() -> T + Send) -> T {
         self.pool.install(task)
+    }
+
+    /// Traces a sample of a tile on a thread of the pool, with what its pixels share; `result` gets their radiance.
+    pub(super) fn trace<T>(&self, work: &Work, result: impl FnOnce(&[[f32; 4]]) -> T) -> T {
+        let thread = rayon::current_thread_index().unwrap_or(0);
+        let Buffers { batch, .. } = &mut *self.buffers[thread].lock().unwrap_or_else(PoisonError::into_inner);
+        let traced = thresholds(self.level, work, batch, &|| false).and_then(|thresholds| {
+            let work = Work { thresholds: thresholds.as_ref(), ..*work };
+            trace(self.level, &work, batch, &|| false)
+        });
+        traced.expect("nobody interrupts");
+        result(batch.radiance())
     }
 
     /// Traces a tile on a thread of the pool; `result` gets the radiance of its pixels and the path segments.

@@ -1,6 +1,4 @@
 //! A tile of the film: sums of samples per pixel, and counts per block of pixels.
-use std::sync::Arc;
-
 use super::{
     area::{Area, valid},
     block::Block,
@@ -35,7 +33,7 @@ pub struct Tile {
     /// What paths from lights have brought to the pixels; empty if there are none.
     pub(super) splats: Vec<SplatEstimate>,
     /// Thresholds of bright samples, once they are known.
-    pub(super) thresholds: Option<Arc<Thresholds>>,
+    pub(super) thresholds: Option<Thresholds>,
     /// Samples that were negative or not finite; they count as black.
     pub invalid: u64,
 }

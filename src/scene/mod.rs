@@ -92,7 +92,7 @@ const MOST_NESTED: usize = 4;
 const MOST_LOOKED_AT: usize = 256;
 
 /// A compiled scene, shared between threads. It does not change, except that two values are computed at their first use and then
-/// kept: whether path reuse pays, and the warnings. Both depend on the scene alone.
+/// kept: what it pays to share, and the warnings. Both depend on the scene alone.
 pub struct Scene {
     /// What the window and reports call the scene.
     pub title: String,
@@ -124,7 +124,7 @@ pub struct Scene {
     pub camera_motion: Motion,
     /// The settings that the scene opens with.
     pub settings: RenderSettings,
-    /// Whether sharing paths between pixels pays, once it has been tried.
+    /// What it pays to share between pixels, once it has been tried.
     pub sharing_by_trial: OnceLock<Sharing>,
     /// The rays with which paths from lights start, or what keeps them from it: see [`Scene::light_rays`].
     pub light_paths: OnceLock<Result<LightRays, &'static str>>,
@@ -180,7 +180,7 @@ impl Scene {
     /// Whether pixels share path suffixes.
     #[inline(always)]
     pub fn shares(&self, rays: &CameraRays, settings: &RenderSettings) -> bool {
-        matches!(settings.reuse, Reuse::On | Reuse::Both) && self.can_share(rays, settings)
+        Sharing::asked(settings.reuse).has_suffixes() && self.can_share(rays, settings)
     }
 
     /// Whether they could: from diffuse surfaces by cosine-distributed directions, in empty space, while nothing moves.

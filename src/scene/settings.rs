@@ -107,7 +107,7 @@ impl RenderSettings {
     /// What neighbouring pixels share, as files and the window name it.
     pub const REUSE: Parameter = Parameter::new(
         "reuse",
-        "Whether neighbouring pixels share path suffixes (Bekaert, Sbert and Halton 2002) or bright samples.",
+        "What neighbouring pixels share: path suffixes (Bekaert, Sbert and Halton 2002), bright samples, or both.",
     )
     .title("Share paths")
     .aliases("sharing share");

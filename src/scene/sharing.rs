@@ -3,22 +3,23 @@ use serde::{Deserialize, Serialize};
 
 use super::{CameraRays, RenderSettings, Reuse, Scene};
 
-/// What neighbouring pixels share in a render. Written as `false`, `true` and `bright` in tables.
+/// What neighbouring pixels share in a render. Written as `false`, `true`, `bright` and `both` in tables, and as a number
+/// in files of renders.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Sharing {
     /// Nothing: the noise of each pixel is independent.
     #[default]
     #[serde(rename = "false")]
-    Nothing,
+    Nothing = 0,
     /// Path suffixes.
     #[serde(rename = "true")]
-    Suffixes,
+    Suffixes = 1,
     /// Bright samples.
     #[serde(rename = "bright")]
-    BrightSamples,
+    BrightSamples = 2,
     /// Path suffixes, and what is bright in the rest of a sample.
     #[serde(rename = "both")]
-    Both,
+    Both = 3,
 }
 
 impl Sharing {

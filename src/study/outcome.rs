@@ -62,7 +62,7 @@ pub struct Outcome {
     /// own error.
     /// E (x − μ)² = V x + (E x − μ)², so for an unbiased estimate this is the variance of a pixel.
     pub variances: Vec<Vec<(f64, f64)>>,
-    /// Whether paths were reused.
+    /// What pixels shared.
     pub sharing: Sharing,
     /// Whether sampling was adaptive.
     pub adapts: bool,

@@ -28,7 +28,7 @@ const FACTOR: f64 = 1.25;
 const WORSE: [(&str, f64); 6] = [
     ("veach_plates", 1.35),
     ("outside_lit_outside", 1.35),
-    ("motion_blur", 1.3),
+    ("motion_blur", 1.4),
     ("glass_ball_caustic", 1.7),
     ("caustic_in_mirror", 2.5),
     ("water_pool", 6.0),

@@ -4,7 +4,7 @@ mod tally;
 use std::{f32::consts::PI, path::Path};
 
 use noisefall::{
-    integrator::{Batch, Outcome, Replay, SharedLight, TILE, Thresholds, Vertex, Work, pixel_samples, replay, trace},
+    integrator::{Batch, Outcome, Replay, SharedLight, TILE, Vertex, Work, pixel_samples, replay, thresholds, trace},
     math::SimdLevel,
     sampling::Sampler,
     scene::{Camera, CameraRays, Estimator, RenderSettings, Reuse, Roulette, Scene, load},
@@ -89,8 +89,7 @@ fn rendered(
 ) -> impl Fn([u32; 2]) -> [u32; 3] {
     let size = [0, 1].map(|axis| TILE.min(RESOLUTION[axis] - origin[axis]));
     let work = Work::tile(scene, rays, settings, origin, size, sample);
-    let shares_bright = scene.sharing(rays, settings).has_bright_samples();
-    let thresholds = shares_bright.then(|| Thresholds::of(level, &work, batch, &|| false).expect("nothing interrupts"));
+    let thresholds = thresholds(level, &work, batch, &|| false).expect("nothing interrupts");
     trace(level, &Work { thresholds: thresholds.as_ref(), ..work }, batch, &|| false).expect("nothing interrupts");
     let radiance = batch.radiance();
     move |[x, y]| {

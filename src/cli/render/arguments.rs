@@ -65,7 +65,7 @@ pub struct Arguments {
     pub max_bounces: Option<BounceCap>,
     #[arg(long, help = format!("Russian roulette: {}", parse::either(&Roulette::options())), value_parser = parse::roulette)]
     pub roulette: Option<Roulette>,
-    #[arg(long, help = format!("Whether neighbouring pixels reuse each other's paths: {}", parse::one_of::<Reuse>()),
+    #[arg(long, help = format!("What neighbouring pixels share: {}", parse::one_of::<Reuse>()),
           value_parser = parse::word::<Reuse>)]
     pub reuse: Option<Reuse>,
     /// Adaptive sampling, with more samples where there is more noise: on or off; --spp is then the average

@@ -6,20 +6,19 @@
 //! strategies with the same pdf, so the balance heuristic (Veach 1997, equation 9.8) weights each by 1/n: pixel j adds f_j(u)/n. Samples
 //! below the threshold stay with their pixel. The mean does not change, and rare bright light, which makes most of the noise of caustics,
 //! is found by n pixels in place of one. Where path suffixes are shared as well, f is the rest of the sample.
-mod replays;
-mod thresholds;
+mod pilot;
 
-use self::thresholds::brightness;
-pub use self::{replays::Replays, thresholds::Thresholds};
+pub use self::pilot::thresholds;
 use super::{
     batch::Batch,
+    bright_samples::{BrightSample, Found, Replays, Thresholds, brightness},
     interrupted::Interrupted,
     slots::{SLOTS, TILE},
-    trace::trace_alone,
+    trace::{Observer, trace_alone, trace_in},
     work::Work,
 };
 use crate::{
-    math::{One, SimdLevel, U},
+    math::{One, SimdLevel, U, in_lanes},
     sampling::hash::hash_one,
 };
 
@@ -28,40 +27,44 @@ const WIDTH: u32 = 4;
 /// Number of pixels in a group.
 const MEMBERS: usize = (WIDTH * WIDTH) as usize;
 
-/// What sharing needs beside the queues of a batch. Allocated by the first trace that shares.
-#[derive(Default)]
-pub struct Bright {
-    found: Vec<BrightSample>,
-    replays: Replays,
-    /// The radiance of the tile, while the batch traces replays.
-    radiance: Vec<[f32; 4]>,
+/// Traces one sample of every pixel of a tile, and shares those that are bright.
+pub fn trace_bright(
+    level: SimdLevel,
+    work: &Work,
+    thresholds: &Thresholds,
+    batch: &mut Batch,
+    interrupted: &dyn Fn() -> bool,
+) -> Result<(), Interrupted> {
+    in_lanes!(level, l => trace_in(l, work, batch, interrupted, &mut SetAside(thresholds)))?;
+    share_bright(level, work, thresholds, batch, interrupted)
 }
 
-/// A bright sample of a pixel.
-#[derive(Clone, Copy, Default)]
-struct BrightSample {
-    /// The pixel, by column and row in the tile.
-    place: [u32; 2],
-    radiance: [f32; 4],
-    /// Number of pixels that share it.
-    n: u32,
+/// Takes the bright samples out of a batch whose paths have all ended.
+struct SetAside<'a>(&'a Thresholds);
+
+impl Observer for SetAside<'_> {
+    fn before_sharing(&mut self, work: &Work, batch: &mut Batch) {
+        set_aside(work, self.0, batch);
+    }
 }
 
-/// Takes the bright samples out of a batch whose paths have all ended, before path suffixes are shared.
+/// Takes the bright samples out of a batch, before path suffixes are shared.
 pub fn set_aside(work: &Work, thresholds: &Thresholds, batch: &mut Batch) {
-    let bright = batch.bright.get_or_insert_default();
-    bright.found.clear();
+    debug_assert!(work.blocks.is_none(), "groups are those of a tile");
+    let found = batch.bright.get_or_insert_default();
+    found.samples.clear();
     for (index, radiance) in batch.radiance[..work.slots() as usize].iter_mut().enumerate() {
         let (column, row) = work.place::<One>(U(index as u32));
         let place = [column.0, row.0];
         let is_inside = column.0 < work.size[0] && row.0 < work.size[1];
         if is_inside && is_bright(radiance, thresholds.at(place)) {
-            bright.found.push(BrightSample { place, radiance: std::mem::take(radiance), n: 1 });
+            found.samples.push(BrightSample { place, radiance: std::mem::take(radiance), n: 1 });
         }
     }
 }
 
-/// Adds the samples that were set aside to the radiance of all pixels that share them.
+/// Replays the samples that were set aside, as many at a time as a batch takes, and adds them to the radiance of all pixels that share
+/// them.
 pub fn share_bright(
     level: SimdLevel,
     work: &Work,
@@ -69,47 +72,25 @@ pub fn share_bright(
     batch: &mut Batch,
     interrupted: &dyn Fn() -> bool,
 ) -> Result<(), Interrupted> {
-    let mut bright = batch.bright.take().unwrap_or_default();
-    bright.radiance.clear();
-    bright.radiance.extend_from_slice(batch.radiance());
-    let shared = bright.share(level, work, thresholds, batch, interrupted);
-    batch.radiance[..SLOTS].copy_from_slice(&bright.radiance);
-    batch.bright = Some(bright);
-    shared
-}
-
-/// The number of pixels that share the sample of a pixel in the last tile; `None` if it is not bright.
-pub fn sharers(batch: &Batch, place: [u32; 2]) -> Option<u32> {
-    let found = &batch.bright.as_ref()?.found;
-    found.iter().find(|sample| sample.place == place).map(|sample| sample.n)
-}
-
-impl Bright {
-    /// Replays what was set aside, as many samples at a time as a batch takes, and adds it to all pixels that share it.
-    fn share(
-        &mut self,
-        level: SimdLevel,
-        work: &Work,
-        thresholds: &Thresholds,
-        batch: &mut Batch,
-        interrupted: &dyn Fn() -> bool,
-    ) -> Result<(), Interrupted> {
-        for samples in self.found.chunks_mut(SLOTS / MEMBERS) {
-            fill(&mut self.replays, work, samples);
-            if !self.replays.is_empty() {
-                let replay = Work { replays: Some(&self.replays), thresholds: None, ..*work };
-                trace_alone(level, &replay, batch, interrupted)?;
-            }
-            let mut replayed = batch.radiance();
-            for sample in samples {
-                let count = others(work, sample.place).count();
-                let (own, rest) = replayed.split_at(count);
-                divide(work, thresholds, sample, own, &mut self.radiance);
-                replayed = rest;
-            }
+    let Found { mut samples, mut replays, mut radiance } = *std::mem::take(batch.bright.get_or_insert_default());
+    radiance.clear();
+    radiance.extend_from_slice(batch.radiance());
+    for some in samples.chunks_mut(SLOTS / MEMBERS) {
+        fill(&mut replays, work, some);
+        if !replays.is_empty() {
+            let replay = Work { replays: Some(&replays), blocks: None, thresholds: None, ..*work };
+            trace_alone(level, &replay, batch, interrupted)?;
         }
-        Ok(())
+        let mut replayed = batch.radiance();
+        for sample in some {
+            let (of_others, rest) = replayed.split_at(others(work, sample.place).count());
+            divide(work, thresholds, sample, of_others, &mut radiance);
+            replayed = rest;
+        }
     }
+    batch.radiance[..SLOTS].copy_from_slice(&radiance);
+    batch.bright = Some(Box::new(Found { samples, replays, radiance }));
+    Ok(())
 }
 
 /// The replays of samples in the other pixels of their groups.
@@ -145,12 +126,12 @@ fn slot([x, y]: [u32; 2]) -> usize {
 /// The other pixels of the group of a pixel. Groups are shifted in every sample, so that their edges are not visible. At the edges of the
 /// tile they are smaller.
 fn others(work: &Work, source: [u32; 2]) -> impl Iterator<Item = [u32; 2]> + Clone {
-    let offset = hash_one(work.sample);
-    let range = |axis: usize, offset: u32| {
-        let start = (source[axis] + offset) / WIDTH * WIDTH;
-        start.saturating_sub(offset)..(start + WIDTH - offset).min(work.size[axis])
+    let shift = hash_one(work.sample);
+    let range = |axis: usize, shift: u32| {
+        let start = (source[axis] + shift) / WIDTH * WIDTH;
+        start.saturating_sub(shift)..(start + WIDTH - shift).min(work.size[axis])
     };
-    let (columns, rows) = (range(0, offset % WIDTH), range(1, (offset >> 16) % WIDTH));
+    let (columns, rows) = (range(0, shift % WIDTH), range(1, (shift >> 16) % WIDTH));
     rows.flat_map(move |y| columns.clone().map(move |x| [x, y])).filter(move |place| *place != source)
 }
 

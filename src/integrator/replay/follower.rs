@@ -49,7 +49,10 @@ impl Observer for Follower {
         }
     }
 
-    fn before_sharing(&mut self, work: &Work, batch: &Batch) {
+    fn before_sharing(&mut self, work: &Work, batch: &mut Batch) {
+        if !work.shares() {
+            return;
+        }
         let [r, g, b, _] = batch.radiance[self.slot as usize];
         self.unshared_and_kept = Some([[r, g, b], kept(work, batch, self.slot)]);
     }

@@ -3,10 +3,10 @@
 //!
 //! The path is traced with one lane, and a [`Follower`] reads the queues between the stages. It computes all other terms with the
 //! functions of the stages, so every term is that of the estimator, bit for bit.
-mod bright;
 mod follower;
 mod light;
 mod samples;
+mod sharing;
 mod terms;
 mod throughput;
 mod visible;
@@ -21,13 +21,14 @@ pub use self::{
 };
 use super::{
     batch::Batch,
+    bright::thresholds,
     slots::{SLOTS, TILE},
     trace::trace_in,
     work::Work,
 };
 use crate::{
-    math::{One, U},
-    scene::{CameraRays, Estimator, RenderSettings, Scene},
+    math::{One, SimdLevel, U},
+    scene::{CameraRays, Estimator, RenderSettings, Reuse, Scene},
 };
 
 /// A path, replayed.
@@ -70,16 +71,18 @@ pub fn replay(scene: &Scene, rays: &CameraRays, settings: &RenderSettings, pixel
         SharedLight { unshared, kept, from_neighbours }
     });
     let mut replay = Replay { radiance, alone, shared, vertices: follower.vertices, end };
-    if let Ok(Some(thresholds)) = bright::thresholds_at(scene, rays, settings, pixel, &|| false) {
-        bright::share(&mut replay, &thresholds, scene, rays, settings, (pixel, sample));
+    if let Ok(Some(thresholds)) = thresholds(SimdLevel::best(), &one.whole_tile(), &mut batch, &|| false) {
+        sharing::share(&mut replay, &thresholds, scene, rays, settings, (pixel, sample));
     }
     replay
 }
 
 /// The settings without paths from lights.
 fn from_camera(scene: &Scene, settings: &RenderSettings) -> RenderSettings {
-    let estimator = if scene.traces_light_paths(settings) { Estimator::Mis } else { settings.estimator };
-    RenderSettings { estimator, ..*settings }
+    if !scene.traces_light_paths(settings) {
+        return *settings;
+    }
+    RenderSettings { estimator: Estimator::Mis, reuse: Reuse::Off, ..*settings }
 }
 
 /// The reason why a vertex is the last one.

@@ -1,12 +1,13 @@
 //! Many samples of one pixel: their distribution says more about its noise than their mean.
 use std::ops::Range;
 
-use super::{bright::thresholds_at, from_camera, radiance_at, work_of};
+use super::{from_camera, radiance_at, work_of};
 use crate::{
     integrator::{
         batch::Batch,
+        bright::thresholds,
         slots::{BLOCK, BLOCKS},
-        trace::trace,
+        tile_sample::trace,
         work::{Blocks, Work},
     },
     math::SimdLevel,
@@ -30,7 +31,8 @@ pub fn pixel_samples(
     let mut batch = Batch::default();
     let mut samples = Vec::with_capacity(numbers.len());
     if scene.sharing(rays, settings).correlates() {
-        let thresholds = thresholds_at(scene, rays, settings, pixel, interrupted).ok()?;
+        let (first, _) = work_of(scene, rays, settings, pixel, 0);
+        let thresholds = thresholds(level, &first, &mut batch, interrupted).ok()?;
         for number in numbers {
             let (work, place) = work_of(scene, rays, settings, pixel, number);
             trace(level, &Work { thresholds: thresholds.as_ref(), ..work }, &mut batch, interrupted).ok()?;

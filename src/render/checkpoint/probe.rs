@@ -26,10 +26,9 @@ pub fn probe(request: &RenderRequest, threads: &Threads) -> Vec<(u32, String)> {
         let hash = |place: usize| {
             let Tile { origin, size, .. } = film.tiles[place];
             let work = Work::tile(&request.scene, &rays, &settings, origin, size, 0);
-            let traced = || threads.trace_counting(&work, &|| false, |radiance, _| hash(radiance, size));
             // A render that fails here will fail in its passes, which say where.
-            let traced = catch_unwind(AssertUnwindSafe(traced));
-            (place as u32, traced.ok().and_then(Result::ok).unwrap_or_else(|| FAILED.to_owned()))
+            let traced = catch_unwind(AssertUnwindSafe(|| threads.trace(&work, |radiance| hash(radiance, size))));
+            (place as u32, traced.unwrap_or_else(|_| FAILED.to_owned()))
         };
         places.into_par_iter().map(hash).collect()
     })

@@ -1,5 +1,5 @@
 //! A film of a range of samples.
-use std::{ops::Range, sync::Arc};
+use std::ops::Range;
 
 use rayon::prelude::*;
 
@@ -60,14 +60,14 @@ struct RangeTile {
     rates: Vec<i8>,
     start: u32,
     /// Of bright samples, once they are known.
-    thresholds: Option<Arc<Thresholds>>,
+    thresholds: Option<Thresholds>,
 }
 
 impl SampleFilm {
     /// Reserves memory for films of this size.
     pub(super) fn reserve([width, height]: [u32; 2]) -> Result<Reservation, TooMuch> {
-        /// Bytes per pixel: six sums, and those of blocks.
-        const PIXEL: u64 = 6 * ExactSums::BYTES + 2;
+        /// Bytes per pixel: six sums, those of blocks, and a threshold.
+        const PIXEL: u64 = 6 * ExactSums::BYTES + 2 + 4;
         memory::reserve(format_args!("exact sums of {width} × {height} pixels"), PIXEL * u64::from(width) * u64::from(height))
     }
 
@@ -172,7 +172,7 @@ impl SampledTile for Towards<'_> {
         self.tile.sums.area
     }
 
-    fn thresholds(&mut self) -> &mut Option<Arc<Thresholds>> {
+    fn thresholds(&mut self) -> &mut Option<Thresholds> {
         &mut self.tile.thresholds
     }
 

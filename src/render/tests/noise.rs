@@ -234,7 +234,7 @@ fn paths_are_shared_where_that_pays() {
 /// Curves of two settings compare these settings, and not sharing with none.
 #[test]
 fn sharing_is_decided_once_for_a_scene() {
-    for (name, decision) in [("cornell_box", Reuse::On), ("veach_plates", Reuse::Off)] {
+    for (name, decision) in [("cornell_box", Reuse::On), ("sky_lit", Reuse::Bright), ("bright_sky", Reuse::Off)] {
         let scene = shipped(name);
         let rays = scene.rays(&scene.camera);
         for estimator in Estimator::ALL {

@@ -198,9 +198,10 @@ fn sharing_is_tried_and_taken_over_where_it_stands_out() {
 fn all_sharing_is_tried_that_is_possible_and_not_in_use() {
     let (scene, glass) = (scene(), parse("scene.toml", include_str!("../../../scenes/tinted_glass.toml").to_owned()));
     let other = |scene: &Scene, reuse| other_reuses(scene, &scene.camera, &RenderSettings { reuse, ..IN_USE });
-    let without_paths = vec![Reuse::Off, Reuse::Bright];
-    assert_eq!([Reuse::Auto, Reuse::On].map(|reuse| other(&scene, reuse)), [&without_paths; 2].map(Clone::clone));
-    assert_eq!(other(&scene, Reuse::Off), [Reuse::On, Reuse::Bright]);
+    for reuse in [Reuse::Auto, Reuse::On] {
+        assert_eq!(other(&scene, reuse), [Reuse::Off, Reuse::Bright, Reuse::Both]);
+    }
+    assert_eq!(other(&scene, Reuse::Off), [Reuse::On, Reuse::Bright, Reuse::Both]);
     assert_eq!(other(&glass.expect("it is a scene"), Reuse::Off), [Reuse::Bright]);
 }
 

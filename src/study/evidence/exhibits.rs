@@ -121,7 +121,7 @@ impl Exhibits<'_> {
     }
 }
 
-/// Whether paths were reused, in words.
+/// Whether pixels shared, in words.
 fn sharing(findings: &Findings) -> &'static str {
     let share = || findings.outcomes.iter().map(|outcome| outcome.sharing.correlates());
     match (share().any(|shares| shares), share().all(|shares| shares)) {

@@ -105,8 +105,8 @@ fn sampler_row(ui: &mut Ui, sampler: &mut Sampler) {
 
 fn reuse_row(ui: &mut Ui, reuse: &mut Reuse, status: &Status) {
     let doc = "Shares path suffixes (Bekaert et al. 2002) or bright samples between neighbouring pixels. Less noise, no bias.";
-    row_with_note(ui, &RenderSettings::REUSE.label(), doc, |ui, _| {
-        words(ui, reuse);
+    row_with_note(ui, &RenderSettings::REUSE.label(), doc, |ui, label| {
+        word_list(ui, label, reuse);
         // Always there, so that no row below moves.
         let in_force = if status.spp > 0 { status.sharing.name() } else { "…" };
         ui.weak(in_force).on_hover_text("What the render does now. Auto decides once for the scene.");

@@ -28,8 +28,9 @@ fn every_choice_of_the_estimate_sets_what_it_names() {
     for (label, reuse) in
         [("Paths", Reuse::On), ("Auto", Reuse::Auto), ("Bright", Reuse::Bright), ("Both", Reuse::Both), ("Never", Reuse::Off)]
     {
+        choose(&mut window, "Share paths", label);
         expected.reuse = reuse;
-        sets(&mut window, label, expected);
+        assert_eq!(window.state().session.settings, expected, "{label}");
     }
     for (label, sampler) in [
         ("Independent", Sampler::Independent),

@@ -13,7 +13,7 @@ fn every_setting_of_the_estimate_starts_a_new_picture() {
     restarts(&mut window, "uniform directions", |w| click(w, "Uniform"));
     assert_eq!(window.state().session.settings.directions, Directions::Uniform);
     restarts(&mut window, "cosine directions", |w| click(w, "Cosine"));
-    restarts(&mut window, "shared paths", |w| click(w, "Paths"));
+    restarts(&mut window, "shared paths", |w| choose(w, "Share paths", "Paths"));
     assert_eq!(window.state().session.settings.reuse, Reuse::On);
     restarts(&mut window, "adaptive samples", |w| {
         w.get_by_role_and_label(Role::CheckBox, "Adaptive").click();
@@ -44,7 +44,9 @@ fn every_setting_of_the_estimate_starts_a_new_picture() {
 
 #[test]
 fn no_row_is_wider_than_the_panel() {
-    for (scene, says) in [("cornell_spheres", "shared paths"), ("veach_plates", "no sharing")] {
+    for (scene, says) in
+        [("cornell_spheres", "shared paths"), ("room_window", "shared paths and bright samples"), ("bright_sky", "no sharing")]
+    {
         let mut window = window(scene);
         wait(&mut window, "samples", |app| app.results.status.spp >= 1);
         window.run_steps(3);

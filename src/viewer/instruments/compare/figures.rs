@@ -59,7 +59,7 @@ fn began_apart([a, b]: [f64; 2]) -> bool {
 
 const HEADINGS: [(&str, &str); 8] = [
     ("", ""),
-    ("settings", "Differences from the settings of the scene file, and whether pixels share paths"),
+    ("settings", "Differences from the settings of the scene file, and what pixels share"),
     ("N", "Samples per pixel"),
     ("time", "Render time. Both sides get equal time from the start of the comparison"),
     ("noise", "Estimated relative error: the root of relMSE, the mean of (x − r)²/(r² + 0.01 · mean r²)"),

@@ -1,31 +1,10 @@
 //! The sample of a pixel that shares bright samples with its neighbours.
 use super::{Replay, SharedLight, radiance_at, work_of};
 use crate::{
-    integrator::{
-        batch::Batch,
-        bright::{Thresholds, sharers},
-        interrupted::Interrupted,
-        trace::trace,
-        work::Work,
-    },
+    integrator::{batch::Batch, bright_samples::Thresholds, tile_sample::trace, work::Work},
     math::SimdLevel,
     scene::{CameraRays, RenderSettings, Scene},
 };
-
-/// The thresholds of the tile of a pixel; `None` if bright samples are not shared.
-pub fn thresholds_at(
-    scene: &Scene,
-    rays: &CameraRays,
-    settings: &RenderSettings,
-    pixel: [u32; 2],
-    interrupted: &dyn Fn() -> bool,
-) -> Result<Option<Thresholds>, Interrupted> {
-    if !scene.sharing(rays, settings).has_bright_samples() {
-        return Ok(None);
-    }
-    let tile = Work::tile(scene, rays, settings, pixel, [1, 1], 0).whole_tile();
-    Thresholds::of(SimdLevel::best(), &tile, &mut Batch::default(), interrupted).map(Some)
-}
 
 /// Completes the replay of a path by what its pixel shares.
 pub fn share(
@@ -43,7 +22,7 @@ pub fn share(
     debug_assert_eq!(traced, Ok(()));
     let (alone, whole) = (replay.alone.unwrap_or(replay.radiance), radiance_at(&batch, place));
     let (rest, suffix) = replay.shared.as_ref().map_or((alone, [0.0; 3]), |shared| (shared.unshared, shared.kept));
-    let n = sharers(&batch, place);
+    let n = batch.bright.as_ref().and_then(|found| found.sharers(place));
     let unshared = if n.is_some() { [0.0; 3] } else { rest };
     let kept = [0, 1, 2].map(|c| suffix[c] + n.map_or(0.0, |n| rest[c] / n as f32));
     let from_neighbours = [0, 1, 2].map(|c| (whole[c] - unshared[c] - kept[c]).max(0.0));
