@@ -3,7 +3,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use rayon::prelude::*;
 
-use super::{light_trial::estimator_unless, tile::Tile};
+use super::{light_trial::estimator_unless, threads::PassJob, tile::Tile};
 use crate::{
     integrator::{Batch, Interrupted, TILE, Work, thresholds, trace},
     math::SimdLevel,
@@ -23,6 +23,8 @@ const COST: f64 = 2.1;
 const COST_WITH_TREES: f64 = 1.4;
 /// Cost of a ray of a replay relative to other rays: replays are few, and go where paths are long.
 const COST_OF_REPLAYS: f64 = 1.5;
+/// Bright samples are tried if outliers have this part of the error. With less, all of them could not gain as much.
+const LEAST_OUTLIERS: f64 = 0.2;
 /// The gain that makes correlated noise worth it. The trial sees few bright samples.
 const LEAST_GAIN: f64 = 1.3;
 /// Seeds that images are unlikely to have.
@@ -83,7 +85,7 @@ fn best(scene: &Scene, interrupted: &(dyn Fn() -> bool + Sync)) -> Result<Sharin
         }
     }
     let with_bright = if best.0.has_suffixes() { Sharing::Both } else { Sharing::BrightSamples };
-    if possible.contains(&with_bright) {
+    if possible.contains(&with_bright) && part_of_outliers(&best.1) > LEAST_OUTLIERS {
         let bright = trial(with_bright)?;
         let cost = 1.0 + COST_OF_REPLAYS * (bright.rays / best.1.rays.max(1.0) - 1.0);
         if gain(&best.1, &bright) > LEAST_GAIN * cost {
@@ -95,15 +97,43 @@ fn best(scene: &Scene, interrupted: &(dyn Fn() -> bool + Sync)) -> Result<Sharin
 
 /// The factor by which the squared error falls, relative to the means of both trials.
 fn gain(before: &Trial, after: &Trial) -> f64 {
-    let images = [before, after].into_iter().flat_map(|trial| &trial.images).map(Vec::as_slice).collect::<Vec<_>>();
-    let squares = images.iter().copied().flatten().flatten().map(|x| x * x);
-    let floor = Floor::DEFAULT.of(squares.sum::<f64>() / (3 * images.len() * images[0].len().max(1)) as f64);
-    let rows: Vec<[f64; 3]> = (0..images[0].len()).step_by(ROW).map(|start| mean_of_row(&images, start)).collect();
-    let error = |Trial { images: [a, b], .. }: &Trial| {
-        let of = |pixel: usize, c: usize| relative((a[pixel][c] - b[pixel][c]).powi(2), rows[pixel / ROW][c], floor);
-        (0..a.len()).flat_map(|pixel| (0..3).map(move |c| (pixel, c))).map(|(pixel, c)| of(pixel, c)).sum::<f64>()
-    };
+    let scale = Scale::of(&[before, after]);
+    let error = |trial| scale.errors(trial).sum::<f64>();
     error(before) / error(after)
+}
+
+/// The part of the error that is in channels of pixels that differ by more than the radiance around them: a bright sample makes the mean of
+/// [`SPP`] differ by twice as much.
+fn part_of_outliers(trial: &Trial) -> f64 {
+    const LARGE: f64 = 1.0;
+    let scale = Scale::of(&[trial]);
+    let [all, large] =
+        scale.errors(trial).fold([0.0; 2], |[all, large], error| [all + error, large + if error > LARGE { error } else { 0.0 }]);
+    if all > 0.0 { large / all } else { 0.0 }
+}
+
+/// What errors are relative to.
+struct Scale {
+    rows: Vec<[f64; 3]>,
+    floor: f64,
+}
+
+impl Scale {
+    /// The means of trials.
+    fn of(trials: &[&Trial]) -> Scale {
+        let images = trials.iter().flat_map(|trial| &trial.images).map(Vec::as_slice).collect::<Vec<_>>();
+        let pixels = images[0].len();
+        let squares = images.iter().copied().flatten().flatten().map(|x| x * x);
+        let floor = Floor::DEFAULT.of(squares.sum::<f64>() / (3 * images.len() * pixels.max(1)) as f64);
+        Scale { rows: (0..pixels).step_by(ROW).map(|start| mean_of_row(&images, start)).collect(), floor }
+    }
+
+    /// Relative squared differences of the images of a trial, by pixel and channel.
+    fn errors<'a>(&'a self, Trial { images: [a, b], .. }: &'a Trial) -> impl Iterator<Item = f64> + 'a {
+        let of =
+            move |pixel: usize, c: usize| relative((a[pixel][c] - b[pixel][c]).powi(2), self.rows[pixel / ROW][c], self.floor);
+        (0..a.len()).flat_map(move |pixel| (0..3).map(move |c| of(pixel, c)))
+    }
 }
 
 /// The mean over all images of the pixels from one on.
@@ -120,31 +150,32 @@ fn trial(
     interrupted: &(dyn Fn() -> bool + Sync),
 ) -> Result<Trial, Interrupted> {
     let [width, height] = scene.camera.resolution;
-    let tile = |[x, y]: &[f64; 2]| {
+    let tile = |batch: &mut Batch, (seed, [x, y]): (u32, [f64; 2])| {
         let origin = [(width, x), (height, y)].map(|(side, part)| (f64::from(side) * part) as u32 / TILE * TILE);
         let size = [TILE.min(width - origin[0]), TILE.min(height - origin[1])];
-        let with = |seed| sampled(scene, rays, &RenderSettings { seed, ..*settings }, Tile::new(origin, size), interrupted);
-        Ok([with(SEEDS[0])?, with(SEEDS[1])?])
+        let settings = RenderSettings { seed, ..*settings };
+        sampled(batch, PassJob { scene, rays, settings: &settings }, Tile::new(origin, size), interrupted)
     };
-    let tiles = PLACES.par_iter().map(tile).collect::<Result<Vec<_>, Interrupted>>()?;
-    let image = |which: usize| tiles.iter().flat_map(|pair| pair[which].0.iter().copied()).collect();
-    Ok(Trial { images: [image(0), image(1)], rays: tiles.iter().flatten().map(|(_, rays)| *rays as f64).sum() })
+    let places: Vec<_> = SEEDS.into_iter().flat_map(|seed| PLACES.map(|place| (seed, place))).collect();
+    let tiles = places.into_par_iter().with_max_len(1).map_init(Batch::default, tile).collect::<Result<Vec<_>, Interrupted>>()?;
+    let image = |tiles: &[(Vec<[f64; 3]>, u64)]| tiles.iter().flat_map(|(means, _)| means.iter().copied()).collect();
+    let (first, second) = tiles.split_at(PLACES.len());
+    Ok(Trial { images: [image(first), image(second)], rays: tiles.iter().map(|(_, rays)| *rays as f64).sum() })
 }
 
 /// The means of the pixels of a tile after a few samples, and the number of rays.
 fn sampled(
-    scene: &Scene,
-    rays: &CameraRays,
-    settings: &RenderSettings,
+    batch: &mut Batch,
+    PassJob { scene, rays, settings }: PassJob,
     mut tile: Tile,
     interrupted: &dyn Fn() -> bool,
 ) -> Result<(Vec<[f64; 3]>, u64), Interrupted> {
-    let (level, mut batch) = (SimdLevel::best(), Batch::default());
+    let level = SimdLevel::best();
     let first = Work::tile(scene, rays, settings, tile.origin, tile.size, 0);
-    let thresholds = thresholds(level, &first, &mut batch, interrupted)?;
+    let thresholds = thresholds(level, &first, batch, interrupted)?;
     batch.rays = 0;
     for sample in 0..SPP {
-        trace(level, &Work { sample, thresholds: thresholds.as_ref(), ..first }, &mut batch, interrupted)?;
+        trace(level, &Work { sample, thresholds: thresholds.as_ref(), ..first }, batch, interrupted)?;
         tile.add(batch.radiance());
     }
     let means = (0..tile.size[1] as usize).flat_map(|row| tile.estimates(row)).map(|of| of.mean).collect();
@@ -164,6 +195,7 @@ mod tests {
             };
             Trial { images: [image(1.0), image(-1.0)], rays: 1.0 }
         };
+        assert!(part_of_outliers(&trial(0.02)) == 0.0 && part_of_outliers(&trial(0.9)) > 0.9);
         assert!((gain(&trial(0.02), &trial(0.01)) - 4.0).abs() < 1e-9);
         assert!((gain(&trial(0.01), &trial(0.02)) - 0.25).abs() < 1e-9);
     }

@@ -73,7 +73,7 @@ crate::declare::words! {
     Reuse {
         Auto: "auto", "Auto", "Shares what a short trial of the scene shows to pay. The decision is made once per scene.";
         On: "on", "Paths", "Reuses each path in a 4 × 4 block of pixels, weighted by multiple importance sampling.";
-        Bright: "bright", "Bright", "Replays bright samples, such as those of caustics, in a 4 × 4 block of pixels, weighted by multiple importance sampling.";
+        Bright: "bright", "Bright samples", "Replays bright samples, such as those of caustics, in a 4 × 4 block of pixels, weighted by multiple importance sampling.";
         Both: "both", "Both", "Reuses each path, and replays samples whose rest is bright.";
         Off: "off", "Never", "Every pixel uses only its own paths, so the noise of neighbouring pixels is independent.";
     }

@@ -25,9 +25,13 @@ fn every_choice_of_the_estimate_sets_what_it_names() {
         expected.directions = directions;
         sets(&mut window, label, expected);
     }
-    for (label, reuse) in
-        [("Paths", Reuse::On), ("Auto", Reuse::Auto), ("Bright", Reuse::Bright), ("Both", Reuse::Both), ("Never", Reuse::Off)]
-    {
+    for (label, reuse) in [
+        ("Paths", Reuse::On),
+        ("Auto", Reuse::Auto),
+        ("Bright samples", Reuse::Bright),
+        ("Both", Reuse::Both),
+        ("Never", Reuse::Off),
+    ] {
         choose(&mut window, "Share paths", label);
         expected.reuse = reuse;
         assert_eq!(window.state().session.settings, expected, "{label}");
