@@ -39,7 +39,8 @@ fn settings_that_are_undone_come_back_with_their_samples() {
     assert_eq!(window.state().session.settings.estimator, Estimator::Mis);
     wait(&mut window, "the samples as they were", |app| app.results.shown.as_ref().is_some_and(|frame| frame.spp == 40));
     let again = window.state().results.shown.clone().expect("it is shown");
-    assert!(again.radiance == first.radiance && again.elapsed == first.elapsed, "the very same samples");
+    assert_eq!(again.elapsed, first.elapsed, "the very same samples");
+    assert!(again.radiance == first.radiance, "the very same samples");
     restarts(&mut window, "forth again", redo);
     assert_eq!(window.state().session.settings.estimator, Estimator::Light);
     wait(&mut window, "its samples", |app| app.results.shown.as_ref().is_some_and(|frame| frame.spp == 41));
@@ -64,7 +65,8 @@ fn an_edit_that_is_undone_gives_its_samples_back() {
     edits(&mut window, "the way back", undo);
     wait(&mut window, "the samples as they were", |app| app.results.shown.as_ref().is_some_and(|frame| frame.spp == 40));
     let again = window.state().results.shown.clone().expect("it is shown");
-    assert!(again.radiance == first.radiance && again.elapsed == first.elapsed, "the very same samples");
+    assert_eq!(again.elapsed, first.elapsed, "the very same samples");
+    assert!(again.radiance == first.radiance, "the very same samples");
     edits(&mut window, "forth again", redo);
     wait(&mut window, "its samples", |app| app.results.shown.as_ref().is_some_and(|frame| frame.spp == 41));
     // What is taken back at once was never rendered.
