@@ -80,7 +80,7 @@ impl Observer for Segments {
     }
 }
 
-/// [`trace_alone`] of a tile, which also counts the path segments of its blocks.
+/// Traces one sample of every pixel of a tile by paths from the camera, and counts the path segments of its blocks.
 pub fn trace_counting(
     level: SimdLevel,
     work: &Work,

@@ -4,7 +4,7 @@ use crate::{
     math::{Lanes, Pick, U},
 };
 
-/// Up to [`SLOTS`] pixels, each with the pixel whose random numbers it takes.
+/// Up to as many pixels as a tile has, each with the pixel whose random numbers it takes.
 pub struct Replays {
     /// Bits of a row: pixel and source of the random numbers, both as y·2¹⁶ + x.
     rows: Vec<[f32; 4]>,
