@@ -19,11 +19,16 @@ fn stop_at(window: &mut Window, spp: u32) {
 /// Waits until every pixel has so many samples, and stops there. A quick machine has more by now, so the image begins anew.
 fn rendered(window: &mut Window, spp: u32) {
     stop_at(window, spp);
-    if window.state().results.status.spp > 0 {
+    let before = window.state().background.worker.generation();
+    let begins_anew = window.state().results.status.spp > 0;
+    if begins_anew {
         window.state_mut().background.worker.restart();
     }
+    // It begins anew with the next frame of the window. What is shown now may happen to have as many samples.
     wait(window, "the samples", |app| {
-        app.results.shown.as_ref().is_some_and(|frame| frame.spp == spp && frame.generation == app.background.worker.generation())
+        let generation = app.background.worker.generation();
+        let is_begun = !begins_anew || generation > before;
+        is_begun && app.results.shown.as_ref().is_some_and(|frame| frame.spp == spp && frame.generation == generation)
     });
 }
 
