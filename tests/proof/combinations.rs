@@ -223,7 +223,7 @@ fn path_light_and_mis_agree_wherever_two_features_meet() {
     let mut names = Vec::new();
     for set in sets() {
         let scene = with(&set);
-        let reuse = if set.contains(&Sharing) { Reuse::Both } else { Reuse::Off };
+        let reuse = if set.contains(&Sharing) { Reuse::On } else { Reuse::Off };
         let of = |estimator: Estimator| {
             let settings = RenderSettings { reuse, sampler: Sampler::Independent, max_bounces: Some(6), ..settings(estimator) };
             quarters(&scene, &settings, if estimator == Estimator::Path { 2048 } else { 768 })

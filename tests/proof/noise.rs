@@ -26,9 +26,9 @@ const FACTOR: f64 = 1.25;
 /// the ball is at its outline, and that of moving objects at their edges, where errors fall faster than the estimate assumes. Caustics that are seen in water, in a mirror or under a ball of glass have most of their error in
 /// light that few of the images find at all.
 const WORSE: [(&str, f64); 6] = [
-    ("veach_plates", 1.4),
+    ("veach_plates", 1.35),
     ("outside_lit_outside", 1.35),
-    ("motion_blur", 1.4),
+    ("motion_blur", 1.3),
     ("glass_ball_caustic", 1.7),
     ("caustic_in_mirror", 2.5),
     ("water_pool", 6.0),
