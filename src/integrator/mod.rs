@@ -61,8 +61,8 @@ pub use self::{
     light_paths::splat::Splat,
     profile::{CountedRays, Profile, StageCost, trace_profiled},
     replay::{
-        EmitterHit, End, Outcome, Reflection, Replay, SampledLight, SharedLight, Surface, Vertex, pixel_samples, replay,
-        seen_by_camera,
+        BothEnds, EmitterHit, End, Outcome, PathPoint, Reflection, Replay, SampledLight, SharedLight, StrategyTerm, Surface,
+        Vertex, pixel_samples, replay, seen_by_camera,
     },
     series::{SHARES, TERMS, Terms, trace_series},
     slots::{BLOCK, BLOCKS, TILE},

@@ -8,7 +8,7 @@ use crate::math::{SimdLevel, in_few_lanes};
 /// pixels share.
 pub fn trace(level: SimdLevel, work: &Work, batch: &mut Batch, interrupted: &dyn Fn() -> bool) -> Result<(), Interrupted> {
     if let Some(rays) = work.scene.light_rays(work.settings) {
-        return in_few_lanes!(level, l => trace_both_ends(l, work, rays, batch, interrupted));
+        return in_few_lanes!(level, l => trace_both_ends(l, work, rays, batch, interrupted, &mut ()));
     }
     match work.thresholds {
         Some(thresholds) => trace_bright(level, work, thresholds, batch, interrupted),

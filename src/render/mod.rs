@@ -30,6 +30,7 @@ pub mod pass;
 mod pass_count;
 pub mod path_formula;
 pub mod path_samples;
+mod path_strategies;
 pub mod path_text;
 pub mod profile;
 mod protocol;

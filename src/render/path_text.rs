@@ -1,5 +1,5 @@
 //! A path as text: the settings, the nested sum, the reason of its end, and every vertex.
-use super::path_formula;
+use super::{path_formula, path_strategies};
 use crate::{
     integrator::{EmitterHit, Outcome, Reflection, Replay, SampledLight, Surface, Vertex},
     render::settings_text::on_or_off,
@@ -28,7 +28,9 @@ pub fn text(id: &PathId, replay: &Replay) -> String {
         text += &format!("{}\n", block(id.scene, vertex));
     }
     text += &format!("\nThe path {}.", replay.end.name());
-    if let Some(alone) = replay.alone {
+    if let Some(both_ends) = &replay.both_ends {
+        text += &path_strategies::text(id.scene, both_ends);
+    } else if let Some(alone) = replay.alone {
         text += &format!(
             "\nThis path alone would have made it {}: pixels share light with their neighbours (--reuse off stops that).",
             three(alone)
@@ -41,7 +43,11 @@ pub fn text(id: &PathId, replay: &Replay) -> String {
 pub fn latex(id: &PathId, replay: &Replay) -> String {
     let heading = heading(id, replay);
     let comments: String = heading.lines().map(|line| format!("% {line}\n")).collect();
-    let shared = replay.alone.map_or("", |_| "% Pixels share light with their neighbours: the sum is that of this path alone.\n");
+    let shared = match (&replay.both_ends, replay.alone) {
+        (Some(_), _) => "% There are paths from lights, too: the sum is that of the path from the camera as MIS weights it.\n",
+        (None, Some(_)) => "% Pixels share light with their neighbours: the sum is that of this path alone.\n",
+        (None, None) => "",
+    };
     format!("{comments}% The path {}.\n{shared}{}", replay.end.name(), path_formula::latex(replay))
 }
 
@@ -155,17 +161,17 @@ fn name(scene: &Scene, object: u32) -> &str {
     }
 }
 
-fn three(values: [f32; 3]) -> String {
+pub(super) fn three(values: [f32; 3]) -> String {
     values.map(number).join(" ")
 }
 
 /// A point or a direction.
-fn place([x, y, z]: [f32; 3]) -> String {
+pub(super) fn place([x, y, z]: [f32; 3]) -> String {
     format!("{x:.5} {y:.5} {z:.5}")
 }
 
 /// Five decimals, or five significant digits if the number is very small or large.
-fn number(x: f32) -> String {
+pub(super) fn number(x: f32) -> String {
     if x == 0.0 || (1e-3..1e4).contains(&x.abs()) { format!("{x:.5}") } else { format!("{x:.4e}") }
 }
 

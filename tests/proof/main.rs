@@ -5,6 +5,7 @@
 #![allow(clippy::print_stdout, reason = "figures are printed for those who ask for them")]
 mod adaptive;
 mod black;
+mod both_ends;
 mod combinations;
 mod determinism;
 mod enclosures;

@@ -1,7 +1,10 @@
 //! Paths from either end arrive at surfaces. Those from the camera add what these emit.
 use fearless_simd_macros::simd;
 
-use super::strategy::weight_of;
+use super::{
+    observer::{Observer, PathStart, Term},
+    strategy::weight_of,
+};
 use crate::{
     geometry::{MISS, PrimitiveRef},
     integrator::{
@@ -23,7 +26,13 @@ use crate::{
 
 /// Paths from lights arrive.
 #[simd]
-pub(super) fn arrive_from_lights<L: Lanes>(l: L, work: &Work, batch: &mut Batch, state: &mut LightPaths) {
+pub(super) fn arrive_from_lights<L: Lanes, O: Observer<L>>(
+    l: L,
+    work: &Work,
+    batch: &mut Batch,
+    state: &mut LightPaths,
+    observer: &mut O,
+) {
     let Batch { paths, first_hits, hits, bounce, .. } = batch;
     hits.iter_mut().for_each(HitQueues::clear);
     let (first, paths) = (*bounce == 0, &paths[(*bounce & 1) as usize]);
@@ -38,6 +47,7 @@ pub(super) fn arrive_from_lights<L: Lanes>(l: L, work: &Work, batch: &mut Batch,
         }
         let interaction = interact::<L, true>(l, work, &arrival.path, hit, nearest, None);
         let (slot, cos) = (arrival.path.slot, finite(interaction.cos));
+        observer.arrived(PathStart::Light, hit, &arrival, &interaction, cos);
         // The numbers of the first surface depend on its type: see `light.rs`.
         if !first {
             let partial = end.partial(l, slot).arrive(nearest.t, cos);
@@ -50,13 +60,15 @@ pub(super) fn arrive_from_lights<L: Lanes>(l: L, work: &Work, batch: &mut Batch,
 
 /// Paths from the camera arrive, or leave the scene. `last`: this is the last bounce, and nothing is reflected.
 #[simd]
-pub(super) fn arrive_from_camera<L: Lanes>(
+#[allow(clippy::too_many_arguments)]
+pub(super) fn arrive_from_camera<L: Lanes, O: Observer<L>>(
     l: L,
     work: &Work,
     rays: &LightRays,
     batch: &mut Batch,
     state: &mut LightPaths,
     last: bool,
+    observer: &mut O,
 ) {
     let Batch { paths, first_hits, hits, radiance, bounce, .. } = batch;
     hits.iter_mut().for_each(HitQueues::clear);
@@ -79,25 +91,33 @@ pub(super) fn arrive_from_camera<L: Lanes>(
         if let Some(background) = &work.scene.lights.background
             && (at.live & miss).any()
         {
-            let weight = weight_of(work, l.u(0), *bounce + 2, weigher.of_background(l, work, rays, path.d));
-            add(radiance, at.live & miss, path.slot, path.throughput * background.radiance(l, path.d) * weight);
+            let (s, t, lanes) = (l.u(0), *bounce + 2, at.live & miss);
+            let weight = weight_of(work, s, t, weigher.of_background(l, work, rays, path.d));
+            let light = path.throughput * background.radiance(l, path.d);
+            observer.left(lanes, &arrival);
+            observer.found(lanes, &Term { s, t, light, weight, seen: lanes, light_pdf: l.f(1.0) });
+            add(radiance, lanes, path.slot, light * weight);
         }
         let hit = at.live & !miss;
         if !hit.any() {
             continue;
         }
         let interaction = interact::<L, true>(l, work, path, hit, nearest, None);
+        let cos = finite(interaction.cos);
+        observer.arrived(PathStart::Camera, hit, &arrival, &interaction, cos);
         let emits = hit & work.scene.lights.emitters.emits(interaction.place.primitive);
         if emits.any() {
             let (le, seen) = emitted::<L, true>(l, work.scene, emits, &interaction);
             let weight = weigher.of_surface(l, work, rays, seen, path.d, &interaction);
-            let weight = weight_of(work, l.u(0), *bounce + 2, weight);
-            add(radiance, seen, path.slot, path.throughput * le * weight);
+            let (s, t) = (l.u(0), *bounce + 2);
+            let weight = weight_of(work, s, t, weight);
+            let light = path.throughput * le;
+            observer.found(seen, &Term { s, t, light, weight, seen, light_pdf: l.f(1.0) });
+            add(radiance, seen, path.slot, light * weight);
         }
         if last {
             continue;
         }
-        let cos = finite(interaction.cos);
         let arrived = if first { seen_first(l, work, path, &interaction, cos) } else { partial.arrive(nearest.t, cos) };
         end.put_partial(hit, path.slot, arrived);
         end.put_place(hit, path.slot, -path.d, interaction.place.primitive, interaction.place.element);

@@ -4,6 +4,7 @@ use fearless_simd_macros::simd;
 
 use super::{
     connect::{Connector, finish_connections},
+    observer::{Observer, PathStart},
     scatter::{Evaluated, depth, evaluate, scatter},
 };
 use crate::{
@@ -29,7 +30,13 @@ use crate::{
 
 /// Runs the stage.
 #[simd]
-pub(super) fn shade_camera_paths<L: Lanes>(l: L, work: &Work, batch: &mut Batch, state: &mut LightPaths) {
+pub(super) fn shade_camera_paths<L: Lanes, O: Observer<L>>(
+    l: L,
+    work: &Work,
+    batch: &mut Batch,
+    state: &mut LightPaths,
+    observer: &mut O,
+) {
     let Batch { paths, hits, bounce, radiance, rays, .. } = batch;
     let reflection = *bounce + 1;
     let next = &mut paths[(reflection & 1) as usize];
@@ -54,7 +61,7 @@ pub(super) fn shade_camera_paths<L: Lanes>(l: L, work: &Work, batch: &mut Batch,
             }
             if stage.sees_lights() && is_connected {
                 let connector = Connector { work, stage: *stage, hits, at, vertex: &vertex, reflection };
-                connector.connect(l, state, radiance, rays);
+                connector.connect(l, state, radiance, rays, observer);
             }
             let scattered = scatter(l, work, *stage, hits, at, vertex.back, reflection);
             let throughput = vertex.hit.throughput * scattered.weight;
@@ -63,6 +70,7 @@ pub(super) fn shade_camera_paths<L: Lanes>(l: L, work: &Work, batch: &mut Batch,
             if is_joined {
                 keep = keep & scattered.delta;
             }
+            observer.scattered(PathStart::Camera, keep, &scattered);
             let cos = cosine(scattered.d, vertex.hit.n);
             let pdfs = [scattered.pdf, scattered.reverse];
             let partial = vertex.partial.scatter(scattered.delta, pdfs, cos, others);
@@ -73,7 +81,7 @@ pub(super) fn shade_camera_paths<L: Lanes>(l: L, work: &Work, batch: &mut Batch,
             Path { o: scattered.o, d: scattered.d, throughput: survival.throughput, slot }.push(keep, &mut next.paths);
         }
     }
-    finish_connections(l, work, reflection, state, radiance, rays);
+    finish_connections(l, work, reflection, state, radiance, rays, observer);
 }
 
 /// Samples lights, and queues the samples that would contribute if they are visible.

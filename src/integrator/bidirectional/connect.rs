@@ -2,6 +2,7 @@
 use fearless_simd_macros::simd;
 
 use super::{
+    observer::{Observer, Term},
     scatter::{Evaluated, depth, evaluate},
     strategy::weight_of,
 };
@@ -22,6 +23,10 @@ use crate::{
 /// Of a surface that is not convex a ray may meet another part first.
 const NEARLY: f32 = 0.999;
 
+/// Connections of a path that are finished together. Queues are emptied only between that many, and the sum of a pixel has the same order
+/// for any number of lanes.
+const TOGETHER: usize = 32;
+
 /// A register of vertices of paths from the camera.
 pub(super) struct Connector<'a, 'w, L: Lanes> {
     pub work: &'a Work<'w>,
@@ -35,11 +40,22 @@ pub(super) struct Connector<'a, 'w, L: Lanes> {
 impl<L: Lanes> Connector<'_, '_, L> {
     /// Queues the connections with all vertices of the paths from the lights.
     #[inline(always)]
-    pub fn connect(&self, l: L, state: &mut LightPaths, radiance: &mut [[f32; 4]], rays: &mut u64) {
+    pub fn connect<O: Observer<L>>(
+        &self,
+        l: L,
+        state: &mut LightPaths,
+        radiance: &mut [[f32; 4]],
+        rays: &mut u64,
+        observer: &mut O,
+    ) {
         let PathVertex { live, hit, .. } = self.vertex;
         let most = self.work.settings.last_bounce() - self.reflection;
         let mut next = live.pick(state.vertices.last(l, hit.slot), l.u(0));
-        loop {
+        for count in 0.. {
+            let is_full = || state.connections.iter().any(|(queue, _)| queue.len() + TOGETHER * MAX_LANES > SLOTS);
+            if count % TOGETHER == 0 && (count > 0 || is_full()) {
+                finish_connections(l, self.work, self.reflection, state, radiance, rays, observer);
+            }
             let open = !next.is(0);
             if !open.any() {
                 return;
@@ -49,23 +65,14 @@ impl<L: Lanes> Connector<'_, '_, L> {
             next = open.pick(light.before, l.u(0));
             let allowed = open & light.bounce.below(most);
             if allowed.any() {
-                self.queue(l, state, allowed, index, &light, radiance, rays);
+                self.queue(l, state, allowed, index, &light);
             }
         }
     }
 
     #[inline(always)]
     #[allow(clippy::too_many_arguments)]
-    fn queue(
-        &self,
-        l: L,
-        state: &mut LightPaths,
-        lanes: crate::math::M<L>,
-        index: crate::math::U<L>,
-        light: &LightVertex<L>,
-        radiance: &mut [[f32; 4]],
-        rays: &mut u64,
-    ) {
+    fn queue(&self, l: L, state: &mut LightPaths, lanes: crate::math::M<L>, index: crate::math::U<L>, light: &LightVertex<L>) {
         let Connector { work, stage, hits, at, vertex: PathVertex { hit, back, partial, .. }, .. } = self;
         let way = light.p - hit.p;
         let square = way.length_squared();
@@ -95,9 +102,6 @@ impl<L: Lanes> Connector<'_, '_, L> {
             if !here.any() {
                 continue;
             }
-            if state.connections[*stage as usize].0.len() + MAX_LANES > SLOTS {
-                finish(l, work, *stage, self.reflection, state, radiance, rays);
-            }
             let (queue, hits) = &mut state.connections[*stage as usize];
             record.push(here, queue);
             state.vertices.queue_hits(l, work, *stage, here, index, light, hit.slot, hits);
@@ -107,22 +111,24 @@ impl<L: Lanes> Connector<'_, '_, L> {
 
 /// Finishes all connections.
 #[inline(always)]
-pub(super) fn finish_connections<L: Lanes>(
+pub(super) fn finish_connections<L: Lanes, O: Observer<L>>(
     l: L,
     work: &Work,
     reflection: u32,
     state: &mut LightPaths,
     radiance: &mut [[f32; 4]],
     rays: &mut u64,
+    observer: &mut O,
 ) {
     for stage in &work.scene.surfaces.stages {
-        finish(l, work, *stage, reflection, state, radiance, rays);
+        finish(l, work, *stage, reflection, state, radiance, rays, observer);
     }
 }
 
 /// Evaluates the BSDFs at the vertices of lights of a stage, tests which connections are visible, and weights them.
 #[simd]
-fn finish<L: Lanes>(
+#[allow(clippy::too_many_arguments)]
+fn finish<L: Lanes, O: Observer<L>>(
     l: L,
     work: &Work,
     stage: Stage,
@@ -130,6 +136,7 @@ fn finish<L: Lanes>(
     state: &mut LightPaths,
     radiance: &mut [[f32; 4]],
     rays: &mut u64,
+    observer: &mut O,
 ) {
     let LightPaths { connections, vertices, .. } = state;
     let (queue, hits) = &mut connections[stage as usize];
@@ -154,7 +161,9 @@ fn finish<L: Lanes>(
         let from_camera = end.partial.sum(connection.pdf * leaving * per_area, pdf);
         let from_light = connection.partial * (reverse * cos * per_area);
         let weight = 1.0 / (1.0 + from_camera + from_light);
-        let weight = weight_of(work, light.bounce + 2, reflection + 1, weight);
+        let (s, t) = (light.bounce + 2, reflection + 1);
+        let weight = weight_of(work, s, t, weight);
+        observer.found(faces, &Term { s, t, light: contribution, weight, seen, light_pdf: l.f(1.0) });
         add(radiance, seen, connection.slot, contribution * weight);
     }
     queue.clear();

@@ -1,7 +1,10 @@
 //! Tests which light samples are visible, and weights them.
 use fearless_simd_macros::simd;
 
-use super::strategy::weight_of;
+use super::{
+    observer::{Observer, Term},
+    strategy::weight_of,
+};
 use crate::{
     geometry::{MISS, Nearest, PrimitiveRef},
     integrator::{
@@ -15,7 +18,14 @@ use crate::{
 };
 
 #[simd]
-pub(super) fn test_light_samples<L: Lanes>(l: L, work: &Work, rays: &LightRays, batch: &mut Batch, state: &mut LightPaths) {
+pub(super) fn test_light_samples<L: Lanes, O: Observer<L>>(
+    l: L,
+    work: &Work,
+    rays: &LightRays,
+    batch: &mut Batch,
+    state: &mut LightPaths,
+    observer: &mut O,
+) {
     let (scene, lights) = (work.scene, &work.scene.lights);
     for at in state.direct.registers(l) {
         let sample = DirectSample::read(l, &state.direct, at.start);
@@ -27,11 +37,13 @@ pub(super) fn test_light_samples<L: Lanes>(l: L, work: &Work, rays: &LightRays, 
         let mut density = l.f(0.0);
         let mut of_sample = sample.pdf;
         let mut by_direction = sample.bsdf_pdf / sample.pdf;
+        let mut light_pdf = sample.pdf;
         let emits = seen & lights.emitters.emits(primitive);
         if emits.any() {
             let place = PrimitiveRef { primitive: emits.pick(primitive, l.u(0)), element: emits.pick(element, l.u(0)), time };
             let point = scene.shapes.surface_point(l, &place, sample.o + sample.d * emits.pick(t, l.f(0.0)));
             density = emits.pick(rays.density_at_surface(l, lights, &scene.shapes, emits, &place, &point), density);
+            light_pdf = emits.pick(sample.pdf * (sample.d.dot(point.n_geometric).abs() / (t * t)), light_pdf);
             if lights.emitters.vary() {
                 light = light * emission_texture(l, scene, emits, place, point);
             }
@@ -48,7 +60,9 @@ pub(super) fn test_light_samples<L: Lanes>(l: L, work: &Work, rays: &LightRays, 
             by_direction = lamps.pick(l.f(0.0), by_direction);
         }
         let weight = 1.0 / (1.0 + by_direction + sample.partial * (density / of_sample));
-        let weight = weight_of(work, l.u(1), batch.bounce + 2, weight);
+        let (s, t) = (l.u(1), batch.bounce + 2);
+        let weight = weight_of(work, s, t, weight);
+        observer.found(at.live, &Term { s, t, light, weight, seen, light_pdf });
         add(&mut batch.radiance, seen, sample.slot, light * weight);
     }
     batch.rays += state.direct.len() as u64;

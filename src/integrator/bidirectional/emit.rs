@@ -1,6 +1,7 @@
 //! First stage of paths from lights: samples a light, a point and a direction for every slot.
 use fearless_simd_macros::simd;
 
+use super::observer::Observer;
 use crate::{
     integrator::{
         batch::Batch,
@@ -16,7 +17,14 @@ use crate::{
 };
 
 #[simd]
-pub(super) fn emit<L: Lanes>(l: L, work: &Work, rays: &LightRays, batch: &mut Batch, state: &mut LightPaths) {
+pub(super) fn emit<L: Lanes, O: Observer<L>>(
+    l: L,
+    work: &Work,
+    rays: &LightRays,
+    batch: &mut Batch,
+    state: &mut LightPaths,
+    observer: &mut O,
+) {
     batch.bounce = 0;
     batch.paths[0].clear();
     state.vertices.clear();
@@ -38,6 +46,7 @@ pub(super) fn emit<L: Lanes>(l: L, work: &Work, rays: &LightRays, batch: &mut Ba
             flux = flux * emission_texture(l, scene, ray.on_surface, ray.place, ray.point);
         }
         let starts = inside & ray.inverse_density.above(0.0) & flux.max_component().above(0.0);
+        observer.emitted(starts, &ray);
         let end = &mut state.ends[0];
         put(starts, slot, flux, ray.inverse_density, &mut state.fluxes);
         let (x, y, z) = (ray.light.as_real_bits(), ray.place.primitive.as_real_bits(), ray.place.element.as_real_bits());

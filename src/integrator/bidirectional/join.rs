@@ -1,6 +1,7 @@
 //! Tests which vertices of paths from lights the camera sees.
 use fearless_simd_macros::simd;
 
+use super::observer::Observer;
 use crate::{
     integrator::{
         batch::Batch,
@@ -12,12 +13,13 @@ use crate::{
 };
 
 #[simd]
-pub(super) fn join<L: Lanes>(l: L, work: &Work, batch: &mut Batch, state: &mut LightPaths) {
+pub(super) fn join<L: Lanes, O: Observer<L>>(l: L, work: &Work, batch: &mut Batch, state: &mut LightPaths, observer: &mut O) {
     for at in state.joins.registers(l) {
         let CameraRay { o, d, distance, slot, x, y, light } = CameraRay::read(l, &state.joins, at.start);
         let nearest = work.scene.shapes.closest(l, at.live, o, d, work.time(l, slot));
         let (u, v) = work.stream(l, slot).two(Dimension::cell(Dimension::LIGHT_PATH + batch.bounce + 1));
         let seen = at.live & nearest.t.ge(distance);
+        observer.joined(seen, [x, y]);
         let [x, y, u, v] = [x.to_array(), y.to_array(), u.to_array(), v.to_array()];
         let [r, g, b] = [light.x.to_array(), light.y.to_array(), light.z.to_array()];
         let mut lanes = seen.bits();

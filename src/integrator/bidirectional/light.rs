@@ -2,6 +2,7 @@
 use fearless_simd_macros::simd;
 
 use super::{
+    observer::{Observer, PathStart, Term},
     scatter::{Evaluated, depth, evaluate, scatter},
     strategy::weight_of,
 };
@@ -29,7 +30,14 @@ use crate::{
 
 /// Runs the stage.
 #[simd]
-pub(super) fn shade_light_paths<L: Lanes>(l: L, work: &Work, rays: &LightRays, batch: &mut Batch, state: &mut LightPaths) {
+pub(super) fn shade_light_paths<L: Lanes, O: Observer<L>>(
+    l: L,
+    work: &Work,
+    rays: &LightRays,
+    batch: &mut Batch,
+    state: &mut LightPaths,
+    observer: &mut O,
+) {
     let Batch { paths, hits, bounce, .. } = batch;
     let next = &mut paths[((*bounce + 1) & 1) as usize];
     next.clear();
@@ -48,7 +56,7 @@ pub(super) fn shade_light_paths<L: Lanes>(l: L, work: &Work, rays: &LightRays, b
             let [r, g, b, _] = l.rows(&state.fluxes, vertex.hit.slot);
             let light = vertex.hit.throughput * V { x: r, y: g, z: b };
             if stage.sees_lights() && is_joined {
-                queue_join(l, work, *stage, hits, at, &vertex, light, *bounce, &mut state.joins);
+                queue_join(l, work, *stage, hits, at, &vertex, light, *bounce, &mut state.joins, observer);
                 if is_connected {
                     let place = state.ends[0].place(l, vertex.hit.slot);
                     state.vertices.push(l, work, *stage, hits, at, &vertex, light, place, *bounce);
@@ -62,6 +70,7 @@ pub(super) fn shade_light_paths<L: Lanes>(l: L, work: &Work, rays: &LightRays, b
             if only_caustics {
                 keep = keep & scattered.delta;
             }
+            observer.scattered(PathStart::Light, keep, &scattered);
             let cos = cosine(scattered.d, vertex.hit.n);
             let pdfs = [scattered.pdf, scattered.reverse];
             let partial = vertex.partial.scatter(scattered.delta, pdfs, cos, others);
@@ -121,7 +130,7 @@ fn pdf_of_lamps<L: Lanes>(
 /// Queues joins with the camera that would contribute if nothing lies between.
 #[inline(always)]
 #[allow(clippy::too_many_arguments)]
-fn queue_join<L: Lanes>(
+fn queue_join<L: Lanes, O: Observer<L>>(
     l: L,
     work: &Work,
     stage: Stage,
@@ -131,6 +140,7 @@ fn queue_join<L: Lanes>(
     light: V<L>,
     bounce: u32,
     queue: &mut Queue,
+    observer: &mut O,
 ) {
     let lens = work.stream(l, hit.slot).two(Dimension::light(Dimension::LIGHT_PATH + bounce + 1));
     let join = work.rays.join(l, hit.p, work.time(l, hit.slot), lens);
@@ -147,14 +157,17 @@ fn queue_join<L: Lanes>(
     let Evaluated { f_cos, pdf, .. } = evaluate(l, work, stage, hits, at, [d, *back]);
     let (height, cos_in) = (d.dot(hit.n), cosine(*back, hit.n));
     let density = join.density * height.abs();
-    let mut light = light * f_cos * (density / cos_in);
+    let light = light * f_cos * (density / cos_in);
+    let mut weight = l.f(1.0);
+    let (s, t) = (l.u(bounce + 2), 1);
     let estimator = work.settings.estimator;
     if estimator.connects() || estimator.traces_only_caustics() {
         let found = density * (1.0 / work.light_paths_of_image());
-        let weight = 1.0 / (1.0 + partial.sum(found, pdf));
-        light = light * weight_of(work, l.u(bounce + 2), 1, weight);
+        weight = weight_of(work, s, t, 1.0 / (1.0 + partial.sum(found, pdf)));
     }
     let o = height.above(0.0).pick(hit.p, hit.p - hit.n * depth(l, stage, hits, at));
-    let keep = faces & light.max_component().above(0.0);
-    CameraRay { o, d, distance, slot: hit.slot, x: join.x, y: join.y, light }.push(keep, queue);
+    let weighted = light * weight;
+    let keep = faces & weighted.max_component().above(0.0);
+    observer.found(keep, &Term { s, t, light, weight, seen: keep, light_pdf: l.f(1.0) });
+    CameraRay { o, d, distance, slot: hit.slot, x: join.x, y: join.y, light: weighted }.push(keep, queue);
 }

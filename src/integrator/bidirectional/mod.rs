@@ -27,8 +27,13 @@ mod direct;
 mod emit;
 mod join;
 mod light;
+mod observer;
 mod scatter;
 mod strategy;
 mod trace;
 
-pub(super) use self::trace::trace_both_ends;
+pub(super) use self::{
+    observer::{Observer, PathStart, Term},
+    scatter::Scattered,
+    trace::trace_both_ends,
+};

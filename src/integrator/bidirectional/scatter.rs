@@ -26,7 +26,7 @@ pub(super) struct Evaluated<L: Lanes> {
 }
 
 /// A sampled direction away from a surface.
-pub(super) struct Scattered<L: Lanes> {
+pub(in crate::integrator) struct Scattered<L: Lanes> {
     pub o: V<L>,
     /// Unit.
     pub d: V<L>,

@@ -3,6 +3,7 @@
 //!
 //! The path is traced with one lane, and a [`Follower`] reads the queues between the stages. It computes all other terms with the
 //! functions of the stages, so every term is that of the estimator, bit for bit.
+mod both_ends;
 mod follower;
 mod light;
 mod samples;
@@ -13,8 +14,9 @@ mod visible;
 
 use serde::Serialize;
 
-use self::follower::Follower;
+use self::{both_ends::both_ends, follower::Follower};
 pub use self::{
+    both_ends::{BothEnds, PathPoint, StrategyTerm},
     samples::pixel_samples,
     terms::{EmitterHit, End, Outcome, Reflection, SampledLight, SharedLight, Surface, Vertex},
     visible::seen_by_camera,
@@ -36,21 +38,28 @@ use crate::{
 pub struct Replay {
     /// The sample's estimate of the pixel's radiance.
     pub radiance: [f32; 3],
-    /// The estimate by this path alone, if pixels share paths.
+    /// The estimate by this path alone, if pixels share paths; with paths from lights, as `mis` weights it.
     pub alone: Option<[f32; 3]>,
     /// The paths that pixels share in this sample, if they do.
     pub shared: Option<SharedLight>,
-    /// Vertices in order. The contributions of their emission and of their light samples add up to the radiance, or to `alone` if
-    /// pixels share paths.
+    /// The paths from both ends, if there are paths from lights.
+    pub both_ends: Option<BothEnds>,
+    /// Vertices of the path from the camera in order. The contributions of their emission and of their light samples add up to the
+    /// radiance, or to `alone` if there is one.
     pub vertices: Vec<Vertex>,
     /// Reason of the end of the path.
     pub end: End,
 }
 
-/// Replays sample number `sample` of a pixel. Of estimators with paths from lights, it replays the path from the camera, as `mis` weights
-/// it.
+/// Replays sample number `sample` of a pixel. With paths from lights, the radiance lacks what other samples bring to the pixel.
 pub fn replay(scene: &Scene, rays: &CameraRays, settings: &RenderSettings, pixel: [u32; 2], sample: u32) -> Replay {
-    let settings = &from_camera(scene, settings);
+    if scene.traces_light_paths(settings) {
+        let from_camera = RenderSettings { estimator: Estimator::Mis, reuse: Reuse::Off, ..*settings };
+        let replay = replay(scene, rays, &from_camera, pixel, sample);
+        let work = Work::tile(scene, rays, settings, pixel, [1, 1], sample);
+        let Some((radiance, both_ends)) = both_ends(&work, &mut Batch::default()) else { return replay };
+        return Replay { radiance, alone: Some(replay.radiance), both_ends: Some(both_ends), ..replay };
+    }
     let one = Work::tile(scene, rays, settings, pixel, [1, 1], sample);
     let work = if one.shares() { one.whole_tile() } else { one };
     let [x, y] = place_in(&work, pixel);
@@ -70,19 +79,11 @@ pub fn replay(scene: &Scene, rays: &CameraRays, settings: &RenderSettings, pixel
         let from_neighbours = [0, 1, 2].map(|c| (radiance[c] - unshared[c] - kept[c]).max(0.0));
         SharedLight { unshared, kept, from_neighbours }
     });
-    let mut replay = Replay { radiance, alone, shared, vertices: follower.vertices, end };
+    let mut replay = Replay { radiance, alone, shared, both_ends: None, vertices: follower.vertices, end };
     if let Ok(Some(thresholds)) = thresholds(SimdLevel::best(), &one.whole_tile(), &mut batch, &|| false) {
         sharing::share(&mut replay, &thresholds, scene, rays, settings, (pixel, sample));
     }
     replay
-}
-
-/// The settings without paths from lights.
-fn from_camera(scene: &Scene, settings: &RenderSettings) -> RenderSettings {
-    if !scene.traces_light_paths(settings) {
-        return *settings;
-    }
-    RenderSettings { estimator: Estimator::Mis, reuse: Reuse::Off, ..*settings }
 }
 
 /// The reason why a vertex is the last one.

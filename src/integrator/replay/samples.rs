@@ -1,7 +1,7 @@
 //! Many samples of one pixel: their distribution says more about its noise than their mean.
 use std::ops::Range;
 
-use super::{from_camera, radiance_at, work_of};
+use super::{radiance_at, work_of};
 use crate::{
     integrator::{
         batch::Batch,
@@ -14,7 +14,8 @@ use crate::{
     scene::{CameraRays, RenderSettings, Scene},
 };
 
-/// The radiance of these samples of a pixel, bit for bit as in the renderer, without paths from lights. `None` if interrupted.
+/// The radiance of these samples of a pixel, bit for bit as in the renderer; with paths from lights, without what other samples bring
+/// to the pixel. `None` if interrupted.
 ///
 /// A batch takes one sample in each of its blocks, so that registers are full; where pixels share it takes one sample.
 pub fn pixel_samples(
@@ -26,7 +27,6 @@ pub fn pixel_samples(
     interrupted: &dyn Fn() -> bool,
 ) -> Option<Vec<[f32; 3]>> {
     const SLOTS_OF_BLOCK: usize = (BLOCK * BLOCK) as usize;
-    let settings = &from_camera(scene, settings);
     let level = SimdLevel::best();
     let mut batch = Batch::default();
     let mut samples = Vec::with_capacity(numbers.len());

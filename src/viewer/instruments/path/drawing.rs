@@ -1,7 +1,10 @@
 //! Draws a path over the picture.
-use egui::{Align2, Color32, FontId, Pos2, Shape, Stroke, Ui, vec2};
+use egui::{Align2, Color32, FontId, Painter, Pos2, Shape, Stroke, Ui, vec2};
 use glam::Vec3;
-use noisefall::{integrator::Outcome, scene::Camera};
+use noisefall::{
+    integrator::{BothEnds, Outcome, PathPoint},
+    scene::Camera,
+};
 
 use super::{inspector::PathInspector, table::MOST_VERTICES};
 use crate::viewer::canvas::{picture_area::PictureArea, projection::clip, projection::project};
@@ -10,6 +13,8 @@ const PATH: Color32 = Color32::from_rgb(255, 214, 90);
 /// Within the ring of a vertex that the camera does not see.
 const HOLLOW: Color32 = Color32::from_black_alpha(90);
 const LIGHT: Color32 = Color32::from_rgb(86, 200, 255);
+/// The path from the light.
+const FROM_LIGHT: Color32 = Color32::from_rgb(255, 140, 60);
 
 /// Draws the inspected pixel and the vertices of its path. `size` is that of the scene.
 pub fn draw(ui: &Ui, area: &PictureArea, inspector: &PathInspector, camera: &Camera, size: f32) {
@@ -59,5 +64,38 @@ pub fn draw(ui: &Ui, area: &PictureArea, inspector: &PathInspector, camera: &Cam
         painter.text(at + vec2(8.0, -6.0), Align2::LEFT_BOTTOM, &number, FontId::proportional(13.0), Color32::BLACK);
         painter.text(at + vec2(7.0, -7.0), Align2::LEFT_BOTTOM, number, FontId::proportional(13.0), Color32::WHITE);
         before = at;
+    }
+    if let Some(both) = &replay.both_ends {
+        draw_light_path(&painter, both, &screen, &dashed);
+    }
+}
+
+/// Draws the path from the light, and its connections with the path from the camera.
+fn draw_light_path(
+    painter: &Painter,
+    BothEnds { light, camera, strategies }: &BothEnds,
+    screen: &dyn Fn([f32; 3]) -> Option<Pos2>,
+    dashed: &dyn Fn([Pos2; 2], Stroke, f32),
+) {
+    let points = |path: &[PathPoint]| -> Vec<Option<Pos2>> {
+        path.iter().take(MOST_VERTICES).map(|point| screen(point.position)).collect()
+    };
+    let (light, camera) = (points(light), points(camera));
+    for term in strategies.iter().filter(|term| term.visible && term.s >= 2 && term.t >= 2) {
+        let ends = (light.get(term.s as usize - 1), camera.get(term.t as usize - 2));
+        if let (Some(Some(y)), Some(Some(z))) = ends {
+            dashed([*y, *z], Stroke::new(1.2, FROM_LIGHT.gamma_multiply(0.7)), 3.5);
+        }
+    }
+    for ends in light.windows(2) {
+        if let [Some(from), Some(to)] = ends {
+            painter.line_segment([*from, *to], Stroke::new(3.0, Color32::from_black_alpha(120)));
+            painter.line_segment([*from, *to], Stroke::new(1.6, FROM_LIGHT));
+        }
+    }
+    for (index, at) in light.into_iter().enumerate() {
+        let Some(at) = at else { continue };
+        painter.circle(at, 4.0, FROM_LIGHT, Stroke::new(1.0, Color32::BLACK));
+        painter.text(at + vec2(7.0, 7.0), Align2::LEFT_TOP, format!("y{index}"), FontId::proportional(13.0), FROM_LIGHT);
     }
 }

@@ -5,7 +5,7 @@ use noisefall::{
     render::{RenderRequest, sharing::resolved},
 };
 
-use super::{histogram::Histogram, table::Channel};
+use super::{cells::Channel, histogram::Histogram};
 use crate::viewer::background::background_task::BackgroundTask;
 
 /// More samples do not change what a histogram looks like.

@@ -7,11 +7,7 @@ use noisefall::{
     scene::Object,
 };
 
-use super::{
-    copying, histogram,
-    inspector::PathInspector,
-    table::{self, Channel},
-};
+use super::{cells::Channel, copying, histogram, inspector::PathInspector, strategies, table};
 use crate::viewer::{
     instruments::light_paths,
     widgets::{number, palette::Palette},
@@ -50,7 +46,7 @@ pub fn show(ui: &mut Ui, inspector: &mut PathInspector, subject: &Subject) -> bo
                 ui.set_max_width(SAMPLES);
                 let saves = samples(ui, inspector, pixel, subject);
                 ui.separator();
-                path(ui, inspector, request, table::show);
+                path(ui, inspector, request, terms);
                 saves
             })
             .inner;
@@ -64,7 +60,7 @@ pub fn show(ui: &mut Ui, inspector: &mut PathInspector, subject: &Subject) -> bo
             let style = &mut ui.spacing_mut().scroll;
             style.floating_allocated_width = style.bar_width;
             let scroll = ScrollArea::both().auto_shrink(false).scroll_bar_visibility(ScrollBarVisibility::AlwaysVisible);
-            _ = scroll.show(ui, |ui| table::show(ui, replay, objects, channel));
+            _ = scroll.show(ui, |ui| terms(ui, replay, objects, channel));
         });
     });
     saves
@@ -102,6 +98,14 @@ fn path(
     inspector.channel = channel;
 }
 
+/// Shows the terms of a sample: of its strategies if there are paths from lights, or else of its vertices.
+fn terms(ui: &mut Ui, replay: &Replay, objects: &[Object], channel: Channel) {
+    match &replay.both_ends {
+        Some(both) => strategies::show(ui, both, replay.radiance, objects, channel),
+        None => table::show(ui, replay, objects, channel),
+    }
+}
+
 fn pixel_choice(ui: &mut Ui, inspector: &mut PathInspector, pixel: [u32; 2], side: Option<&str>, [width, height]: [u32; 2]) {
     let mut at = pixel;
     ui.horizontal(|ui| {
@@ -136,10 +140,14 @@ fn sample_column(ui: &mut Ui, inspector: &mut PathInspector, request: Option<&Re
     if let Some(sample) = histogram::show(ui, histogram, inspector.sample) {
         inspector.sample = sample;
     }
-    if request.is_some_and(|request| light_paths::are_traced(&request.scene, &request.settings)) {
-        ui.weak("Samples are paths from the camera, as MIS weights them. The image has paths from lights, too.");
+    let traces_light_paths = request.is_some_and(|request| light_paths::are_traced(&request.scene, &request.settings));
+    if traces_light_paths {
+        ui.weak("Samples lack the light that paths from lights bring to this pixel from others (t = 1).");
     }
     ui.weak("Overlay: the path in yellow, with rings at vertices that the camera does not see; light samples in blue, faint if occluded.");
+    if traces_light_paths {
+        ui.weak("The path from the light is orange. Dashes connect both paths where nothing lies between.");
+    }
     request.is_some_and(|request| copying::show(ui, inspector, request))
 }
 

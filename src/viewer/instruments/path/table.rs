@@ -1,32 +1,24 @@
 //! The terms of a path, one row each, summed as in the equation.
-use egui::{Grid, Response, RichText, Ui};
+use egui::{Grid, RichText, Ui};
 use noisefall::{
     integrator::{Outcome, Reflection, Replay, Vertex},
     scene::Object,
 };
 
-use super::terms::{Row, Source, Target, Term, rows, totals};
+use super::{
+    cells::{Channel, TEXT, VERTEX_WIDTH, cell, colour, name, short},
+    terms::{Row, Source, Target, Term, rows, totals},
+};
 use crate::viewer::widgets::{
     decimals::three,
     palette::Palette,
     style::{choices, elided},
 };
 
-const TEXT: f32 = 12.0;
-/// Widths of names, so that the table fits beside the samples in a window of 1280 points.
-const VERTEX_WIDTH: f32 = 96.0;
+/// Width of the source of light, so that the table fits beside the samples in a window of 1280 points.
 const TERM_WIDTH: f32 = 100.0;
 /// More of a path than this nobody reads.
 pub const MOST_VERTICES: usize = 64;
-
-/// A colour channel; the table shows one, so that factors multiply and terms add up.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Channel {
-    #[default]
-    Red,
-    Green,
-    Blue,
-}
 
 const CHANNELS: [(Channel, &str, &str); 3] = [
     (Channel::Red, "Red", "Shows the red channel. The tooltips show all three."),
@@ -57,7 +49,10 @@ pub fn heading(ui: &mut Ui, sample: u32, replay: &Replay, channel: &mut Channel)
             .on_hover_text("This is the radiance of the sample: linear red, green and blue.");
         choices(ui, channel, &CHANNELS);
     });
-    ui.weak(format!("L = Σ β f cos θ L_e τ w / p. The path {}.", replay.end.name()));
+    match &replay.both_ends {
+        Some(_) => ui.weak("L = Σ w C over the strategies with t ≥ 2."),
+        None => ui.weak(format!("L = Σ β f cos θ L_e τ w / p. The path {}.", replay.end.name())),
+    };
     ui.add_space(2.0);
 }
 
@@ -108,11 +103,6 @@ fn factor_cell(ui: &mut Ui, factor: Option<[f32; 3]>, channel: usize) {
         Some(factor) => drop(cell(ui, short(factor[channel]), false).on_hover_text(colour(factor))),
         None => drop(ui.weak("–")),
     }
-}
-
-fn cell(ui: &mut Ui, text: String, is_strong: bool) -> Response {
-    let text = RichText::new(text).monospace().size(TEXT);
-    ui.label(if is_strong { text.strong() } else { text })
 }
 
 /// Source of the light of a term.
@@ -166,28 +156,8 @@ fn continuation(next: &Reflection) -> String {
     format!("ω_i = {}: {lobe}\n{factor}, q = {:.2}{end}", vector(next.direction), next.survival)
 }
 
-fn name(objects: &[Object], id: u32) -> String {
-    let name = objects.get(id as usize).map_or("", |object| object.name.as_str());
-    if name.is_empty() { format!("object {}", id + 1) } else { name.to_owned() }
-}
-
-/// A colour in three numbers, or in one where they are the same.
-pub fn colour([r, g, b]: [f32; 3]) -> String {
-    if r == g && g == b { short(r) } else { format!("{} {} {}", short(r), short(g), short(b)) }
-}
-
 fn vector(v: [f32; 3]) -> String {
     three(v.map(f64::from), 3)
-}
-
-/// Four digits that count, as short as they can be.
-fn short(x: f32) -> String {
-    match x.abs() {
-        0.0 => "0".to_owned(),
-        0.001..10.0 => format!("{x:.3}"),
-        10.0..1000.0 => format!("{x:.1}"),
-        _ => format!("{x:.1e}"),
-    }
 }
 
 #[cfg(test)]
@@ -336,11 +306,5 @@ mod tests {
             ["Shared, kept", "From neighbours", "Sample"].map(|name| after(name).expect("a number")),
             ["0.011", "0.100", "0.216"]
         );
-    }
-
-    #[test]
-    fn numbers_are_short_and_colours_one_number_where_they_are_grey() {
-        assert_eq!([0.0, 0.5, 12.34, 4321.0, 0.000_12].map(short), ["0", "0.500", "12.3", "4.3e3", "1.2e-4"]);
-        assert_eq!((colour([0.5; 3]), colour([0.5, 1.0, 2.0])), ("0.500".to_owned(), "0.500 1.000 2.000".to_owned()));
     }
 }
