@@ -53,6 +53,11 @@ pub trait Shine {
     /// The lamp after a transform. Positions, targets and directions are transformed; intensities and angles are not.
     fn compile(&self, map: &DAffine3, resources: &Resources) -> Result<Lamp, Problem>;
 
+    /// The same lamp without its files, so that it can be checked without reading them; `None` if it has none.
+    fn without_files(&self) -> Option<LampKind> {
+        None
+    }
+
     /// Where the lamp stands before its transform; `None` if it is infinitely far away.
     fn position(&self) -> Option<DVec3>;
 
