@@ -8,7 +8,7 @@ use noisefall::{
 };
 
 use super::{new_bump::new_bump, scene_editor::SceneEditor, state::App};
-use crate::viewer::background::loader::OpenedScene;
+use crate::viewer::background::opened_scene::OpenedScene;
 use crate::viewer::dialogs::{
     choose_file::{FileDialog, FilePurpose, texture_in_place},
     unsaved::Leaving,
