@@ -13,7 +13,7 @@ use noisefall::{
 
 use super::{
     catalogue::{self, BUILT_IN_NAME},
-    kept_render::{KeptScene, OpenedRender, open_kept},
+    kept_render::{OpenedRender, ReopenedScene, open_kept},
 };
 
 /// A scene ready to be shown.
@@ -104,7 +104,7 @@ pub fn open(scene: GivenScene) -> OpenResult {
 
 /// Opens the scene of a render that continues.
 fn open_render(path: &Path, options: &ImportOptions) -> OpenResult {
-    let KeptScene { scene, remarks, description, kept } = open_kept(path, options)?;
+    let ReopenedScene { scene, remarks, description, kept } = open_kept(path, options)?;
     let scene_path = Path::new(&kept.header.scene.folder).join(&kept.header.scene.name);
     let document = match description {
         Some(description) => Document::imported(&scene_path, &scene.source, (*description).clone()),
