@@ -70,7 +70,7 @@
 //! | `view.rs` | the camera and the settings of a view |
 //! | `outside.rs` | files that were changed outside |
 //! | `trial.rs` | random scenes, written and read |
-//! | `recovery.rs`, `templates.rs` | recovery after a crash; scenes to start from |
+//! | `recovery.rs`, `templates/` | recovery after a crash; scenes to start from |
 mod add;
 mod apply;
 mod change;

@@ -5,7 +5,7 @@
 //!
 //! | type | file | pieces | front |
 //! |---|---|---|---|
-//! | sphere | `sphere.rs` | 1 | outside |
+//! | sphere | `sphere/` | 1 | outside |
 //! | ellipsoid, a stretched sphere | `quadric.rs` | 1 | outside |
 //! | rectangle, triangle, disk | `flat.rs` | 1 | side of the normal |
 //! | cuboid | `cuboid.rs` | 6 | outside |

@@ -6,7 +6,7 @@
 //! | lamps without surface | `lamp/` | point, spot, directional lamp, projector |
 //! | background | `background/` | radiance from all directions |
 //!
-//! `selection.rs` selects a light for a point, with the light tree of `tree.rs` if there are many.
+//! `selection/` selects a light for a point, with the light tree of `tree/` if there are many.
 pub mod background;
 mod bound;
 mod choice;

@@ -187,13 +187,13 @@ fn binary_stl() -> Vec<u8> {
     [&[0; 80][..], &2u32.to_le_bytes(), &triangle.repeat(2)].concat()
 }
 
-const XML: &str = include_str!("bases/scene.xml");
+const XML: &str = include_str!("scene.xml");
 const PART: &str = "<scene version=\"3.0.0\"><bsdf type=\"dielectric\" id=\"glass\"/></scene>\n";
-const PBRT: &str = include_str!("bases/scene.pbrt");
+const PBRT: &str = include_str!("scene.pbrt");
 const INCLUDED: &str = "Material \"conductor\" \"spectrum eta\" \"metal-Cu-eta\" \"float roughness\" 0.1\nShape \"disk\"\n";
 const SPECTRUM: &str = "400 0.5\n550 0.7\n700 0.2\n";
-const GLTF: &str = include_str!("bases/scene.gltf");
-const TOML: &str = include_str!("bases/scene.toml");
+const GLTF: &str = include_str!("scene.gltf");
+const TOML: &str = include_str!("scene.toml");
 const OBJ: &str = "mtllib a.mtl\nusemtl red\nv 0 0 0\nv 1 0 0 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 1\nvn 0 0 1\n\
     f 1/1/1 2/2/1 3/1/1 \\\n 4/2/1\nusemtl glass\nf -1//-1 -2//-1 -3//-1\nf 1 2 3\n";
 const MTL: &str = "newmtl red\nKd 0.8 0.1 0.1\nKs 0.5 0.5 0.5\nNs 30\nillum 2\nmap_Kd -s 2 2 1 -clamp on a.png\nbump -bm 0.3 a.png\n\

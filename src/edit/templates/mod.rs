@@ -16,16 +16,12 @@ pub const TEMPLATES: [Template; 3] = [
     Template {
         title: "Empty room",
         doc: "A room without its front wall, lit by a lamp below the ceiling.",
-        text: include_str!("templates/empty_room.toml"),
+        text: include_str!("empty_room.toml"),
     },
-    Template {
-        title: "Studio",
-        doc: "A ball on a seamless backdrop, lit by two soft boxes.",
-        text: include_str!("templates/studio.toml"),
-    },
+    Template { title: "Studio", doc: "A ball on a seamless backdrop, lit by two soft boxes.", text: include_str!("studio.toml") },
     Template {
         title: "Furnace",
         doc: "A ball in uniform light: a material that absorbs nothing is invisible.",
-        text: include_str!("templates/furnace.toml"),
+        text: include_str!("furnace.toml"),
     },
 ];
