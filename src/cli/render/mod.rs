@@ -67,7 +67,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
         render_memory::reserve(&layers.0, arguments.denoise, arguments.keep.is_asked() || resumed.is_some(), camera.resolution);
     let _memory = memory.map_err(|error| error.to_string())?;
     let reference = Reference::of(&scene);
-    print_notes(&scene, &settings, reference.as_ref().and_then(|truth| truth.mismatch(camera.resolution)));
+    print_notes(&scene, &settings, reference.as_ref(), camera.resolution);
     let threads = || Threads::new(arguments.threads.into(), SimdLevel::best()).map_err(|error| error.to_string());
     let of_images = threads()?;
     if settings.estimator == Estimator::Auto {
@@ -107,7 +107,8 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
 }
 
 /// Prints what is legal but probably not meant.
-fn print_notes(scene: &Scene, settings: &RenderSettings, mismatch: Option<String>) {
+fn print_notes(scene: &Scene, settings: &RenderSettings, reference: Option<&Reference>, resolution: [u32; 2]) {
+    let mismatch = reference.and_then(|truth| truth.mismatch(resolution));
     let (infinite, missing) = (scene.infinite_variance(settings), scene.lacks_light_paths(settings));
     let notes = mismatch.iter().chain(scene.warnings()).chain(&infinite).chain(&missing);
     notes.for_each(|note| tell(&format!("note: {note}")));
