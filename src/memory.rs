@@ -15,13 +15,13 @@ use std::{
 const UNKNOWN: u64 = 8_000_000_000;
 
 /// The limit, and the bytes that are reserved.
-struct Budget {
+struct Account {
     /// 0 until it is set; then [`half_of_the_machine`] by default.
     limit: AtomicU64,
     taken: AtomicU64,
 }
 
-static OF_PROCESS: Budget = Budget::new(0);
+static OF_PROCESS: Account = Account::new(0);
 
 /// Error of a reservation that exceeds the limit.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -37,11 +37,11 @@ pub struct TooMuch {
 #[derive(Debug)]
 #[must_use]
 pub struct Reservation {
-    budget: &'static Budget,
+    budget: &'static Account,
     bytes: u64,
 }
 
-impl fmt::Debug for Budget {
+impl fmt::Debug for Account {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} of {}", Size(self.taken.load(Ordering::Relaxed)), Size(self.limit()))
     }
@@ -57,9 +57,9 @@ pub fn reserve(what: impl fmt::Display, bytes: u64) -> Result<Reservation, TooMu
     OF_PROCESS.reserve(what, bytes)
 }
 
-impl Budget {
-    const fn new(limit: u64) -> Budget {
-        Budget { limit: AtomicU64::new(limit), taken: AtomicU64::new(0) }
+impl Account {
+    const fn new(limit: u64) -> Account {
+        Account { limit: AtomicU64::new(limit), taken: AtomicU64::new(0) }
     }
 
     fn limit(&self) -> u64 {
@@ -170,7 +170,7 @@ mod tests {
 
     #[test]
     fn what_is_given_back_counts_again() {
-        static BUDGET: Budget = Budget::new(1000);
+        static BUDGET: Account = Account::new(1000);
         let first = BUDGET.reserve("apples", 600).expect("there is room");
         let error = BUDGET.reserve("pears", 500).expect_err("400 are left");
         assert_eq!(error, TooMuch { what: "pears".to_owned(), needed: 500, left: 400, limit: 1000 });
@@ -194,7 +194,7 @@ mod tests {
 
     #[test]
     fn lists_grow_as_far_as_there_is_room() {
-        static BUDGET: Budget = Budget::new(10_000);
+        static BUDGET: Account = Account::new(10_000);
         let (mut list, mut room) = (Vec::new(), BUDGET.reserve("numbers", 0).expect("nothing fits"));
         let refused = (0..10_000u64).find_map(|i| room.push(&mut list, i, "numbers").err()).expect("they do not fit");
         // 64, 128, 256 and 512 numbers of 8 bytes are 7680 bytes; 1024 more are too many.

@@ -1,10 +1,7 @@
 //! Ctrl+C during tasks of the renderer.
-use std::{
-    sync::mpsc::{RecvTimeoutError, sync_channel},
-    thread,
-    time::Duration,
-};
+use std::{thread, time::Duration};
 
+use crossbeam_channel::{RecvTimeoutError, bounded};
 use pyo3::prelude::*;
 
 use crate::errors::RenderError;
@@ -22,7 +19,7 @@ pub fn raise_signal(py: Python) -> PyResult<()> {
 pub fn interruptible<T: Send>(py: Python, task: impl FnOnce() -> T + Send, stop: &(dyn Fn() + Sync)) -> PyResult<T> {
     let wait = || {
         thread::scope(|scope| {
-            let (done, is_done) = sync_channel(1);
+            let (done, is_done) = bounded(1);
             scope.spawn(move || done.send(task()));
             let mut signal = Ok(());
             loop {

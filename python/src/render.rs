@@ -1,9 +1,7 @@
 //! Progressive rendering, with a callback that can stop it.
-use std::sync::{
-    Arc,
-    mpsc::{Receiver, RecvTimeoutError, sync_channel},
-};
+use std::sync::Arc;
 
+use crossbeam_channel::{Receiver, RecvTimeoutError, bounded};
 use noisefall::{
     Budget, Camera, Film, Frame, Publish, Published, RenderRequest, RenderSettings, RenderTask, Renderer, Scene, SimdLevel,
     State, Target, Threads,
@@ -67,7 +65,7 @@ impl Job {
         let _memory = Film::reserve([width, height]).map_err(|error| failed(&error))?;
         let _series = self.bounces.then(|| Film::reserve_series([width, height])).transpose().map_err(|error| failed(&error))?;
         let threads = Threads::new(self.threads, SimdLevel::best()).map_err(|error| failed(&error))?;
-        let (wake, woken) = sync_channel(1);
+        let (wake, woken) = bounded(1);
         let renderer = Renderer::new(threads, Publish::Sparse, move || {
             let _ = wake.try_send(());
         });

@@ -1,10 +1,7 @@
 //! The progress bar while a scene is opened. Ctrl+C then ends the program at once.
-use std::{
-    sync::mpsc::{RecvTimeoutError, channel},
-    thread,
-    time::Duration,
-};
+use std::{thread, time::Duration};
 
+use crossbeam_channel::{RecvTimeoutError, bounded};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use noisefall::progress::Progress;
 
@@ -19,7 +16,7 @@ pub fn with_bar<T>(progress: &Progress, task: impl FnOnce() -> T) -> T {
     if ProgressDrawTarget::stderr().is_hidden() {
         return task();
     }
-    let (done, is_done) = channel::<()>();
+    let (done, is_done) = bounded::<()>(0);
     thread::scope(|scope| {
         scope.spawn(move || {
             let go_on = |time| is_done.recv_timeout(time) == Err(RecvTimeoutError::Timeout);

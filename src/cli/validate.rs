@@ -6,7 +6,7 @@ use std::{
 
 use noisefall::{
     file::replace,
-    validate::{Effort, KeptScene, Section, Suite, Validation, csv, drawings, html, json, reference_names},
+    validate::{Effort, FailedScene, Section, Suite, Validation, csv, drawings, html, json, reference_names},
 };
 
 use super::{
@@ -86,7 +86,7 @@ fn write(output: &Path, sections: &[Section], suite: Suite, effort: Effort, seed
 }
 
 /// Writes the scenes that fail, if there are any.
-fn keep(folder: &Path, scenes: &[KeptScene]) -> Result<(), Failure> {
+fn keep(folder: &Path, scenes: &[FailedScene]) -> Result<(), Failure> {
     if !scenes.is_empty() {
         std::fs::create_dir_all(folder).map_err(|error| format!("{}: cannot be created: {error}", folder.display()))?;
     }

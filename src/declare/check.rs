@@ -6,7 +6,7 @@ const FARTHEST: f64 = 1e12;
 
 /// All values of a description that are out of range.
 pub fn check(description: &mut dyn Declare) -> Vec<Problem> {
-    let mut checker = Checker { path: Path::default(), outer: Vec::new(), problems: Vec::new() };
+    let mut checker = RangeCheck { path: Path::default(), outer: Vec::new(), problems: Vec::new() };
     description.parameters(&mut checker);
     checker.problems
 }
@@ -50,21 +50,21 @@ pub fn check_value(parameter: &Parameter, value: &Value<'_>) -> Option<Problem> 
     }
 }
 
-struct Checker {
+struct RangeCheck {
     path: Path,
     /// Lengths of the paths of the enclosing tables.
     outer: Vec<usize>,
     problems: Vec<Problem>,
 }
 
-impl Checker {
+impl RangeCheck {
     fn descend(&mut self, path: Path) {
         self.outer.push(self.path.0.len());
         self.path = path;
     }
 }
 
-impl Parameters for Checker {
+impl Parameters for RangeCheck {
     fn value(&mut self, parameter: &Parameter, value: Value<'_>) {
         self.problems.extend(check_value(parameter, &value).map(|problem| problem.within(&self.path.key(parameter.key))));
     }

@@ -14,7 +14,7 @@ const MOST_PLACES: usize = 5;
 /// Problems at a path or below it: values out of range, undefined names, and invalid cameras, transforms and shapes. Reads no
 /// files.
 pub fn check(description: &mut SceneDescription, path: &Path) -> Option<Problem> {
-    let mut checker = Checker { walk: Walk::to(path), problem: None };
+    let mut checker = PartCheck { walk: Walk::to(path), problem: None };
     description.parameters(&mut checker);
     checker.problem.or_else(|| names(description, path)).or_else(|| part(description, path))
 }
@@ -83,12 +83,12 @@ pub fn in_use(description: &mut SceneDescription, path: &Path) -> Option<Problem
     Some(problem.within(&first).help(format!("use another {what} for {}{more} first", places.join(", "))))
 }
 
-struct Checker<'p> {
+struct PartCheck<'p> {
     walk: Walk<'p>,
     problem: Option<Problem>,
 }
 
-impl Parameters for Checker<'_> {
+impl Parameters for PartCheck<'_> {
     fn value(&mut self, parameter: &Parameter, value: Value<'_>) {
         if self.problem.is_none() && self.walk.takes(parameter.key) {
             let at = self.walk.path_of(parameter.key);

@@ -6,8 +6,8 @@
 //!
 //! ```
 //! use noisefall::{
-//!     declare::{OwnedValue, Path},
-//!     edit::{Document, Edit, History},
+//!     description::materials::Textured,
+//!     edit::{Document, Edit, History, OwnedValue, Path},
 //! };
 //!
 //! let text = "format = 1
@@ -20,7 +20,7 @@
 //!
 //! // One value. A drag applies many such edits with the same gesture; they are undone together.
 //! let roughness = Path::of("materials.gold.conductor.roughness");
-//! let value = OwnedValue::TexturedNumber(noisefall::declare::Textured::Constant(0.4));
+//! let value = OwnedValue::TexturedNumber(Textured::Constant(0.4));
 //! let drag = history.gesture();
 //! history.drag(&mut document, &Edit::set(roughness, value), drag)?;
 //! assert!(document.text().contains("roughness = 0.4 } # worn"));
@@ -119,4 +119,7 @@ pub use self::{
     tree::Tree,
 };
 #[doc(inline)]
-pub use crate::shape::Placement;
+pub use crate::{
+    declare::{OwnedValue, Path},
+    shape::Placement,
+};

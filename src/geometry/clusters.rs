@@ -6,7 +6,7 @@ use super::{
     Shape, Sphere,
     bounding_sphere::BoundingSphere,
     bvh::{Bvh, NONE},
-    object::{Kind, Object},
+    object::{Object, ObjectKind},
 };
 
 /// Maximum number of spheres of a cluster (4 is slower).
@@ -50,7 +50,7 @@ type Ball = (u32, DVec3, f64);
 
 fn sphere(object: &Object) -> Option<Ball> {
     match object.kind {
-        Kind::Analytic { first, shape: Shape::Sphere { center, radius, .. } } => Some((first, *center, *radius)),
+        ObjectKind::Analytic { first, shape: Shape::Sphere { center, radius, .. } } => Some((first, *center, *radius)),
         _ => None,
     }
 }
@@ -82,7 +82,7 @@ mod tests {
         let sizes = |count: usize| {
             let object = |(first, shape)| Object {
                 bounds: Shape::bounds(shape, &Motion::default()),
-                kind: Kind::Analytic { first, shape },
+                kind: ObjectKind::Analytic { first, shape },
             };
             let mut objects: Vec<Object> = (0..).zip(&spheres[..count]).map(object).collect();
             let clusters = take_clusters(&mut objects, DVec3::ZERO);

@@ -70,8 +70,8 @@ impl Lists {
 
     /// The nearest intersection with a sphere.
     #[inline(always)]
-    fn nearest_sphere<L: Lanes>(&self, l: L, o: V<L>, d: V<L>) -> Nearest<L> {
-        let mut nearest = Nearest::none(l);
+    fn nearest_sphere<L: Lanes>(&self, l: L, o: V<L>, d: V<L>) -> NearestListed<L> {
+        let mut nearest = NearestListed::none(l);
         for (id, sphere) in &self.spheres {
             if let Some(t) = sphere.intersect(o, d) {
                 nearest.meet(t, l.u(*id));
@@ -150,15 +150,15 @@ fn append<T>(list: &mut Vec<(u32, T)>, first: u32, shape: T) -> u32 {
 }
 
 /// The nearest intersection so far.
-struct Nearest<L: Lanes> {
+struct NearestListed<L: Lanes> {
     t: Fraction<L>,
     primitive: U<L>,
 }
 
-impl<L: Lanes> Nearest<L> {
+impl<L: Lanes> NearestListed<L> {
     #[inline(always)]
     fn none(l: L) -> Self {
-        Nearest { t: Fraction::infinite(l), primitive: l.u(MISS) }
+        NearestListed { t: Fraction::infinite(l), primitive: l.u(MISS) }
     }
 
     #[inline(always)]

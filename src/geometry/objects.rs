@@ -12,11 +12,11 @@ use super::{
     bvh::{Bvh, Leaves, Search, Slabs, Stack, traverse},
     instance::Instance,
     lists::{Listed, Lists},
-    object::{Kind, Object},
+    object::{Object, ObjectKind},
 };
 use crate::math::{F, Lanes, M, MAX_LANES, One, U, V};
 
-/// The cost of a tree, in tests of all lanes against a flat shape: if the sum of [`Kind::cost`] is less, a tree is slower
+/// The cost of a tree, in tests of all lanes against a flat shape: if the sum of [`ObjectKind::cost`] is less, a tree is slower
 /// (measured with 16 lanes on fields of 4 to 512 spheres, and of 4 to 128 cuboids, cylinders and meshes).
 const COST_OF_TREE: f32 = 64.0;
 /// Objects that more than one in this number of rays would hit are not in the tree.
@@ -100,8 +100,8 @@ impl Objects {
         let mut lists = Lists::default();
         // In the order of the leaves, so that what is near in the tree is near in memory.
         let item = |&number: &u32| match objects[number as usize].kind {
-            Kind::Analytic { first, shape } => Item::Listed(lists.push(first, shape, near)),
-            Kind::Instance(index) => Item::Instance(index),
+            ObjectKind::Analytic { first, shape } => Item::Listed(lists.push(first, shape, near)),
+            ObjectKind::Instance(index) => Item::Instance(index),
         };
         let items = order.iter().map(item).collect();
         Objects { bvh, items, lists }

@@ -3,7 +3,7 @@ use std::time::{Duration, Instant};
 
 use super::{
     batch::Batch,
-    bright::{set_aside, share_bright},
+    bright::BrightSharing,
     interrupted::Interrupted,
     records::Path,
     trace::{Observer, PathStage, trace_in},
@@ -151,8 +151,9 @@ pub fn trace_profiled(
     in_lanes!(level, l => trace_in(l, work, batch, interrupted, &mut clock))?;
     let Some(thresholds) = work.thresholds else { return Ok(()) };
     clock.last = Instant::now();
-    set_aside(work, thresholds, batch);
-    share_bright(level, work, thresholds, batch, interrupted)?;
+    let sharing = BrightSharing { work, thresholds };
+    sharing.set_aside(batch);
+    sharing.share(level, batch, interrupted)?;
     clock.after(PathStage::Reuse, batch);
     Ok(())
 }

@@ -7,7 +7,7 @@ use crate::{
 };
 
 /// The result of Russian roulette.
-pub(super) struct Survival<L: Lanes> {
+pub(super) struct Survivors<L: Lanes> {
     pub alive: M<L>,
     /// Throughput of the survivors.
     pub throughput: V<L>,
@@ -25,11 +25,11 @@ pub(super) fn survive<L: Lanes>(
     u: F<L>,
     throughput: V<L>,
     scale: F<L>,
-) -> Survival<L> {
+) -> Survivors<L> {
     if !roulette.plays_at(reflection) {
         // Below the normal numbers an albedo above 1/2 rounds the throughput back to what it was: such a path would never end.
-        return Survival { alive: throughput.max_component().above(f32::MIN_POSITIVE), throughput, probability: l.f(1.0) };
+        return Survivors { alive: throughput.max_component().above(f32::MIN_POSITIVE), throughput, probability: l.f(1.0) };
     }
     let p = roulette.probability(l, throughput, scale);
-    Survival { alive: u.lt(p), throughput: throughput * (1.0 / p), probability: p }
+    Survivors { alive: u.lt(p), throughput: throughput * (1.0 / p), probability: p }
 }

@@ -7,7 +7,7 @@ use super::{
     queue::Register,
     queues::HitQueues,
     records::{Chart, Detail, Hit, NormalShadowing, Path, Shadow, Transmittance},
-    roulette::{Survival, survive},
+    roulette::{Survivors, survive},
     work::Work,
 };
 use crate::{
@@ -22,7 +22,7 @@ use crate::{
 pub(super) struct Shading<'a, L: Lanes, K: Shade> {
     pub live: M<L>,
     pub hit: Hit<L>,
-    pub vertex: Vertex<L>,
+    pub vertex: ShadingVertex<L>,
     pub bsdf: K::Bsdf<'a, L>,
     pub coordinates: ReflectionCoordinates<L>,
     /// Number of reflections of the paths, including this one.
@@ -47,7 +47,7 @@ pub(super) struct LightEstimate<L: Lanes> {
 /// A next direction, and its effect on the path.
 pub(super) struct Reflected<L: Lanes> {
     pub sample: BsdfSample<L>,
-    pub survival: Survival<L>,
+    pub survival: Survivors<L>,
     pub path: Path<L>,
     pub goes_on: M<L>,
 }
@@ -134,7 +134,7 @@ impl<'a, L: Lanes, K: Shade> Shading<'a, L, K> {
     /// The lobe for light selection.
     #[inline(always)]
     pub fn lobe(&self, l: L) -> Lobe<L> {
-        let Vertex { frame, n, wo, .. } = &self.vertex;
+        let ShadingVertex { frame, n, wo, .. } = &self.vertex;
         let wo = if K::GLOSSY { frame.world_from_local(*wo) } else { *n };
         Lobe { wo, alpha: K::alpha(l, &self.bsdf) }
     }
@@ -148,14 +148,14 @@ pub(super) fn read_vertex<L: Lanes, K: Shade>(
     queues: &HitQueues,
     Register { start, live }: Register<L>,
     hit: &Hit<L>,
-) -> (Vertex<L>, Option<Chart<L>>) {
+) -> (ShadingVertex<L>, Option<Chart<L>>) {
     if !K::DETAILED {
-        return (Vertex::plain(l, hit), None);
+        return (ShadingVertex::plain(l, hit), None);
     }
     let mut detail = Detail::read(l, &queues.details, start);
     // Lanes past the end may say anything: they take a material of this kind, whose rows can be read as such.
     detail.surface = live.pick(detail.surface, l.u(detail.surface.to_array()[0]));
-    let mut vertex = Vertex::detailed(hit, &detail);
+    let mut vertex = ShadingVertex::detailed(hit, &detail);
     if !(K::CHARTED && work.scene.surfaces.charted) {
         return (vertex, None);
     }
@@ -195,7 +195,7 @@ pub(super) fn read_bsdf<'a, L: Lanes, K: Shade>(
 }
 
 /// A surface point to shade.
-pub(super) struct Vertex<L: Lanes> {
+pub(super) struct ShadingVertex<L: Lanes> {
     pub frame: Frame<L>,
     /// Shading normal on the viewer's side.
     pub n: V<L>,
@@ -213,12 +213,12 @@ pub(super) struct Vertex<L: Lanes> {
     medium: U<L>,
 }
 
-impl<L: Lanes> Vertex<L> {
+impl<L: Lanes> ShadingVertex<L> {
     /// Builds a vertex whose shading normal is the geometric one, and which does not need the direction to the viewer.
     #[inline(always)]
     fn plain(l: L, hit: &Hit<L>) -> Self {
         let local = Local { material: l.u(0), colour: hit.colour, alpha: l.f(0.0), front: l.first(L::N) };
-        Vertex {
+        ShadingVertex {
             frame: Frame::new(hit.n),
             n: hit.n,
             wo: V::splat(l, [0.0, 0.0, 1.0]),
@@ -240,7 +240,7 @@ impl<L: Lanes> Vertex<L> {
             alpha: detail.alpha,
             front: surface::is_set(detail.surface, surface::FRONT),
         };
-        Vertex {
+        ShadingVertex {
             wo: frame.local_from_world(detail.wo),
             frame,
             n: detail.n,

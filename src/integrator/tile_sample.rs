@@ -1,6 +1,6 @@
 //! One sample of every pixel of a tile, with all that the settings ask for.
 use super::{
-    batch::Batch, bidirectional::trace_both_ends, bright::trace_bright, interrupted::Interrupted, trace::trace_alone, work::Work,
+    batch::Batch, bidirectional::trace_both_ends, bright::BrightSharing, interrupted::Interrupted, trace::trace_alone, work::Work,
 };
 use crate::math::{SimdLevel, in_few_lanes};
 
@@ -11,7 +11,7 @@ pub fn trace(level: SimdLevel, work: &Work, batch: &mut Batch, interrupted: &dyn
         return in_few_lanes!(level, l => trace_both_ends(l, work, rays, batch, interrupted, &mut ()));
     }
     match work.thresholds {
-        Some(thresholds) => trace_bright(level, work, thresholds, batch, interrupted),
+        Some(thresholds) => BrightSharing { work, thresholds }.trace(level, batch, interrupted),
         None => trace_alone(level, work, batch, interrupted),
     }
 }

@@ -158,6 +158,11 @@ const fn ior(doc: &'static str) -> Parameter {
 pub trait Compile {
     /// Checks the values and packs them for the kernel.
     fn compile(&self, compiler: &mut MaterialCompiler) -> Result<CompiledMaterial, Problem>;
+
+    /// Whether all light passes unchanged, as with an opacity of 0.
+    fn is_clear(&self) -> bool {
+        false
+    }
 }
 
 impl Material {

@@ -20,4 +20,8 @@ impl Compile for Null {
     fn compile(&self, _: &mut MaterialCompiler) -> Result<CompiledMaterial, Problem> {
         Ok(CompiledMaterial::black())
     }
+
+    fn is_clear(&self) -> bool {
+        true
+    }
 }

@@ -2,6 +2,7 @@
 pub mod alias;
 mod dimension;
 pub mod filter;
+pub mod gradient_noise;
 pub mod hash;
 #[cfg(test)]
 pub(crate) mod readings;

@@ -98,7 +98,6 @@ impl Scene {
         let emits_from_isosurface =
             |object: &Object| object.emission.is_some() && matches!(object.shape, Shape::Isosurface { .. });
         let is_smooth = |object: &Object| matches!(&object.shape, Shape::Mesh { data, .. } if !data.normals.is_empty());
-        let words = || surfaces.rows.iter().map(|row| row[3].to_bits());
         let transmits =
             |word: u32| Stage::ALL.get((word >> STAGE_SHIFT & STAGE_MASK) as usize).is_some_and(|stage| stage.transmits());
         let obstacles = [
@@ -107,8 +106,8 @@ impl Scene {
             (!surfaces.relief.is_empty(), "bump or normal maps"),
             (is(is_smooth), "meshes with normals at their vertices"),
             (is(emits_from_isosurface), "isosurfaces that emit light"),
-            (words().any(|word| word & SELF_LIT != 0) || self.lights.emitters.are_translucent(), "translucent lamps"),
-            (words().any(|word| word & ONE_SIDED != 0 && transmits(word)), "glass with one side"),
+            (surfaces.words().any(|word| word & SELF_LIT != 0) || self.lights.emitters.are_translucent(), "translucent lamps"),
+            (surfaces.words().any(|word| word & ONE_SIDED != 0 && transmits(word)), "glass with one side"),
         ];
         obstacles.into_iter().find_map(|(holds, obstacle)| holds.then_some(obstacle))
     }

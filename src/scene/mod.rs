@@ -91,8 +91,9 @@ const MOST_NESTED: usize = 4;
 /// Dielectrics that are looked at for media within each other.
 const MOST_LOOKED_AT: usize = 256;
 
-/// A compiled scene, shared between threads. It does not change, except that two values are computed at their first use and then
-/// kept: what it pays to share, and the warnings. Both depend on the scene alone.
+/// A compiled scene, shared between threads. It does not change, except that four values are computed at their first use and then
+/// kept: what it pays to share, the estimator that `auto` stands for, how paths start at the lights, and the warnings. All depend on the
+/// scene alone.
 pub struct Scene {
     /// What the window and reports call the scene.
     pub title: String,

@@ -8,10 +8,7 @@ use super::{
     setting::Setting,
     wording::{certainty, command, error, mean_error, percent, significant, slope, verdict},
 };
-use crate::{
-    report,
-    scene::{Reuse, Sharing},
-};
+use crate::{report, scene::Reuse};
 
 const STYLE: &str = "
 :root { --width: 72rem; }
@@ -199,18 +196,13 @@ fn row(place: usize, outcome: &Outcome, shown: &[Setting], findings: &Findings) 
 pub fn values(setting: Setting, outcome: &Outcome) -> String {
     let only_this_differs = |twin: &&_| setting.with(twin, &outcome.settings) == outcome.settings;
     let same = outcome.twins.iter().filter(only_this_differs).map(|twin| setting.value(twin));
-    let values: Vec<String> = std::iter::once(setting.value(&outcome.settings)).chain(same).collect();
+    let values = std::iter::once(setting.value(&outcome.settings)).chain(same).collect::<Vec<_>>().join(" = ");
     let became = match setting {
-        Setting::Reuse if outcome.settings.reuse == Reuse::Auto => match outcome.sharing {
-            Sharing::Nothing => ": off",
-            Sharing::Suffixes => ": on",
-            Sharing::BrightSamples => ": bright",
-            Sharing::Both => ": both",
-        },
-        Setting::Adaptive if outcome.settings.adaptive && !outcome.adapts => ": without effect",
-        _ => "",
+        Setting::Reuse if outcome.settings.reuse == Reuse::Auto => outcome.sharing.reuse().name(),
+        Setting::Adaptive if outcome.settings.adaptive && !outcome.adapts => "without effect",
+        _ => return values,
     };
-    values.join(" = ") + became
+    format!("{values}: {became}")
 }
 
 /// Why a combination is not ranked; empty if it is.

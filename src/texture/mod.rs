@@ -89,6 +89,9 @@ pub trait Texturing: Kind {
 
 /// How a texture varies.
 pub trait Pattern {
+    /// Whether it needs the colours of vertices.
+    const READS_VERTICES: bool = false;
+
     /// Its properties besides its colours; `textures` holds those that it refers to.
     fn summary(&self, textures: &Textures) -> Summary;
 
@@ -159,12 +162,15 @@ pub struct Textures {
 impl Textures {
     /// Adds a texture and returns its id. Textures that it refers to must have been added before.
     pub fn push(&mut self, texture: Texture) -> u32 {
+        fn reads_vertices<P: Pattern>(_: &P) -> bool {
+            P::READS_VERTICES
+        }
         let Summary { mean, maximum, steps: [u, v, p], lookups } = in_texture!(&texture, pattern => pattern.summary(self));
         self.means.push(mean);
         self.maxima.push(maximum);
         self.steps.push([u, v, p, 0.0]);
         self.lookups.push(lookups);
-        self.use_vertices |= matches!(texture, Texture::VertexColor(_));
+        self.use_vertices |= in_texture!(&texture, pattern => reads_vertices(pattern));
         self.textures.push(texture);
         self.textures.len() as u32 - 1
     }

@@ -42,6 +42,8 @@ impl Texturing for VertexColor {
 pub struct VertexLookup(pub Channel);
 
 impl Pattern for VertexLookup {
+    const READS_VERTICES: bool = true;
+
     /// Vertex colours are at most 1. Their mean depends on the mesh; that of white stands for it.
     fn summary(&self, _: &Textures) -> Summary {
         Summary { mean: [1.0; 3], maximum: [1.0; 3], steps: [Summary::COARSEST, Summary::COARSEST, f32::INFINITY], lookups: 0 }

@@ -28,7 +28,7 @@ pub use self::{
     report::html,
     sections::{BlockZScores, block_z_scores, reference_names},
     statement::{Noticed, Statement},
-    stress::KeptScene,
+    stress::FailedScene,
 };
 #[cfg(test)]
 use crate::scene::InjectedFault;

@@ -17,7 +17,7 @@ mod window_system;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 pub use app::App;
-pub use background::{loader::GivenScene, preferences::Preferences};
+pub use background::{opened_scene::GivenScene, preferences::Preferences};
 use noisefall::{
     math::SimdLevel,
     render::{pass::panic_message, threads::Threads},

@@ -65,6 +65,13 @@ fn no_folder_is_exempt() {
 }
 
 #[test]
+fn a_module_with_a_folder_is_in_it() {
+    for file in source_files(&source()) {
+        assert!(!file.with_extension("").is_dir(), "{}: move it to mod.rs in the folder beside it", file.display());
+    }
+}
+
+#[test]
 fn a_circle_is_found_behind_a_chain() {
     let arrows = |arrows: &[(&str, &str)]| {
         let mut all: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();

@@ -15,7 +15,7 @@ use noisefall::{
     math::SimdLevel,
     render::{Budget, Display, RenderRequest, image_file::Format, sharing::resolved, threads::Threads, truth::Reference},
     render_file::Target,
-    scene::{Estimator, Scene},
+    scene::{Estimator, RenderSettings, Scene},
 };
 
 pub use self::arguments::Arguments;
@@ -67,11 +67,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
         render_memory::reserve(&layers.0, arguments.denoise, arguments.keep.is_asked() || resumed.is_some(), camera.resolution);
     let _memory = memory.map_err(|error| error.to_string())?;
     let reference = Reference::of(&scene);
-    let mismatch = reference.as_ref().and_then(|truth| truth.mismatch(camera.resolution));
-    mismatch.iter().for_each(|mismatch| tell(&format!("note: {mismatch}")));
-    let infinite = scene.infinite_variance(&settings);
-    let missing = scene.lacks_light_paths(&settings);
-    scene.warnings().iter().chain(&infinite).chain(&missing).for_each(|warning| tell(&format!("note: {warning}")));
+    print_notes(&scene, &settings, reference.as_ref(), camera.resolution);
     let threads = || Threads::new(arguments.threads.into(), SimdLevel::best()).map_err(|error| error.to_string());
     let of_images = threads()?;
     if settings.estimator == Estimator::Auto {
@@ -108,6 +104,14 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
         }
     }
     rendering.finish().map(|()| ExitCode::SUCCESS)
+}
+
+/// Prints what is legal but probably not meant.
+fn print_notes(scene: &Scene, settings: &RenderSettings, reference: Option<&Reference>, resolution: [u32; 2]) {
+    let mismatch = reference.and_then(|truth| truth.mismatch(resolution));
+    let (infinite, missing) = (scene.infinite_variance(settings), scene.lacks_light_paths(settings));
+    let notes = mismatch.iter().chain(scene.warnings()).chain(&infinite).chain(&missing);
+    notes.for_each(|note| tell(&format!("note: {note}")));
 }
 
 /// The title of a scene, or else the name of its file.

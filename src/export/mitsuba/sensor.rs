@@ -2,7 +2,6 @@
 use super::{context::Export, emitters::look_at, markup::Element};
 use crate::{
     declare::{OneOf, Textured},
-    material::Material,
     sampling::{Filter, Sampler},
     scene::{Projection, Roulette, description::CameraDescription},
 };
@@ -23,7 +22,7 @@ impl Export<'_> {
         let settings = &self.description.render.settings;
         let is_open = self.description.materials.values().any(|material| {
             let is_open = material.opacity.as_ref().is_some_and(|opacity| *opacity != Textured::Constant(1.0));
-            is_open || matches!(material.kind, Material::Null(_))
+            is_open || material.kind.kind().is_clear()
         });
         let element = Element::plugin("integrator", if is_open { "volpath" } else { "path" });
         let depth = settings.max_bounces.map_or(-1, |bounces| i64::from(bounces) + 1);

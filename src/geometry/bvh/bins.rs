@@ -18,13 +18,13 @@ const ITEMS_PER_BIN: usize = 4;
 
 /// A box for computations of four floats at a time; `w` is unused.
 #[derive(Clone, Copy)]
-pub(super) struct Extent {
+pub(super) struct Aabb {
     pub min: Vec4,
     pub max: Vec4,
 }
 
-impl Extent {
-    pub const EMPTY: Extent = Extent { min: Vec4::INFINITY, max: Vec4::NEG_INFINITY };
+impl Aabb {
+    pub const EMPTY: Aabb = Aabb { min: Vec4::INFINITY, max: Vec4::NEG_INFINITY };
 
     #[inline(always)]
     pub fn add(&mut self, min: Vec4, max: Vec4) {
@@ -42,12 +42,12 @@ impl Extent {
 
 #[derive(Clone, Copy)]
 struct Bin {
-    extent: Extent,
+    extent: Aabb,
     count: u32,
 }
 
 impl Bin {
-    const EMPTY: Bin = Bin { extent: Extent::EMPTY, count: 0 };
+    const EMPTY: Bin = Bin { extent: Aabb::EMPTY, count: 0 };
 
     #[inline(always)]
     fn add(&mut self, other: &Bin) {
@@ -72,7 +72,7 @@ pub(super) struct Grid {
 
 impl Grid {
     /// Bins for `count` items with centres (doubled) in `centers`.
-    pub fn new(centers: &Extent, count: usize) -> Grid {
+    pub fn new(centers: &Aabb, count: usize) -> Grid {
         let bins = (count / ITEMS_PER_BIN).clamp(FEWEST, BINS);
         let size = centers.max - centers.min;
         // An axis along which all centres agree, or nearly overflow, has scale 0: all in one bin, which is no split.
@@ -113,7 +113,7 @@ impl Bins {
         }
         for item in items.iter().take(Bins::IN_A_ROW) {
             for (bins, at) in self.0.iter_mut().zip(grid.bins_of(item.center())) {
-                bins[at].add(&Bin { extent: Extent { min: item.min, max: item.max }, count: 1 });
+                bins[at].add(&Bin { extent: Aabb { min: item.min, max: item.max }, count: 1 });
             }
         }
     }
@@ -129,8 +129,8 @@ pub(super) struct Plane {
     pub axis: usize,
     /// The first bin of the right part.
     pub bin: usize,
-    pub left: Extent,
-    pub right: Extent,
+    pub left: Aabb,
+    pub right: Aabb,
 }
 
 /// The plane of lowest cost; `None` if all centres fall into one bin along every axis.

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 
 use super::{
     Bvh,
-    bins::{Extent, Grid, Plane, cheapest_plane},
+    bins::{Aabb, Grid, Plane, cheapest_plane},
     collapse::{Branch, Collapse, Costs},
     item::Item,
 };
@@ -33,9 +33,9 @@ const LARGE_SHARE: usize = 16;
 struct Part {
     start: usize,
     end: usize,
-    bounds: Extent,
+    bounds: Aabb,
     /// The box of the doubled centres.
-    centers: Extent,
+    centers: Aabb,
     /// Whether items with the same content were removed.
     is_distinct: bool,
 }
@@ -43,7 +43,7 @@ struct Part {
 impl Part {
     /// The part of items that start at `start`.
     fn of(items: &[Item], start: usize) -> Part {
-        let (mut bounds, mut centers) = (Extent::EMPTY, Extent::EMPTY);
+        let (mut bounds, mut centers) = (Aabb::EMPTY, Aabb::EMPTY);
         for item in items {
             bounds.add(item.min, item.max);
             centers.add(item.center(), item.center());
@@ -179,7 +179,7 @@ fn most_branches<const LEAF_SIZE: usize>(count: usize) -> usize {
 
 /// Moves the items left of the plane to the front.
 fn partition(items: &mut [Item], part: Part, grid: &Grid, plane: &Plane) -> [Part; 2] {
-    let (mut left, mut right) = (Extent::EMPTY, Extent::EMPTY);
+    let (mut left, mut right) = (Aabb::EMPTY, Aabb::EMPTY);
     let (mut middle, mut end) = (0, items.len());
     while middle < end {
         let center = items[middle].center();

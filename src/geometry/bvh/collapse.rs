@@ -7,7 +7,7 @@
 //! largest children until there are eight, leaves half of the slots empty, mostly at the bottom, where most nodes are.
 use super::{
     LEAF, Node, WIDTH,
-    bins::Extent,
+    bins::Aabb,
     item::{Item, NONE},
 };
 
@@ -47,13 +47,13 @@ impl Shares {
 
 impl Branch {
     /// A leaf, with the costs of its forests.
-    pub fn leaf(bounds: &Extent, first: usize, count: usize) -> (Branch, Costs) {
+    pub fn leaf(bounds: &Aabb, first: usize, count: usize) -> (Branch, Costs) {
         let branch = Branch { link: first as u32, count: count as u32, ..Branch::around(bounds) };
         (branch, [bounds.half_area() * LEAF_COST; WIDTH])
     }
 
     /// A branch over two sides with these costs, the right one of which is `right` branches further, with its own costs.
-    pub fn over(bounds: &Extent, right: usize, [left_costs, right_costs]: &[Costs; 2]) -> (Branch, Costs) {
+    pub fn over(bounds: &Aabb, right: usize, [left_costs, right_costs]: &[Costs; 2]) -> (Branch, Costs) {
         let (mut costs, mut shares) = ([f32::INFINITY; WIDTH], [Shares::default(); WIDTH]);
         for trees in 2..=WIDTH {
             for share in 1..trees {
@@ -77,7 +77,7 @@ impl Branch {
         (Branch { link: right as u32, shares, ..Branch::around(bounds) }, costs)
     }
 
-    fn around(bounds: &Extent) -> Branch {
+    fn around(bounds: &Aabb) -> Branch {
         let (min, max) = (bounds.min.truncate().to_array(), bounds.max.truncate().to_array());
         Branch { min, max, link: 0, count: 0, shares: [Shares::default(); WIDTH] }
     }

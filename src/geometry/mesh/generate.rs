@@ -7,7 +7,7 @@ use super::MeshData;
 use crate::{
     math::{One, V},
     model::smooth_normals,
-    texture::noise::fraction,
+    sampling::gradient_noise::fraction,
 };
 
 /// The triangles of a grid of `columns` × `rows` quads that wraps around in both directions, like a torus. They are

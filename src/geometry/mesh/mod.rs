@@ -64,13 +64,13 @@ pub struct Mesh {
 }
 
 /// The nearest intersection so far; tests leaves for nearer ones.
-struct Nearest<'a> {
+struct NearestTriangle<'a> {
     blocks: &'a [Block],
     ray: Shear,
     slot: u32,
 }
 
-impl<S: Simd> Leaves<S> for Nearest<'_> {
+impl<S: Simd> Leaves<S> for NearestTriangle<'_> {
     #[inline(always)]
     fn meet(&mut self, s: S, leaf: u32, mut t_max: f32) -> f32 {
         let block = &self.blocks[leaf as usize];
@@ -146,7 +146,7 @@ impl Mesh {
         lane: usize,
         search: (f32, f32),
     ) -> (f32, u32) {
-        let mut nearest = Nearest { blocks: &self.blocks, ray: rays.shears.lane(lane), slot: NONE };
+        let mut nearest = NearestTriangle { blocks: &self.blocks, ray: rays.shears.lane(lane), slot: NONE };
         let t = traverse(s, &self.bvh, stack, (&rays.slabs, lane), search, &mut nearest);
         (t, self.triangle_of.get(nearest.slot as usize).copied().unwrap_or(nearest.slot))
     }

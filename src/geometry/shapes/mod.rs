@@ -16,7 +16,7 @@ use super::{
     lists::Lists,
     mesh::Mesh,
     mesh_trees::{MeshBuilder, MeshTrees},
-    object::{Kind, Object},
+    object::{Object, ObjectKind},
     objects::{Objects, few_and_many},
     shape::{Outline, Shape},
     tables::Tables,
@@ -73,19 +73,19 @@ impl Shapes {
             objects.push(Object { bounds: shape.bounds(motion), kind });
         }
         let [mut few, many] = few_and_many(objects);
-        let first = |kind: &Kind| match kind {
-            Kind::Analytic { first, .. } => *first,
-            Kind::Instance(index) => all.instances[*index as usize].first,
+        let first = |kind: &ObjectKind| match kind {
+            ObjectKind::Analytic { first, .. } => *first,
+            ObjectKind::Instance(index) => all.instances[*index as usize].first,
         };
-        let looped = few.iter().filter(|object| matches!(object.kind, Kind::Instance(_)));
+        let looped = few.iter().filter(|object| matches!(object.kind, ObjectKind::Instance(_)));
         all.first_unlisted = looped.chain(&many).map(|object| first(&object.kind)).min().unwrap_or(MISS);
         all.lists.set_clusters(take_clusters(&mut few, near));
         for object in few {
             match object.kind {
-                Kind::Analytic { first, shape } => {
+                ObjectKind::Analytic { first, shape } => {
                     all.lists.push(first, shape, near);
                 }
-                Kind::Instance(index) => all.loops.push(index),
+                ObjectKind::Instance(index) => all.loops.push(index),
             }
         }
         all.objects = (!many.is_empty()).then(|| Objects::new(&many, near));
@@ -130,7 +130,7 @@ impl Shapes {
         motion: &Motion,
         meshes: &mut MeshBuilder,
         near: DVec3,
-    ) -> Result<Kind<'a>, Cancelled> {
+    ) -> Result<ObjectKind<'a>, Cancelled> {
         let first = self.tables.len() as u32;
         let (body, still) = match shape {
             Shape::Mesh { data, map, .. } => {
@@ -142,7 +142,7 @@ impl Shapes {
             Shape::Isosurface { surface, map } => (Body::Isosurface(surface.clone()), *map),
             _ if motion.0.is_empty() => {
                 self.tables.push_shape(shape, near);
-                return Ok(Kind::Analytic { first, shape });
+                return Ok(ObjectKind::Analytic { first, shape });
             }
             _ => {
                 let (mut tables, mut list) = <(Box<Tables>, Box<Lists>)>::default();
@@ -157,7 +157,7 @@ impl Shapes {
             self.tables.push_instance(index);
         }
         self.instances.push(Instance::new(first, body, still, motion, shape));
-        Ok(Kind::Instance(index as u32))
+        Ok(ObjectKind::Instance(index as u32))
     }
 
     /// The triangles of a mesh in the order of its elements.

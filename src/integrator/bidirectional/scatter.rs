@@ -8,7 +8,7 @@ use crate::{
         queue::Register,
         queues::HitQueues,
         records::{Chart, Detail, Hit},
-        shading::{Vertex, read_bsdf, read_vertex},
+        shading::{ShadingVertex, read_bsdf, read_vertex},
         work::Work,
     },
     material::{Bsdf, Local, Shade, Stage, in_stage},
@@ -133,7 +133,7 @@ struct SurfaceHits<'a, 'q, L: Lanes, K: Shade> {
     hits: &'q HitQueues,
     start: usize,
     hit: Hit<L>,
-    vertex: Vertex<L>,
+    vertex: ShadingVertex<L>,
     chart: Option<Chart<L>>,
     kind: std::marker::PhantomData<K>,
 }

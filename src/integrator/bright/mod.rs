@@ -27,70 +27,79 @@ const WIDTH: u32 = 4;
 /// Number of pixels in a group.
 const MEMBERS: usize = (WIDTH * WIDTH) as usize;
 
-/// Traces one sample of every pixel of a tile, and shares those that are bright.
-pub fn trace_bright(
-    level: SimdLevel,
-    work: &Work,
-    thresholds: &Thresholds,
-    batch: &mut Batch,
-    interrupted: &dyn Fn() -> bool,
-) -> Result<(), Interrupted> {
-    in_lanes!(level, l => trace_in(l, work, batch, interrupted, &mut SetAside(thresholds)))?;
-    share_bright(level, work, thresholds, batch, interrupted)
+/// Shares the bright samples of a tile.
+#[derive(Clone, Copy)]
+pub struct BrightSharing<'a> {
+    pub work: &'a Work<'a>,
+    pub thresholds: &'a Thresholds,
 }
 
 /// Takes the bright samples out of a batch whose paths have all ended.
-struct SetAside<'a>(&'a Thresholds);
-
-impl Observer for SetAside<'_> {
-    fn before_sharing(&mut self, work: &Work, batch: &mut Batch) {
-        set_aside(work, self.0, batch);
+impl Observer for BrightSharing<'_> {
+    fn before_sharing(&mut self, _work: &Work, batch: &mut Batch) {
+        self.set_aside(batch);
     }
 }
 
-/// Takes the bright samples out of a batch, before path suffixes are shared.
-pub fn set_aside(work: &Work, thresholds: &Thresholds, batch: &mut Batch) {
-    debug_assert!(work.blocks.is_none(), "groups are those of a tile");
-    let found = batch.bright.get_or_insert_default();
-    found.samples.clear();
-    for (index, radiance) in batch.radiance[..work.slots() as usize].iter_mut().enumerate() {
-        let (column, row) = work.place::<One>(U(index as u32));
-        let place = [column.0, row.0];
-        let is_inside = column.0 < work.size[0] && row.0 < work.size[1];
-        if is_inside && is_bright(radiance, thresholds.at(place)) {
-            found.samples.push(BrightSample { place, radiance: std::mem::take(radiance), n: 1 });
-        }
+impl BrightSharing<'_> {
+    /// Traces one sample of every pixel of the tile, and shares those that are bright.
+    pub fn trace(mut self, level: SimdLevel, batch: &mut Batch, interrupted: &dyn Fn() -> bool) -> Result<(), Interrupted> {
+        in_lanes!(level, l => trace_in(l, self.work, batch, interrupted, &mut self))?;
+        self.share(level, batch, interrupted)
     }
-}
 
-/// Replays the samples that were set aside, as many at a time as a batch takes, and adds them to the radiance of all pixels that share
-/// them.
-pub fn share_bright(
-    level: SimdLevel,
-    work: &Work,
-    thresholds: &Thresholds,
-    batch: &mut Batch,
-    interrupted: &dyn Fn() -> bool,
-) -> Result<(), Interrupted> {
-    let Found { mut samples, mut replays, mut radiance } = *std::mem::take(batch.bright.get_or_insert_default());
-    radiance.clear();
-    radiance.extend_from_slice(batch.radiance());
-    for some in samples.chunks_mut(SLOTS / MEMBERS) {
-        fill(&mut replays, work, some);
-        if !replays.is_empty() {
-            let replay = Work { replays: Some(&replays), blocks: None, thresholds: None, ..*work };
-            trace_alone(level, &replay, batch, interrupted)?;
-        }
-        let mut replayed = batch.radiance();
-        for sample in some {
-            let (of_others, rest) = replayed.split_at(others(work, sample.place).count());
-            divide(work, thresholds, sample, of_others, &mut radiance);
-            replayed = rest;
+    /// Takes the bright samples out of a batch, before path suffixes are shared.
+    pub fn set_aside(self, batch: &mut Batch) {
+        let BrightSharing { work, thresholds } = self;
+        debug_assert!(work.blocks.is_none(), "groups are those of a tile");
+        let found = batch.bright.get_or_insert_default();
+        found.samples.clear();
+        for (index, radiance) in batch.radiance[..work.slots() as usize].iter_mut().enumerate() {
+            let (column, row) = work.place::<One>(U(index as u32));
+            let place = [column.0, row.0];
+            let is_inside = column.0 < work.size[0] && row.0 < work.size[1];
+            if is_inside && is_bright(radiance, thresholds.at(place)) {
+                found.samples.push(BrightSample { place, radiance: std::mem::take(radiance), n: 1 });
+            }
         }
     }
-    batch.radiance[..SLOTS].copy_from_slice(&radiance);
-    batch.bright = Some(Box::new(Found { samples, replays, radiance }));
-    Ok(())
+
+    /// Replays the samples that were set aside, as many at a time as a batch takes, and adds them to the radiance of all pixels that
+    /// share them.
+    pub fn share(self, level: SimdLevel, batch: &mut Batch, interrupted: &dyn Fn() -> bool) -> Result<(), Interrupted> {
+        let Found { mut samples, mut replays, mut radiance } = *std::mem::take(batch.bright.get_or_insert_default());
+        radiance.clear();
+        radiance.extend_from_slice(batch.radiance());
+        for some in samples.chunks_mut(SLOTS / MEMBERS) {
+            fill(&mut replays, self.work, some);
+            if !replays.is_empty() {
+                let replay = Work { replays: Some(&replays), blocks: None, thresholds: None, ..*self.work };
+                trace_alone(level, &replay, batch, interrupted)?;
+            }
+            let mut replayed = batch.radiance();
+            for sample in some {
+                let (of_others, rest) = replayed.split_at(others(self.work, sample.place).count());
+                self.divide(sample, of_others, &mut radiance);
+                replayed = rest;
+            }
+        }
+        batch.radiance[..SLOTS].copy_from_slice(&radiance);
+        batch.bright = Some(Box::new(Found { samples, replays, radiance }));
+        Ok(())
+    }
+
+    /// Divides a sample among the pixels of its group where it is bright. `replayed` is that of the others.
+    fn divide(self, sample: &mut BrightSample, replayed: &[[f32; 4]], sums: &mut [[f32; 4]]) {
+        let of_others = || others(self.work, sample.place).zip(replayed);
+        let all = std::iter::once((sample.place, &sample.radiance)).chain(of_others());
+        let shares = |(place, radiance): &([u32; 2], &[f32; 4])| is_bright(radiance, self.thresholds.at(*place));
+        let n = all.clone().filter(shares).count() as u32;
+        for (place, radiance) in all.filter(shares) {
+            let sum = &mut sums[slot(place)];
+            sum.iter_mut().zip(radiance).for_each(|(sum, x)| *sum += x / n as f32);
+        }
+        sample.n = n;
+    }
 }
 
 /// The replays of samples in the other pixels of their groups.
@@ -100,19 +109,6 @@ fn fill(replays: &mut Replays, work: &Work, samples: &[BrightSample]) {
     for sample in samples {
         others(work, sample.place).for_each(|place| replays.push(pixel(place), pixel(sample.place)));
     }
-}
-
-/// Divides a sample among the pixels of its group where it is bright. `replayed` is that of the others.
-fn divide(work: &Work, thresholds: &Thresholds, sample: &mut BrightSample, replayed: &[[f32; 4]], sums: &mut [[f32; 4]]) {
-    let of_others = || others(work, sample.place).zip(replayed);
-    let all = std::iter::once((sample.place, &sample.radiance)).chain(of_others());
-    let shares = |(place, radiance): &([u32; 2], &[f32; 4])| is_bright(radiance, thresholds.at(*place));
-    let n = all.clone().filter(shares).count() as u32;
-    for (place, radiance) in all.filter(shares) {
-        let sum = &mut sums[slot(place)];
-        sum.iter_mut().zip(radiance).for_each(|(sum, x)| *sum += x / n as f32);
-    }
-    sample.n = n;
 }
 
 fn is_bright(radiance: &[f32; 4], threshold: f32) -> bool {
@@ -180,7 +176,8 @@ mod tests {
             for (place, u) in places().flat_map(|place| (0..ALL).map(move |u| (place, u))) {
                 if is_bright(&f(place, u), BRIGHT) {
                     let replayed: Vec<[f32; 4]> = others(work, place).map(|other| f(other, u)).collect();
-                    divide(work, &thresholds, &mut BrightSample { place, radiance: f(place, u), n: 0 }, &replayed, &mut sums);
+                    let mut sample = BrightSample { place, radiance: f(place, u), n: 0 };
+                    BrightSharing { work, thresholds: &thresholds }.divide(&mut sample, &replayed, &mut sums);
                 }
             }
             for place in places() {

@@ -78,13 +78,13 @@ fn view(eye: DVec3, axis: DVec3) -> Camera {
 }
 
 /// A crossing of a ray with a surface.
-struct Crossing {
+struct WallCrossing {
     distance: f64,
     /// The next position on the ray strictly behind the surface.
     beyond: DVec3,
 }
 
-impl Crossing {
+impl WallCrossing {
     /// A position behind the surface: at the margin, but before the next surface.
     fn behind(&self, scene: &Scene, direction: DVec3, margin: f64) -> DVec3 {
         let room = first_crossing(scene, self.beyond, direction).map_or(f64::INFINITY, |next| next.distance);
@@ -93,7 +93,7 @@ impl Crossing {
 }
 
 /// The first surface along a ray, at the time when the shutter opens.
-fn first_crossing(scene: &Scene, origin: DVec3, direction: DVec3) -> Option<Crossing> {
+fn first_crossing(scene: &Scene, origin: DVec3, direction: DVec3) -> Option<WallCrossing> {
     let l = One;
     let [o, d] = [origin, direction].map(|v| V::splat(l, v.as_vec3().to_array()));
     let time = l.f(0.0);
@@ -106,7 +106,7 @@ fn first_crossing(scene: &Scene, origin: DVec3, direction: DVec3) -> Option<Cros
     let outwards = point.n_geometric.dot(d).lt(l.f(0.0));
     let n = outwards.pick(-point.n_geometric, point.n_geometric);
     let V { x, y, z } = point.p + n * point.error;
-    Some(Crossing { distance: f64::from(nearest.t.0), beyond: glam::Vec3::new(x.0, y.0, z.0).as_dvec3() })
+    Some(WallCrossing { distance: f64::from(nearest.t.0), beyond: glam::Vec3::new(x.0, y.0, z.0).as_dvec3() })
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! The light of lamps at points, in lanes: each lane has a lamp of its own, or all have the same.
 use std::f32::consts::TAU;
 
-use super::compiled::{BY_ANGLE, EVEN, LampRows, PICTURE};
+use super::row::{BY_ANGLE, EVEN, LampRow, LampRows, PICTURE};
 use crate::{
     math::{
         F, Frame, Lanes, M, Pick, U, V,
@@ -12,7 +12,7 @@ use crate::{
 
 /// Lamps in lanes.
 pub struct Beam<L: Lanes> {
-    rows: [[F<L>; 4]; 5],
+    row: LampRow<F<L>>,
 }
 
 /// The way from points to their lamps.
@@ -37,7 +37,7 @@ impl<L: Lanes> Beam<L> {
             l.rows(rows, first + 3),
             l.rows(rows, first + 4),
         ];
-        Beam { rows }
+        Beam { row: LampRow::read(rows) }
     }
 
     /// One lamp in all lanes.
@@ -49,7 +49,7 @@ impl<L: Lanes> Beam<L> {
                 *lane = l.f(*x);
             }
         }
-        Beam { rows: lanes }
+        Beam { row: LampRow::read(lanes) }
     }
 
     /// The way from `p` to the lamp.
@@ -57,8 +57,8 @@ impl<L: Lanes> Beam<L> {
     pub fn way_from(&self, l: L, p: V<L>) -> Way<L> {
         /// Square of the smallest distance, so that no number becomes infinite.
         const NEAREST: f32 = 1e-30;
-        let [x, y, z, w] = self.rows[0];
-        let way = V { x, y, z } - p * w;
+        let LampRow { origin, w, .. } = self.row;
+        let way = vector(origin) - p * w;
         let squared = way.length_squared().max(l.f(NEAREST));
         let length = squared.sqrt();
         let spread = w.above(0.0).pick(1.0 / squared, l.f(1.0));
@@ -68,8 +68,7 @@ impl<L: Lanes> Beam<L> {
     /// The position and, in the lanes of directional lamps, the unit direction towards them.
     #[inline(always)]
     pub fn origin(&self) -> (V<L>, M<L>) {
-        let [x, y, z, w] = self.rows[0];
-        (V { x, y, z }, !w.above(0.0))
+        (vector(self.row.origin), !self.row.w.above(0.0))
     }
 
     /// The axis of the cap of directions that contains all light, and its height: 2 is the sphere. Pictures lie in the hemisphere
@@ -78,10 +77,8 @@ impl<L: Lanes> Beam<L> {
     fn cap(&self, l: L) -> (V<L>, F<L>) {
         let word = self.word();
         let (even, is_cone) = (word.is(EVEN), word.below(PICTURE));
-        let [cone, form] = [self.rows[2], self.rows[4]];
-        let pick = |i: usize| is_cone.pick(cone[i], form[i]);
-        let axis = even.pick(V::splat(l, [0.0, 0.0, 1.0]), V { x: pick(0), y: pick(1), z: pick(2) });
-        let edge = cone[3];
+        let LampRow { axis_or_x, edge, z, .. } = self.row;
+        let axis = even.pick(V::splat(l, [0.0, 0.0, 1.0]), is_cone.pick(vector(axis_or_x), vector(z)));
         // The edge is a cosine, or an angle as negative turns.
         let (_, cos_of_angle) = sin_cos_turns(-edge);
         let cos = word.is(BY_ANGLE).pick(cos_of_angle, edge);
@@ -107,14 +104,13 @@ impl<L: Lanes> Beam<L> {
     /// The power of the beam on its axis.
     #[inline(always)]
     pub fn power(&self) -> V<L> {
-        let [x, y, z, _] = self.rows[1];
-        V { x, y, z }
+        vector(self.row.power)
     }
 
     /// The word of the shape.
     #[inline(always)]
     fn word(&self) -> U<L> {
-        self.rows[1][3].bits()
+        self.row.shape.bits()
     }
 
     /// Lanes that cast the picture of this number: 0 is white.
@@ -140,27 +136,26 @@ impl<L: Lanes> Beam<L> {
     /// The rise of a flat picture's intensity away from its axis, 1/cos³; 1 for other pictures.
     #[inline(always)]
     fn rise(&self, l: L, d: V<L>) -> F<L> {
-        let length = self.rows[4][3];
-        let slant = length / self.form(4, d);
+        let LampRow { z, length, .. } = self.row;
+        let slant = length / d.dot(vector(z));
         length.above(0.0).pick(slant * slant * slant, l.f(1.0))
     }
 
     /// The falloff of a picture's cone; 1 without one.
     #[inline(always)]
     fn dimming(&self, l: L, d: V<L>) -> F<L> {
-        let factor = self.rows[3][3];
-        let [x, y, z, _] = self.rows[4];
-        let axis = V { x, y, z };
+        let LampRow { edge, factor, z, .. } = self.row;
+        let axis = vector(z);
         let place = -turns_of(d.dot(axis), d.cross(axis).length_squared().sqrt());
-        let t = ((place - self.rows[2][3]) * factor).max(l.f(0.0)).min(l.f(1.0));
+        let t = ((place - edge) * factor).max(l.f(0.0)).min(l.f(1.0));
         factor.above(0.0).pick(t, l.f(1.0))
     }
 
     /// The falloff of a cone.
     #[inline(always)]
     fn cone(&self, l: L, d: V<L>) -> F<L> {
-        let ([x, y, z, edge], [a, b, c, factor]) = (self.rows[2], self.rows[3]);
-        let axis = V { x, y, z };
+        let LampRow { axis_or_x, edge, falloff_or_y: [a, b, c], factor, .. } = self.row;
+        let axis = vector(axis_or_x);
         let cos = d.dot(axis);
         let angle = -turns_of(cos, d.cross(axis).length_squared().sqrt());
         let place = self.word().is(BY_ANGLE).pick(angle, cos);
@@ -168,20 +163,19 @@ impl<L: Lanes> Beam<L> {
         t * (a + t * (b + t * c))
     }
 
-    /// A linear form of the direction `d`.
-    #[inline(always)]
-    fn form(&self, row: usize, d: V<L>) -> F<L> {
-        let [x, y, z, _] = self.rows[row];
-        d.dot(V { x, y, z })
-    }
-
     /// Where the direction `d` is in the picture: u to the right and v down, and whether both are in [0, 1].
     #[inline(always)]
     pub fn picture_place(&self, l: L, d: V<L>) -> (F<L>, F<L>, M<L>) {
-        let z = self.form(4, d);
+        let LampRow { axis_or_x, falloff_or_y, z, .. } = self.row;
+        let z = d.dot(vector(z));
         let half = 0.5 / z;
-        let (u, v) = (self.form(2, d) * half + 0.5, 0.5 - self.form(3, d) * half);
+        let (u, v) = (d.dot(vector(axis_or_x)) * half + 0.5, 0.5 - d.dot(vector(falloff_or_y)) * half);
         let (zero, one) = (l.f(0.0), l.f(1.0));
         (u, v, z.above(0.0) & u.ge(zero) & one.ge(u) & v.ge(zero) & one.ge(v))
     }
+}
+
+#[inline(always)]
+fn vector<L: Lanes>([x, y, z]: [F<L>; 3]) -> V<L> {
+    V { x, y, z }
 }

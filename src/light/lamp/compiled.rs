@@ -1,9 +1,12 @@
-//! A compiled lamp, and the rows of numbers that the renderer reads.
+//! A compiled lamp.
 use std::{f64::consts::TAU, sync::Arc};
 
 use glam::DVec3;
 
-use super::falloff::Falloff;
+use super::{
+    falloff::Falloff,
+    row::{BY_ANGLE, BY_COSINE, EVEN, LampRow, LampRows, PICTURE},
+};
 use crate::{declare::Problem, math::colour::luminance, texture::ImageTexture};
 
 /// A lamp as the renderer needs it.
@@ -47,26 +50,6 @@ pub struct Picture {
     /// Angles to the axis, radians: where the light begins to fall, linearly, and where it ends.
     pub cone: Option<[f64; 2]>,
 }
-
-/// The numbers of a lamp.
-///
-/// | row | content |
-/// |---|---|
-/// | 0 | homogeneous position; of a directional lamp the direction towards it and 0 |
-/// | 1 | power, and the word of the shape: [`EVEN`], [`BY_COSINE`], [`BY_ANGLE`], or [`PICTURE`] plus the number of the image |
-/// | 2 | cone: axis, edge; picture: x form, edge of its cone |
-/// | 3 | cone: coefficients of t, t² and t³, and the factor that makes t; picture: y form, the same factor, or 0 without a cone |
-/// | 4 | picture: z form, and its length if the picture is flat |
-pub type LampRows = [[f32; 4]; 5];
-
-/// Equal in all directions.
-pub(super) const EVEN: u32 = 0;
-/// A cone whose falloff depends on the cosine.
-pub(super) const BY_COSINE: u32 = 1;
-/// A cone whose falloff depends on the angle.
-pub(super) const BY_ANGLE: u32 = 2;
-/// The first picture. It is white; images follow.
-pub(super) const PICTURE: u32 = 3;
 
 /// Factor of an edge without falloff.
 const STEEPEST: f64 = 1e30;
@@ -165,43 +148,48 @@ impl Lamp {
 
     /// The rows of the lamp; `image` is the number of its image among those of the scene, which count from 1.
     pub(in crate::light) fn rows(&self, image: u32) -> LampRows {
-        let mut rows = [[0.0; 4]; 5];
-        rows[0] = match self.source {
-            Source::At(position) => row(position, 1.0),
-            Source::Towards(direction) => row(direction, 0.0),
+        let (origin, w) = match self.source {
+            Source::At(position) => (position, 1.0),
+            Source::Towards(direction) => (direction, 0.0),
         };
-        let word = match &self.shape {
-            Shape::Even => EVEN,
-            Shape::Cone { falloff: Falloff::Linear, .. } => BY_ANGLE,
-            Shape::Cone { .. } => BY_COSINE,
-            Shape::Picture(_) => PICTURE + image,
+        let even = LampRow {
+            origin: numbers(origin),
+            w,
+            power: self.power,
+            shape: f32::from_bits(EVEN),
+            axis_or_x: [0.0; 3],
+            edge: 0.0,
+            falloff_or_y: [0.0; 3],
+            factor: 0.0,
+            z: [0.0; 3],
+            length: 0.0,
         };
-        let [r, g, b] = self.power;
-        rows[1] = [r, g, b, f32::from_bits(word)];
-        match &self.shape {
-            Shape::Even => {}
+        let row = match &self.shape {
+            Shape::Even => even,
             Shape::Cone { axis, edge, inner, falloff } => {
-                let (end, factor) = if word == BY_ANGLE { fall([*inner, *edge], turns) } else { fall([*inner, *edge], f64::cos) };
-                rows[2] = row(*axis, end);
-                rows[3] = match falloff {
-                    Falloff::Smooth => [0.0, 3.0, -2.0, factor],
-                    Falloff::Linear => [1.0, 0.0, 0.0, factor],
-                    Falloff::Square => [0.0, 1.0, 0.0, factor],
+                let angles = [*inner, *edge];
+                let (shape, (edge, factor), falloff_or_y) = match falloff {
+                    Falloff::Smooth => (BY_COSINE, fall(angles, f64::cos), [0.0, 3.0, -2.0]),
+                    Falloff::Linear => (BY_ANGLE, fall(angles, turns), [1.0, 0.0, 0.0]),
+                    Falloff::Square => (BY_COSINE, fall(angles, f64::cos), [0.0, 1.0, 0.0]),
                 };
+                LampRow { shape: f32::from_bits(shape), axis_or_x: numbers(*axis), edge, falloff_or_y, factor, ..even }
             }
-            Shape::Picture(Picture { axes, flat, cone, .. }) => {
-                for (row_of_axis, axis) in rows[2..].iter_mut().zip(axes) {
-                    *row_of_axis = row(*axis, 0.0);
+            Shape::Picture(Picture { axes: [x, y, z], flat, cone, .. }) => {
+                let (edge, factor) = cone.map_or((0.0, 0.0), |[inner, edge]| fall([inner.min(edge), edge], turns));
+                LampRow {
+                    shape: f32::from_bits(PICTURE + image),
+                    axis_or_x: numbers(*x),
+                    edge,
+                    falloff_or_y: numbers(*y),
+                    factor,
+                    z: numbers(*z),
+                    length: if *flat { z.length() as f32 } else { 0.0 },
+                    ..even
                 }
-                if let Some([inner, edge]) = *cone {
-                    let (end, factor) = fall([inner.min(edge), edge], turns);
-                    rows[2][3] = end as f32;
-                    rows[3][3] = factor;
-                }
-                rows[4][3] = if *flat { axes[2].length() as f32 } else { 0.0 };
             }
-        }
-        rows
+        };
+        row.pack()
     }
 }
 
@@ -211,15 +199,15 @@ fn turns(angle: f64) -> f64 {
 }
 
 /// What `of` is at the edge, and the factor of t, which is 0 there and 1 at the inner angle.
-fn fall([inner, edge]: [f64; 2], of: impl Fn(f64) -> f64) -> (f64, f32) {
+fn fall([inner, edge]: [f64; 2], of: impl Fn(f64) -> f64) -> (f32, f32) {
     let factor = (1.0 / (of(inner) - of(edge)).max(0.0)).min(STEEPEST);
-    (of(edge), factor as f32)
+    (of(edge) as f32, factor as f32)
 }
 
 fn single(colour: [f64; 3]) -> [f32; 3] {
     colour.map(|x| x as f32)
 }
 
-fn row(v: DVec3, w: f64) -> [f32; 4] {
-    v.extend(w).as_vec4().to_array()
+fn numbers(v: DVec3) -> [f32; 3] {
+    single(v.to_array())
 }

@@ -8,7 +8,8 @@
 //! |---|---|
 //! | `point.rs`, `spot.rs`, `directional.rs`, `projector.rs` | the kinds: description, parameters, compiled lamp |
 //! | `falloff.rs` | how spots fall off |
-//! | `compiled.rs` | a compiled lamp and its rows |
+//! | `compiled.rs` | a compiled lamp |
+//! | `row.rs` | its numbers, as the renderer reads them |
 //! | `beam.rs` | the light of lamps at points, in lanes |
 //! | `table.rs` | all lamps of a scene |
 //! | `plain.rs` | the lamp of the simplest kind with the power of another one |
@@ -19,6 +20,7 @@ mod falloff;
 mod plain;
 pub mod point;
 pub mod projector;
+mod row;
 pub mod spot;
 mod table;
 #[cfg(test)]
@@ -26,10 +28,7 @@ mod tests;
 
 use glam::{DAffine3, DVec3};
 
-pub(super) use self::{
-    beam::Beam,
-    compiled::{LampBound, LampRows},
-};
+pub(super) use self::{beam::Beam, compiled::LampBound, row::LampRows};
 pub use self::{
     compiled::{Lamp, Picture},
     table::{LampRay, Lamps},
@@ -53,6 +52,11 @@ crate::declare::catalogue! {
 pub trait Shine {
     /// The lamp after a transform. Positions, targets and directions are transformed; intensities and angles are not.
     fn compile(&self, map: &DAffine3, resources: &Resources) -> Result<Lamp, Problem>;
+
+    /// The same lamp without its files, so that it can be checked without reading them; `None` if it has none.
+    fn without_files(&self) -> Option<LampKind> {
+        None
+    }
 
     /// Where the lamp stands before its transform; `None` if it is infinitely far away.
     fn position(&self) -> Option<DVec3>;

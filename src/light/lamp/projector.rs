@@ -118,6 +118,10 @@ impl Shine for Projector {
         Ok(Lamp::projector(map.transform_point3(self.position), self.tint.map(|x| x * self.scale), picture))
     }
 
+    fn without_files(&self) -> Option<LampKind> {
+        Some(Projector { image: String::new(), ..self.clone() }.into())
+    }
+
     fn position(&self) -> Option<DVec3> {
         Some(self.position)
     }

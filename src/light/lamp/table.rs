@@ -12,7 +12,7 @@ use crate::{
 /// The lamps of a scene.
 #[derive(Default)]
 pub struct Lamps {
-    /// Five rows for each lamp: see [`super::LampRows`].
+    /// Five rows for each lamp: see [`LampRow`](super::row::LampRow).
     rows: Vec<[f32; 4]>,
     /// Number of lamps.
     count: usize,

@@ -16,7 +16,7 @@ use crate::{
         tile::Tile,
     },
     render_file::{Encode, Encoded, Fields, Reader, RenderFileError, Tag},
-    scene::Sharing,
+    scene::{Reuse, Sharing},
 };
 
 const FILM: Tag = Tag(*b"FILM");
@@ -162,9 +162,8 @@ fn read_film(mut fields: Fields, film: &mut Film) -> Result<(), RenderFileError>
 }
 
 fn sharing_of(number: u8) -> Result<Sharing, RenderFileError> {
-    let known = [Sharing::Nothing, Sharing::Suffixes, Sharing::BrightSamples, Sharing::Both];
-    let of_number = known.into_iter().find(|sharing| *sharing as u8 == number);
-    of_number.ok_or_else(|| RenderFileError::contents("the film shares what is not known"))
+    let of_number = Reuse::ALL.map(Sharing::asked).into_iter().find(|sharing| *sharing as u8 == number);
+    of_number.ok_or_else(|| RenderFileError::contents("the film has an unknown kind of sharing"))
 }
 
 fn read_tile(mut fields: Fields, place: u32, tile: &mut Tile) -> Result<(), RenderFileError> {

@@ -1,6 +1,6 @@
 //! The albedo of the first surface.
 use super::{Field, Quantity, Sources};
-use crate::{declare::Word, math::colour::srgb_from_linear};
+use crate::{declare::Word, integrator::Features, math::colour::srgb_from_linear};
 
 pub(super) struct Albedo;
 
@@ -9,6 +9,10 @@ impl Quantity for Albedo {
         Word { name: "albedo", title: "Albedo", doc: "Colour of the BSDF at the first surface along a camera ray." };
 
     const SHOWS_FEATURES: bool = true;
+
+    fn vector(features: &Features, index: usize) -> Option<(&'static str, [f32; 3])> {
+        Some(("Albedo RGB", *features.albedo.get(index)?))
+    }
 
     fn field(sources: &Sources) -> Field {
         Field::colours_of_features(sources, |features, i| {

@@ -62,6 +62,11 @@ impl View {
         in_view!(self, V => V::IS_DENOISED)
     }
 
+    /// The vector that it shows of the first surface of a pixel, and its name; `None` if it shows none.
+    pub fn vector(self, features: &Features, index: usize) -> Option<(&'static str, [f32; 3])> {
+        in_view!(self, V => V::vector(features, index))
+    }
+
     /// Whether their histogram belongs to it.
     pub fn has_scores(self) -> bool {
         in_view!(self, V => V::HAS_SCORES)
@@ -98,6 +103,11 @@ trait Quantity {
     /// Advice where its data is missing.
     fn missing() -> &'static str {
         "Coming …"
+    }
+
+    /// See [`View::vector`].
+    fn vector(_features: &Features, _index: usize) -> Option<(&'static str, [f32; 3])> {
+        None
     }
 
     /// The values, pixel by pixel.

@@ -1,6 +1,6 @@
 //! The normal of the first surface.
 use super::{Field, Quantity, Sources};
-use crate::declare::Word;
+use crate::{declare::Word, integrator::Features};
 
 pub(super) struct Normals;
 
@@ -12,6 +12,10 @@ impl Quantity for Normals {
     };
 
     const SHOWS_FEATURES: bool = true;
+
+    fn vector(features: &Features, index: usize) -> Option<(&'static str, [f32; 3])> {
+        Some(("n", *features.normal.get(index)?))
+    }
 
     fn field(sources: &Sources) -> Field {
         Field::colours_of_features(sources, |features, i| features.normal[i].map(|c| ((c * 0.5 + 0.5) * 255.0).round() as u8))

@@ -5,7 +5,7 @@ use super::problems::Problems;
 use crate::{
     declare::{Path, Problem, Range},
     image::Encoding,
-    material::{Material, Materials},
+    material::Materials,
     quote,
     scene::{
         MaterialInstance, Properties,
@@ -76,11 +76,11 @@ fn instance<'d>(
     })
 }
 
-/// The opacity of a material; 0 for `null`.
+/// The opacity of a material; 0 where all light passes.
 fn opacity(described: &MaterialDescription, textures: &TextureCompiler) -> Result<NumberSource, Problem> {
     let opacity = described.opacity.as_ref().map(|opacity| textures.number(&OPACITY, opacity, &Range::UNIT)).transpose()?;
-    let is_null = matches!(described.kind, Material::Null(_));
-    Ok(if is_null { NumberSource::Constant(0.0) } else { opacity.unwrap_or(NumberSource::Constant(1.0)) })
+    let is_clear = described.kind.kind().is_clear();
+    Ok(if is_clear { NumberSource::Constant(0.0) } else { opacity.unwrap_or(NumberSource::Constant(1.0)) })
 }
 
 /// A texture without a name, of normals. Materials share it.

@@ -1,7 +1,7 @@
 //! Lamps of a scene file.
 use crate::{
     declare::{Declare, Parameter, Parameters, Value},
-    light::lamp::{LampKind, kinds::Projector},
+    light::lamp::LampKind,
     shape::{Transform, product},
 };
 
@@ -17,17 +17,12 @@ pub struct LampDescription {
 }
 
 impl LampDescription {
-    /// The lamp with white in place of the image that it casts, so that it can be checked without reading files.
+    /// The lamp without its files, so that it can be checked without reading files.
     pub fn without_files(&self) -> LampDescription {
-        let kind = match &self.kind {
-            LampKind::Projector(projector) => Projector { image: String::new(), ..projector.clone() }.into(),
-            other => other.clone(),
-        };
+        let kind = self.kind.kind().without_files().unwrap_or_else(|| self.kind.clone());
         LampDescription { kind, ..self.clone() }
     }
-}
 
-impl LampDescription {
     /// Where the lamp stands after its transforms, metres; `None` if it is infinitely far away.
     pub fn position(&self) -> Option<glam::DVec3> {
         Some(product(&self.transform).ok()?.transform_point3(self.kind.kind().position()?))

@@ -1,11 +1,11 @@
 //! The estimator that a trial of the scene chooses.
-use super::Strategy;
+use super::Weighting;
 use crate::declare::Word;
 
 /// `mis` or `bidirectional`, by a trial of the scene. The integrator itself treats it as `mis`.
 pub(super) struct Auto;
 
-impl Strategy for Auto {
+impl Weighting for Auto {
     const WORD: Word = Word {
         name: "auto",
         title: "Auto",

@@ -1,11 +1,11 @@
 //! Bidirectional path tracing (E. Lafortune and Y. Willems 1993; E. Veach and L. Guibas 1994).
-use super::Strategy;
+use super::Weighting;
 use crate::declare::Word;
 
 /// Paths from the camera and from lights are joined at all of their vertices.
 pub(super) struct Bidirectional;
 
-impl Strategy for Bidirectional {
+impl Weighting for Bidirectional {
     const WORD: Word = Word {
         name: "bidirectional",
         title: "Bidirectional",

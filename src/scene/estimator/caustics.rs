@@ -1,12 +1,12 @@
 //! Path tracing with caustics by light tracing.
-use super::Strategy;
+use super::Weighting;
 use crate::declare::Word;
 
 /// Paths from lights go through mirrors and clear glass to the first other surface, and are joined with the camera there. All other light
 /// comes from paths from the camera.
 pub(super) struct Caustics;
 
-impl Strategy for Caustics {
+impl Weighting for Caustics {
     const WORD: Word = Word {
         name: "caustics",
         title: "Caustics",

@@ -1,6 +1,6 @@
 //! Light tracing (J. Arvo, "Backward Ray Tracing", 1986; P. Dutré, E. Lafortune and Y. Willems, "Monte Carlo Light Tracing with Direct
 //! Computation of Pixel Intensities", 1993).
-use super::Strategy;
+use super::Weighting;
 use crate::declare::Word;
 
 /// Paths start at lights. Every surface point that they reach is joined with the camera.
@@ -8,7 +8,7 @@ use crate::declare::Word;
 /// What the camera sees of a mirror or of clear glass cannot be joined with it, and comes from camera paths as with `mis`.
 pub(super) struct Forward;
 
-impl Strategy for Forward {
+impl Weighting for Forward {
     const WORD: Word = Word {
         name: "forward",
         title: "Forward",

@@ -1,5 +1,5 @@
 //! Next-event estimation: only light samples count, except for lights seen directly or by specular paths.
-use super::Strategy;
+use super::Weighting;
 use crate::{
     declare::Word,
     math::{F, Lanes},
@@ -8,7 +8,7 @@ use crate::{
 /// Only light samples count, except for lights seen directly or by specular paths.
 pub(super) struct Light;
 
-impl Strategy for Light {
+impl Weighting for Light {
     const WORD: Word = Word {
         name: "light",
         title: "Light",

@@ -1,5 +1,5 @@
 //! Multiple importance sampling with the power heuristic (Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997).
-use super::Strategy;
+use super::Weighting;
 use crate::{
     declare::Word,
     math::{F, Lanes},
@@ -8,7 +8,7 @@ use crate::{
 /// Emitter hits and light samples count, combined by the power heuristic.
 pub(super) struct Mis;
 
-impl Strategy for Mis {
+impl Weighting for Mis {
     const WORD: Word = Word {
         name: "mis",
         title: "MIS",

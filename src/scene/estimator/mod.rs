@@ -19,7 +19,7 @@ crate::declare::word_kinds! {
     /// How direct light is estimated. All estimators converge to the same image; they differ in noise.
     #[derive(serde::Serialize, serde::Deserialize)]
     #[serde(rename_all = "lowercase")]
-    pub enum Estimator: Strategy, default Mis {
+    pub enum Estimator: Weighting, default Mis {
         path::Path,
         light::Light,
         mis::Mis,
@@ -79,7 +79,7 @@ impl Estimator {
 }
 
 /// A kind of estimator: the weights of the two strategies that find light.
-trait Strategy {
+trait Weighting {
     const WORD: Word;
 
     /// Its name in the menu of comparisons.

@@ -1,5 +1,5 @@
 //! Plain path tracing (Kajiya, "The Rendering Equation", SIGGRAPH 1986).
-use super::Strategy;
+use super::Weighting;
 use crate::{
     declare::Word,
     math::{F, Lanes},
@@ -8,7 +8,7 @@ use crate::{
 /// Only emitter hits of paths count, and light samples of lamps without surface, which no path can hit.
 pub(super) struct Path;
 
-impl Strategy for Path {
+impl Weighting for Path {
     const WORD: Word = Word {
         name: "path",
         title: "Path",

@@ -53,8 +53,12 @@ impl<'a> BlendRows<'a> {
             let word = BLENDED | if applied.flip { FLIPPED } else { 0 };
             self.surfaces.rows[row] = [f32::from_bits(node), 0.0, 0.0, f32::from_bits(word)];
             // The medium that a camera inside the object is in.
-            let media = parts.map(|part| self.surfaces.varying[part][3]);
-            self.surfaces.varying[row][3] = media.into_iter().find(|medium| medium.to_bits() != 0).unwrap_or(0.0);
+            let media = parts.map(|part| {
+                let [.., medium] = self.surfaces.varying[part];
+                medium
+            });
+            let [.., medium] = &mut self.surfaces.varying[row];
+            *medium = media.into_iter().find(|medium| medium.to_bits() != 0).unwrap_or(0.0);
         }
         self.known.insert(key, row);
         row

@@ -147,12 +147,16 @@ impl Surfaces {
         self.opacity.is_empty()
     }
 
+    /// The words of all rows.
+    pub fn words(&self) -> impl Iterator<Item = u32> {
+        self.rows.iter().map(|[.., word]| word.to_bits())
+    }
+
     fn are_plain(&self) -> bool {
-        let one_sided = |row: &[f32; 4]| row[3].to_bits() & ONE_SIDED != 0;
         !self.textured
             && self.are_opaque()
             && self.stages.iter().all(|stage| *stage == Stage::Plain)
-            && !self.rows.iter().any(one_sided)
+            && self.words().all(|word| word & ONE_SIDED == 0)
     }
 
     /// Error if there are too many materials or media.

@@ -13,6 +13,7 @@ use super::{
 use crate::{
     image::Picture,
     math::{F, Lanes, M, One, SimdLevel, U, V},
+    sampling::gradient_noise::fraction,
 };
 
 fn at(u: f32, v: f32) -> TextureCoordinates<'static, One> {
@@ -20,7 +21,7 @@ fn at(u: f32, v: f32) -> TextureCoordinates<'static, One> {
 }
 
 fn noise_at([x, y, z]: [f32; 3], octaves: u32) -> f32 {
-    noise::fraction(V::<One> { x: F(x), y: F(y), z: F(z) }, 1.0, octaves).0
+    fraction(V::<One> { x: F(x), y: F(y), z: F(z) }, 1.0, octaves).0
 }
 
 fn picture() -> Picture {
@@ -185,8 +186,8 @@ fn octaves_are_twice_as_fine_and_half_as_strong() {
 
 #[test]
 fn scale_is_the_number_of_cells_to_a_metre() {
-    let scaled = |x: f32| noise::fraction(V::<One> { x: F(x), y: F(0.25), z: F(0.75) }, 4.0, 1).0;
-    let plain = |x: f32| noise::fraction(V::<One> { x: F(4.0 * x), y: F(1.0), z: F(3.0) }, 1.0, 1).0;
+    let scaled = |x: f32| fraction(V::<One> { x: F(x), y: F(0.25), z: F(0.75) }, 4.0, 1).0;
+    let plain = |x: f32| fraction(V::<One> { x: F(4.0 * x), y: F(1.0), z: F(3.0) }, 1.0, 1).0;
     (0..100).map(|i| i as f32 * 0.03125).for_each(|x| assert_eq!(scaled(x), plain(x)));
 }
 

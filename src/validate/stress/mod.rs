@@ -38,10 +38,10 @@ struct Trial {
 
 impl Trial {
     /// The file to keep if the scene breaks an invariant.
-    fn kept(&self) -> Option<KeptScene> {
+    fn kept(&self) -> Option<FailedScene> {
         let reason = statements::breaks(self)?;
         let text = format!("# {}\n{}", reason.replace('\n', " "), self.text);
-        Some(KeptScene { name: self.name.clone(), text, reason })
+        Some(FailedScene { name: self.name.clone(), text, reason })
     }
 
     /// The fraction of the light that is lost, and the limit of it.
@@ -54,7 +54,7 @@ impl Trial {
 }
 
 /// A scene file that breaks an invariant.
-pub struct KeptScene {
+pub struct FailedScene {
     /// Name of the file.
     pub name: String,
     /// The text of a scene file that says why it was kept.
@@ -66,7 +66,7 @@ pub struct KeptScene {
 impl Validation {
     /// Runs the stress sections in order. Calls `done` with the number of each section, from 1, when it is finished. Returns the
     /// sections and the scenes that break an invariant.
-    pub fn stress(&self, mut done: impl FnMut(usize, &Section)) -> (Vec<Section>, Vec<KeptScene>) {
+    pub fn stress(&self, mut done: impl FnMut(usize, &Section)) -> (Vec<Section>, Vec<FailedScene>) {
         let (mut sections, mut kept) = (Vec::new(), Vec::new());
         for (i, group) in GROUPS.iter().enumerate() {
             let trials: Vec<Trial> = group.families.iter().flat_map(|family| self.trials(family)).collect();

@@ -1,6 +1,6 @@
 //! Injected faults in the integrator fail scenes, and every scene can be generated again. A test of the program runs a tenth of
 //! them.
-use super::{Dice, Expected, GROUPS, KeptScene, Outcome, Trial, TrialScene, figures::figures, trial::run};
+use super::{Dice, Expected, FailedScene, GROUPS, Outcome, Trial, TrialScene, figures::figures, trial::run};
 use crate::{
     scene::InjectedFault,
     validate::{Effort, SIGMAS, Validation, check::TABLES},
@@ -18,7 +18,7 @@ fn mistakes_of_the_integrator_are_noticed_and_their_scenes_kept() {
         (InjectedFault::NoReweighting, "estimators"),
     ] {
         let family = GROUPS.iter().flat_map(|group| group.families).find(|family| family.name == name).expect("a family");
-        let kept: Vec<KeptScene> = quick(fault).trials(family).iter().filter_map(Trial::kept).collect();
+        let kept: Vec<FailedScene> = quick(fault).trials(family).iter().filter_map(Trial::kept).collect();
         assert!(!kept.is_empty(), "{fault:?} is not noticed by {name}");
         for scene in kept {
             assert!(scene.name.starts_with(name), "{}", scene.name);

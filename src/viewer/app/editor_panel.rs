@@ -8,13 +8,13 @@ use noisefall::{
 };
 
 use super::{new_bump::new_bump, scene_editor::SceneEditor, state::App};
-use crate::viewer::background::loader::OpenedScene;
+use crate::viewer::background::opened_scene::OpenedScene;
 use crate::viewer::dialogs::{
     choose_file::{FileDialog, FilePurpose, texture_in_place},
     unsaved::Leaving,
 };
 use crate::viewer::panels::{
-    inspector::{Asked, Drag, Request, Surroundings},
+    inspector::{Drag, InspectorRequests, Request, Surroundings},
     modes, objects, scene_commands,
     scene_commands::SceneCommand,
     subject::Subject,
@@ -97,7 +97,7 @@ impl App {
     }
 
     /// Makes the edits that the inspector asks for.
-    fn follow_inspector(&mut self, asked: Asked) {
+    fn follow_inspector(&mut self, asked: InspectorRequests) {
         for request in asked.requests {
             let edit = match request {
                 Request::Set { path, value } => Edit::set(path, value),
@@ -183,7 +183,7 @@ fn place_in_file(path: &Path) -> String {
 }
 
 /// Shows the inspector of a part at a path.
-fn inspected(editor: &mut SceneEditor, ui: &mut Ui, part: &mut dyn Declare, path: &Path, size: f64) -> Asked {
+fn inspected(editor: &mut SceneEditor, ui: &mut Ui, part: &mut dyn Declare, path: &Path, size: f64) -> InspectorRequests {
     let description = editor.document.description();
     let [textures, materials]: [Vec<String>; 2] =
         [description.textures.keys().cloned().collect(), description.materials.keys().cloned().collect()];

@@ -34,6 +34,7 @@ mod scene_saving;
 mod selecting;
 mod selection;
 mod session;
+mod shortcuts;
 mod side_panel;
 mod state;
 mod submit;

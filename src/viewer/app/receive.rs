@@ -7,7 +7,7 @@ use noisefall::{
 use super::{file_tasks::OutsideChanges, history::History, scene_editor::SceneEditor, selection::Selection, state::App};
 use crate::viewer::background::{
     catalogue, display_image::DisplayImage, earlier_scenes::EarlierScenes, feature_finder::FeatureFinder,
-    loader::DroppedReference, loader::OpenedScene, recent,
+    loader::DroppedReference, opened_scene::OpenedScene, recent,
 };
 use crate::viewer::instruments::{convergence::curve::Moment, path::inspector::PathInspector};
 

@@ -7,7 +7,7 @@ use noisefall::{
 };
 
 use super::history::{Controls, StopTarget};
-use crate::viewer::background::{earlier_scenes::EarlierScenes, loader::DroppedReference, loader::OpenedScene};
+use crate::viewer::background::{earlier_scenes::EarlierScenes, loader::DroppedReference, opened_scene::OpenedScene};
 use crate::viewer::instruments::{bounces::Bounces, compare::comparison::Comparison};
 
 pub struct Session {

@@ -6,24 +6,11 @@ use super::{
     selection::Selection, session::Session, window_state::Dialogs, window_state::WindowState,
 };
 use crate::viewer::background::{
-    adviser::Adviser,
-    background_task::BackgroundTask,
-    catalogue,
-    catalogue::CatalogueEntry,
-    denoiser::Denoiser,
-    display_pipeline::DisplayPipeline,
-    dropped::DropReader,
-    feature_finder::FeatureFinder,
-    file_watcher::FileWatcher,
-    loader::{GivenScene, Loader},
-    preferences::Preferences,
-    progress_keeper::ProgressKeeper,
-    recovery_keeper::RecoveryKeeper,
-    render_worker::RenderWorkerHandle,
-    saver::Saver,
-    sequence_task::SequenceTask,
-    settler::Settler,
-    tev_link::TevLink,
+    adviser::Adviser, background_task::BackgroundTask, catalogue, catalogue::CatalogueEntry, denoiser::Denoiser,
+    display_pipeline::DisplayPipeline, dropped::DropReader, feature_finder::FeatureFinder, file_watcher::FileWatcher,
+    loader::Loader, opened_scene::GivenScene, preferences::Preferences, progress_keeper::ProgressKeeper,
+    recovery_keeper::RecoveryKeeper, render_worker::RenderWorkerHandle, saver::Saver, sequence_task::SequenceTask,
+    settler::Settler, tev_link::TevLink,
 };
 use crate::viewer::instruments::{convergence::history::History as ErrorHistory, path::inspector::PathInspector};
 use crate::viewer::panels::frame_times::FrameTimes;

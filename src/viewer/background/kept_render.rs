@@ -27,7 +27,7 @@ pub struct OpenedRender {
 }
 
 /// The scene of a render that continues.
-pub struct KeptScene {
+pub struct ReopenedScene {
     pub scene: Arc<Scene>,
     pub remarks: Remarks,
     /// That of a scene of another program.
@@ -36,7 +36,7 @@ pub struct KeptScene {
 }
 
 /// Opens the scene of a file, and what is rendered of it.
-pub fn open_kept(path: &Path, options: &ImportOptions) -> Result<KeptScene, String> {
+pub fn open_kept(path: &Path, options: &ImportOptions) -> Result<ReopenedScene, String> {
     let file = KeptFile::open(path).map_err(|error| error.to_string())?;
     let header = file.header().clone();
     let refused = |differences: &[String]| {
@@ -58,7 +58,7 @@ pub fn open_kept(path: &Path, options: &ImportOptions) -> Result<KeptScene, Stri
     }
     let render = file.read().map_err(|error| error.to_string())?;
     let kept = OpenedRender { file: path.to_owned(), header, render };
-    Ok(KeptScene { scene: request.scene, remarks, description, kept })
+    Ok(ReopenedScene { scene: request.scene, remarks, description, kept })
 }
 
 /// What is needed to write the file of a render.

@@ -15,6 +15,7 @@ pub mod file_watcher;
 pub mod folder;
 pub mod kept_render;
 pub mod loader;
+pub mod opened_scene;
 pub mod outline;
 pub mod preferences;
 pub mod progress_keeper;

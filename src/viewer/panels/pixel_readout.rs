@@ -62,15 +62,11 @@ impl Pixel<'_> {
         let scaled = |at: u32, from: u64, to: u32| (u64::from(at) * u64::from(to) / from) as usize;
         let [x, y] = [scaled(self.at[0], width, features.width), scaled(self.at[1], height, features.height)];
         let index = y * features.width as usize + x;
-        let three = |name: &str, numbers: [f32; 3]| format!("{name} {}", three(numbers.map(f64::from), 3));
-        Some(match view {
-            View::Normals => three("n", *features.normal.get(index)?),
-            View::Albedo => three("Albedo RGB", *features.albedo.get(index)?),
-            _ => {
-                let name = self.materials.get(*features.material.get(index)? as usize);
-                format!("Material {}", name.map_or("none", String::as_str))
-            }
-        })
+        if let Some((name, vector)) = view.vector(features, index) {
+            return Some(format!("{name} {}", three(vector.map(f64::from), 3)));
+        }
+        let name = self.materials.get(*features.material.get(index)? as usize);
+        Some(format!("Material {}", name.map_or("none", String::as_str)))
     }
 }
 

@@ -5,7 +5,7 @@ use egui::{Align, Button, ComboBox, Layout, RichText, vec2};
 
 use crate::viewer::background::{
     catalogue::{BUILT_IN_NAME, CatalogueEntry, SceneRequest, in_full},
-    loader::OpenedScene,
+    opened_scene::OpenedScene,
 };
 use crate::viewer::widgets::quotation::with_quotation_marks;
 

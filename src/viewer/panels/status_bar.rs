@@ -11,7 +11,7 @@ use super::pixel_readout::Pixel;
 use crate::viewer::background::{
     catalogue::{BUILT_IN_STEM, file_stem},
     display_image::ReferenceComparison,
-    loader::OpenedScene,
+    opened_scene::OpenedScene,
 };
 use crate::viewer::widgets::{counted::counted, palette::Palette, quotation::with_quotation_marks, wording::capitalised};
 

@@ -11,7 +11,7 @@ use super::*;
 use crate::viewer::background::{
     catalogue::SceneRequest,
     display_image::ReferenceComparison,
-    loader::{GivenScene, OpenedScene},
+    opened_scene::{GivenScene, OpenedScene},
 };
 use crate::viewer::dialogs::save_target::SaveTarget as File;
 use crate::viewer::instruments::{convergence::curve::Moment, convergence::history::Quantity, tabs::InstrumentTab};

@@ -1,6 +1,8 @@
 //! The latest request wins, and what is not wanted any more is forgotten.
 use std::time::{Duration, Instant};
 
+use noisefall::scene::built_in;
+
 use super::*;
 
 fn wait<T>(mut take: impl FnMut() -> Option<T>) -> T {

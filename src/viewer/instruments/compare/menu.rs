@@ -3,7 +3,7 @@ use egui::Ui;
 use noisefall::{
     declare::OneOf,
     sampling::Sampler,
-    scene::{Estimator, RenderSettings, Reuse, Roulette},
+    scene::{Estimator, RenderSettings, Reuse, Roulette, Sharing},
 };
 
 /// Shows the menu that starts a comparison with one click. Returns the settings of B.
@@ -34,14 +34,8 @@ fn alternatives(settings: &RenderSettings) -> Vec<(String, RenderSettings)> {
     for roulette in Roulette::alternatives() {
         all.push((capitalized(&roulette.words()), RenderSettings { roulette, ..*settings }));
     }
-    let reuses = [
-        (Reuse::On, "Shared paths"),
-        (Reuse::Bright, "Shared bright samples"),
-        (Reuse::Both, "Shared paths and bright samples"),
-        (Reuse::Off, "No path sharing"),
-    ];
-    for (reuse, title) in reuses {
-        all.push(of(title, RenderSettings { reuse, ..*settings }));
+    for reuse in Reuse::ALL.into_iter().filter(|reuse| *reuse != Reuse::Auto) {
+        all.push((capitalized(Sharing::asked(reuse).name()), RenderSettings { reuse, ..*settings }));
     }
     all.push(of("A cap of 3 bounces", RenderSettings { max_bounces: Some(3), ..*settings }));
     all.push(of("Another seed", RenderSettings { seed: settings.seed.wrapping_add(1), ..*settings }));

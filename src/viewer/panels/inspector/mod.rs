@@ -26,7 +26,7 @@ use noisefall::declare::{Declare, Path};
 
 use self::rows::Rows;
 pub use self::{
-    request::{Asked, Drag, Request},
+    request::{Drag, InspectorRequests, Request},
     surroundings::Surroundings,
 };
 
@@ -39,7 +39,7 @@ pub struct Inspector {
 
 impl Inspector {
     /// Shows the parameters of the part of a description at a path.
-    pub fn show(&mut self, ui: &mut Ui, part: &mut dyn Declare, path: &Path, surroundings: &Surroundings) -> Asked {
+    pub fn show(&mut self, ui: &mut Ui, part: &mut dyn Declare, path: &Path, surroundings: &Surroundings) -> InspectorRequests {
         let requests = ui.push_id(path, |ui| {
             let mut rows = Rows::new(ui, path.clone(), surroundings);
             part.parameters(&mut rows);
@@ -53,6 +53,6 @@ impl Inspector {
             _ => Drag::None,
         };
         self.is_dragging = drag == Drag::Going;
-        Asked { requests, drag }
+        InspectorRequests { requests, drag }
     }
 }

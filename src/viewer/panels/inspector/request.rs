@@ -3,7 +3,7 @@ use noisefall::declare::{Family, OwnedValue, Path};
 
 /// The requests of one frame.
 #[derive(Debug, Default, PartialEq)]
-pub struct Asked {
+pub struct InspectorRequests {
     pub requests: Vec<Request>,
     pub drag: Drag,
 }

@@ -9,12 +9,12 @@ use noisefall::{
     texture::TextureKind,
 };
 
-use super::{Asked, Drag, Inspector, Request, Surroundings};
+use super::{Drag, Inspector, InspectorRequests, Request, Surroundings};
 use crate::viewer::widgets::palette::set_fonts;
 
 struct State<T> {
     part: T,
-    asked: Vec<Asked>,
+    asked: Vec<InspectorRequests>,
 }
 
 type Panel<T> = Harness<'static, State<T>>;
@@ -30,7 +30,7 @@ fn inspect<T: Declare + 'static>(part: T) -> Panel<T> {
         }
         let surroundings = Surroundings { textures: &names, materials: &names, count_objects: &|_| 2, size: 1.0 };
         let asked = inspector.show(ui, &mut state.part, &Path::of("part"), &surroundings);
-        if asked != Asked::default() {
+        if asked != InspectorRequests::default() {
             state.asked.push(asked);
         }
     };
@@ -40,7 +40,7 @@ fn inspect<T: Declare + 'static>(part: T) -> Panel<T> {
 /// What was asked for by one click, or by one field.
 fn only<T>(panel: &Panel<T>) -> &Request {
     match &panel.state().asked[..] {
-        [Asked { requests, drag: Drag::None }] if requests.len() == 1 => &requests[0],
+        [InspectorRequests { requests, drag: Drag::None }] if requests.len() == 1 => &requests[0],
         asked => panic!("expected one request: {asked:?}"),
     }
 }

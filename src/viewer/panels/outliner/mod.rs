@@ -26,7 +26,7 @@ use crate::viewer::widgets::{committed_text, palette::Palette};
 
 /// The requests of one frame.
 #[derive(Debug, Default, PartialEq)]
-pub struct Asked {
+pub struct OutlinerRequests {
     /// The part that was clicked.
     pub selected: Option<Subject>,
     /// The action on a part.
@@ -60,10 +60,16 @@ const ROW: f32 = 24.0;
 const GAP: f32 = 2.0;
 
 impl Outliner {
-    /// Shows the parts of a description in the room that is left, one of which may be selected. They are listed anew when its revision
-    /// is another one.
-    pub fn show(&mut self, ui: &mut Ui, description: &SceneDescription, revision: u64, selected: Option<&Subject>) -> Asked {
-        let mut asked = Asked::default();
+    /// Shows the parts of a description in the remaining room. One of them may be selected. The list is made again when the revision
+    /// changes.
+    pub fn show(
+        &mut self,
+        ui: &mut Ui,
+        description: &SceneDescription,
+        revision: u64,
+        selected: Option<&Subject>,
+    ) -> OutlinerRequests {
+        let mut asked = OutlinerRequests::default();
         ui.horizontal(|ui| {
             let label = ui.label("Search").on_hover_text("Shows only the parts whose name or kind contains these letters.");
             let field = TextEdit::singleline(&mut self.search).hint_text("name or kind").desired_width(f32::INFINITY);
@@ -86,7 +92,7 @@ impl Outliner {
         asked
     }
 
-    fn group(&mut self, ui: &mut Ui, group: &Group, menu: &Menu, selected: Option<&Subject>, asked: &mut Asked) {
+    fn group(&mut self, ui: &mut Ui, group: &Group, menu: &Menu, selected: Option<&Subject>, asked: &mut OutlinerRequests) {
         let title = format!("{} ({})", group.title, group.entries.len());
         let header = CollapsingHeader::new(RichText::new(title).strong()).id_salt(group.title).default_open(true);
         header.show_unindented(ui, |ui| {
@@ -111,7 +117,7 @@ impl Outliner {
         });
     }
 
-    fn row(&mut self, ui: &mut Ui, entry: &Entry, menu: &Menu, is_selected: bool, asked: &mut Asked) {
+    fn row(&mut self, ui: &mut Ui, entry: &Entry, menu: &Menu, is_selected: bool, asked: &mut OutlinerRequests) {
         let subject = &entry.subject;
         if self.renamed.as_ref() == Some(subject) {
             return self.name_field(ui, entry, asked);
@@ -150,7 +156,7 @@ impl Outliner {
     }
 
     /// The field that stands in the place of a row while the part is renamed.
-    fn name_field(&mut self, ui: &mut Ui, entry: &Entry, asked: &mut Asked) {
+    fn name_field(&mut self, ui: &mut Ui, entry: &Entry, asked: &mut OutlinerRequests) {
         let id = ui.scope_id();
         let field = ui.horizontal(|ui| {
             let label = ui.label("Name");

@@ -15,7 +15,7 @@ const MOST_SEEN: usize = 12;
 #[derive(Default)]
 struct State {
     description: SceneDescription,
-    asked: Vec<Asked>,
+    asked: Vec<OutlinerRequests>,
 }
 
 type Panel = Harness<'static, State>;
@@ -28,7 +28,7 @@ fn outliner_of_height(description: SceneDescription, height: f32) -> Panel {
     let mut outliner = Outliner::default();
     let draw = move |ui: &mut Ui, state: &mut State| {
         let asked = outliner.show(ui, &state.description, 0, Some(&Subject::Camera));
-        if asked != Asked::default() {
+        if asked != OutlinerRequests::default() {
             state.asked.push(asked);
         }
     };
@@ -62,7 +62,7 @@ fn choose(panel: &mut Panel, part: &str, entries: &[&str]) {
     }
 }
 
-fn last(panel: &Panel) -> &Asked {
+fn last(panel: &Panel) -> &OutlinerRequests {
     panel.state().asked.last().expect("something was asked for")
 }
 
@@ -77,7 +77,7 @@ fn a_click_selects_a_part() {
     ] {
         row(&panel, name).click();
         panel.run_steps(3);
-        assert_eq!(*last(&panel), Asked { selected: Some(subject), action: None });
+        assert_eq!(*last(&panel), OutlinerRequests { selected: Some(subject), action: None });
     }
 }
 
