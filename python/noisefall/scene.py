@@ -36,7 +36,7 @@ class Scene:
 
     @property
     def notes(self) -> str:
-        """Notes for readers."""
+        """Notes about the scene."""
         return self._native.notes
 
     @property

@@ -44,7 +44,7 @@ impl Declare for Blend {
         const SECOND: Parameter = Parameter::new("second", "Name of the second material.").required();
         const BY_SIDE: Parameter = Parameter::new(
             "by_side",
-            "Whether the front is of the first material alone, and the back of the second, whatever the weight.",
+            "Whether the front has the first material and the back the second, whatever the weight.",
         )
         .aliases("sides front_and_back");
         p.value(&FIRST, Value::Name(&mut self.first, Family::Material));

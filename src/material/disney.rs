@@ -52,9 +52,9 @@ pub struct Disney {
     pub ior: f64,
     /// How far the interface reflects in the hue of the base color.
     pub spec_tint: Textured<f64>,
-    /// Fraction of the base, besides metal, that is clear and refracts.
+    /// Fraction of the non-metallic base that is clear and refracts.
     pub spec_trans: Textured<f64>,
-    /// How far the diffuse lobe is that of thin subsurface scattering.
+    /// How strongly the diffuse lobe resembles thin subsurface scattering.
     pub flatness: Textured<f64>,
     /// Amount of light that fibres reflect at grazing angles.
     pub sheen: Textured<f64>,

@@ -74,7 +74,7 @@ impl Declare for RoughPlastic {
             Parameter::new("distribution", "Distribution of the microfacets.").aliases("facets microfacets ndf");
         const INTERNAL_REFLECTANCE: Parameter = Parameter::new(
             "internal_reflectance",
-            "Fraction of the light from the base that the coat returns to it; larger values than that of a smooth coat count as it.",
+            "Fraction of the light from the base that the coat reflects back to it, at most that of a smooth coat.",
         )
         .symbol("R");
         const NONLINEAR: Parameter =

@@ -94,7 +94,7 @@ const MOST_LOOKED_AT: usize = 256;
 /// A compiled scene, shared between threads. It does not change, except that two values are computed at their first use and then
 /// kept: what it pays to share, and the warnings. Both depend on the scene alone.
 pub struct Scene {
-    /// What the window and reports call the scene.
+    /// Name of the scene in the window and in reports.
     pub title: String,
     /// The text of the scene file.
     pub source: SceneText,
@@ -134,7 +134,7 @@ pub struct Scene {
     pub spp: Option<u32>,
     /// Exposure that the scene is displayed with, stops.
     pub exposure: f32,
-    /// What the image converges to, if that is known.
+    /// What the image must converge to, if it is known.
     pub truth: Option<Truth>,
     /// Largest number of media around the middle of a dielectric.
     pub deepest_media: usize,

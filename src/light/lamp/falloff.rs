@@ -16,6 +16,6 @@ words! {
     Falloff {
         Smooth: "smooth", "Smooth", "Smoothstep of the cosine of the angle.";
         Linear: "linear", "Linear", "Linear in the angle.";
-        Square: "square", "Square", "Square of what is linear in the cosine of the angle.";
+        Square: "square", "Square", "Square of a ramp that is linear in the cosine of the angle.";
     }
 }

@@ -16,7 +16,7 @@ fn rows(window: &Window) -> Vec<(&'static str, f32)> {
         "Settings of",
         "Preset",
         "Estimator",
-        "Share paths",
+        "Sharing",
         "Roulette",
         "Survival",
         "Bounce cap",
