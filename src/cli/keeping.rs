@@ -80,7 +80,7 @@ impl KeepOptions {
         if self.every.is_some() && self.checkpoint.is_none() && resumed.is_none() {
             return Some("--every is the time between checkpoints: it needs --checkpoint FILE or --resume FILE".to_owned());
         }
-        (self.anyway && resumed.is_none()).then(|| "--anyway needs the file of a render, as in --resume picture.nf".to_owned())
+        (self.anyway && resumed.is_none()).then(|| "--anyway needs the file of a render, as in --resume image.nf".to_owned())
     }
 
     /// Opens the file of a render. Fails if files of its scene have changed.

@@ -30,7 +30,7 @@ The files come from `render --samples A..B -o NAME.nf`, or from `merge` itself. 
 `render --samples 0..N`. Files of other scenes, cameras, settings or programs are refused, and so are samples that are there twice or \
 missing.
 
-Example: noisefall merge part-*.nf -o picture.exr";
+Example: noisefall merge part-*.nf -o image.exr";
 
 /// Time between two looks at the files.
 const EVERY: &str = "2";

@@ -191,5 +191,5 @@ fn open_window(scene: Option<PathBuf>, options: &SceneOptions) -> Result<(), Fai
 
 #[cfg(not(feature = "viewer"))]
 fn open_window(_: Option<PathBuf>, _: &SceneOptions) -> Result<(), Failure> {
-    Err("this build has no window (feature `viewer` is off); use `noisefall render SCENE -o picture.png`".to_owned())
+    Err("this build has no window (feature `viewer` is off); use `noisefall render SCENE -o image.png`".to_owned())
 }

@@ -81,7 +81,7 @@ impl SequenceOptions {
     pub fn mistake(&self, output: Option<&Output>) -> Option<String> {
         if self.resume == Some(None) && !self.is_asked() {
             return Some(
-                "--resume needs the file of a render, as in --resume picture.nf; without one it continues a sequence".to_owned(),
+                "--resume needs the file of a render, as in --resume image.nf; without one it continues a sequence".to_owned(),
             );
         }
         let is_pattern = |output: &Output| output.file().is_some_and(|path| numbered(path, 1).is_some());

@@ -1,7 +1,7 @@
 //! Disney's principled BSDF, as in Mitsuba.
 //!
 //! B. Burley, "Physically Based Shading at Disney", 2012, and "Extending the Disney BRDF to a BSDF with Integrated Subsurface
-//! Scattering", 2015; W. Jakob et al., "Mitsuba 3", plugin `principled`. With metallic m, spec_trans t and base color c, the BSDF is
+//! Scattering", 2015; W. Jakob et al., "Mitsuba 3", plugin `principled`. With metallic m, spec_trans t and base colour c, the BSDF is
 //! the sum of
 //!
 //! * a diffuse lobe with retro-reflection that grows with the roughness, and `flatness` towards the look of thin subsurface

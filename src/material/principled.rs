@@ -72,9 +72,9 @@ pub struct Principled {
     pub specular_ior: f64,
     /// Fraction of the non-metallic base that is clear and refracts.
     pub transmission_weight: Textured<f64>,
-    /// Color of the light that passes: at each interface, or after the depth.
+    /// Colour of the light that passes: at each interface, or after the depth.
     pub transmission_color: Textured,
-    /// Distance after which the inside has its color; 0 tints the interface. Metres.
+    /// Distance after which the inside has its colour; 0 tints the interface. Metres.
     pub transmission_depth: f64,
     /// Fraction of the surface under a clear coat.
     pub coat_weight: Textured<f64>,

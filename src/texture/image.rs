@@ -1,6 +1,6 @@
 //! Image: the texels of an image, or one of their channels.
 //!
-//! The picture spans the unit square, u to the right and v downwards from its top left corner; texel centres lie at
+//! The image spans the unit square, u to the right and v downwards from its top left corner; texel centres lie at
 //! ((i + ½)/width, (j + ½)/height).
 //!
 //! | part | file |

@@ -9,7 +9,7 @@
 //! | `document.rs`, `buffer.rs`, `accessors.rs`, `container.rs` | JSON, binary data, and the files of both |
 //! | `shapes.rs`, `units.rs` | nodes and meshes |
 //! | `materials/` | materials and the light that surfaces emit |
-//! | `textures.rs`, `pixels.rs` | colors, numbers and images |
+//! | `textures.rs`, `pixels.rs` | colours, numbers and images |
 //! | `lights.rs` | lamps |
 //! | `camera.rs` | the camera |
 mod accessors;

@@ -9,7 +9,7 @@
 //! | `context.rs` | the scene so far, names and remarks |
 //! | `shapes.rs` | shapes and the light that they emit |
 //! | `bsdfs.rs`, `glossy.rs`, `layered.rs` | materials |
-//! | `textures.rs` | colors, numbers and textures |
+//! | `textures.rs` | colours, numbers and textures |
 //! | `emitters.rs` | lamps and backgrounds |
 //! | `sensor.rs` | camera, film, sampler and integrator |
 mod bsdfs;

@@ -144,7 +144,7 @@ impl Objects<'_> {
             Some(name) => format!("material \"{}\", which no library has", quote::piece(name)),
             None => "no material".to_owned(),
         };
-        to.remarks.add(self.file, found, "a grey diffuse surface", "the color is not the author's");
+        to.remarks.add(self.file, found, "a grey diffuse surface", "the colour is not the author's");
         MaterialDescription { kind: Lambertian { albedo: grey }.into(), ..MaterialDescription::default() }
     }
 }

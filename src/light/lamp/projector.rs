@@ -27,7 +27,7 @@ pub struct Projector {
     pub aspect: f64,
     /// Radiant intensity on the axis where the image is 1.
     pub scale: f64,
-    /// Factor of the colors of the image.
+    /// Factor of the colours of the image.
     pub tint: [f64; 3],
     /// Whether a screen that faces it is lit evenly, as by a slide projector; otherwise the intensity is the same in all directions.
     pub flat: bool,

@@ -62,7 +62,7 @@ const KEYS: [(&str, &[(&str, &str)]); 5] = [
             ("F1", "this help"),
             ("F2  F3  F4  F5", "convergence, compare, bounces, pixel"),
             ("F6", "gallery of scenes"),
-            ("Ctrl + or -, Ctrl+0", "larger or smaller interface, and back"),
+            ("Ctrl + or -, Ctrl+0", "larger or smaller interface; reset"),
             ("F11", "full screen"),
             ("F12", "frame times of the window"),
             ("Esc", "close"),

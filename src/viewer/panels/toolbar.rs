@@ -1,4 +1,4 @@
-//! The buttons above the picture.
+//! The buttons above the image.
 use egui::{Button, Ui};
 use noisefall::scene::RenderSettings;
 

@@ -4,7 +4,7 @@ use noisefall::{math::colour::luminance, scene::Camera};
 use super::*;
 
 const WALL: &str = "The camera is inside “left wall”.";
-const BACK: &str = "Back to the last view that showed something";
+const BACK: &str = "Back to the last view with light";
 
 /// Waits for the full picture of what the controls say, and returns its mean luminance.
 fn brightness(window: &mut Window) -> f32 {

@@ -57,7 +57,7 @@ fn the_menu_of_comparisons_changes_what_it_names() {
         ("No roulette", RenderSettings { roulette: Roulette::Off, ..of }),
         ("Roulette of 0.8", RenderSettings { roulette: Roulette::fixed(0.8), ..of }),
         ("Shared paths", RenderSettings { reuse: Reuse::On, ..of }),
-        ("No path sharing", RenderSettings { reuse: Reuse::Off, ..of }),
+        ("No sharing", RenderSettings { reuse: Reuse::Off, ..of }),
         ("A cap of 3 bounces", RenderSettings { max_bounces: Some(3), ..of }),
         ("Another seed", RenderSettings { seed: of.seed + 1, ..of }),
     ] {

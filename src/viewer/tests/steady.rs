@@ -250,7 +250,7 @@ fn a_scene_without_a_picture_says_so_in_its_card() {
     window.key_press(Key::F6);
     wait(&mut window, "all pictures", |app| app.dialogs.gallery.is_complete());
     window.run_steps(3);
-    let says = |shape: &egui::Shape| matches!(shape, egui::Shape::Text(text) if text.galley.text() == "no picture");
+    let says = |shape: &egui::Shape| matches!(shape, egui::Shape::Text(text) if text.galley.text() == "no image");
     assert!(window.output().shapes.iter().any(|clipped| says(&clipped.shape)));
 }
 

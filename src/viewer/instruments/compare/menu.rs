@@ -38,7 +38,7 @@ fn alternatives(settings: &RenderSettings) -> Vec<(String, RenderSettings)> {
         (Reuse::On, "Shared paths"),
         (Reuse::Bright, "Shared bright samples"),
         (Reuse::Both, "Shared paths and bright samples"),
-        (Reuse::Off, "No path sharing"),
+        (Reuse::Off, "No sharing"),
     ];
     for (reuse, title) in reuses {
         all.push(of(title, RenderSettings { reuse, ..*settings }));

@@ -125,7 +125,7 @@ fn estimate(ui: &mut Ui, frame: &Frame, pixel: [u32; 2]) {
         let error = Some(frame.standard_error[index]).filter(|error| error.is_finite());
         let error = error.map_or_else(String::new, |error| format!(" ± {error:.4}"));
         ui.label(format!("L = {y:.4}{error}, N = {}", frame.spp_at(index)))
-            .on_hover_text("These are the luminance of the displayed image, its standard error, and the number of samples.");
+            .on_hover_text("Luminance of the displayed image, its standard error, and the number of samples.");
     }
 }
 
@@ -137,7 +137,7 @@ fn sample_column(ui: &mut Ui, inspector: &mut PathInspector, request: Option<&Re
         inspector.sample = sample;
     }
     if request.is_some_and(|request| light_paths::are_traced(&request.scene, &request.settings)) {
-        ui.weak("Samples are paths from the camera, as MIS weights them. The image has paths from lights, too.");
+        ui.weak("These samples are paths from the camera, weighted by MIS. The image also has paths from lights.");
     }
     ui.weak("Overlay: the path in yellow, with rings at vertices that the camera does not see; light samples in blue, faint if occluded.");
     request.is_some_and(|request| copying::show(ui, inspector, request))
@@ -160,7 +160,7 @@ fn sample_choice(ui: &mut Ui, inspector: &mut PathInspector) {
         if let Some(brightest) = brightest
             && ui
                 .button("Brightest")
-                .on_hover_text("Goes to the sample with the highest luminance, which causes most noise.")
+                .on_hover_text("Goes to the sample with the highest luminance, which causes the most noise.")
                 .clicked()
         {
             *sample = brightest;
