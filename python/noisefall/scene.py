@@ -61,7 +61,7 @@ class Scene:
 
     @property
     def remarks(self) -> list[str]:
-        """What was not taken over exactly from a file of another program."""
+        """What was not imported exactly from a file of another program."""
         return self._native.remarks
 
     def render(

@@ -1,4 +1,4 @@
-//! The colours of textures, for formats that have no word for a texture: its mean, or an image of it.
+//! The colours of textures, for formats without such textures: the mean, or an image.
 use crate::{
     declare::{Resources, Textured},
     import::mitsuba::pictures,

@@ -1,4 +1,4 @@
-//! Where the time of the path loop goes: times and rays of its stages, by bounce.
+//! Profile of the path loop: times and rays of its stages, by bounce.
 use std::time::{Duration, Instant};
 
 use super::{

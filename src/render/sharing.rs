@@ -1,4 +1,4 @@
-//! Decides what pixels share, by a trial of a few tiles.
+//! Decides what pixels share, by a trial on a few tiles.
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use rayon::prelude::*;

@@ -1,4 +1,4 @@
-//! What the file has already.
+//! What the exported file already contains, so that nothing is written twice.
 use serde_json::{Map, Value};
 
 /// A material of the file.

@@ -1,4 +1,4 @@
-//! Lamps of KHR_lights_punctual, and what has no word there.
+//! Lamps of KHR_lights_punctual, and light that glTF cannot express.
 use glam::{DAffine3, DVec3};
 use serde_json::{Map, Value, json};
 

@@ -1,7 +1,7 @@
 //! Scenes in glTF 2.0.
 //!
-//! Each family is a file: it undoes the translation of the same file of the reader, `import/gltf/`. What the format has no word for is a
-//! remark.
+//! Each family is a file: it undoes the translation of the same file of the reader, `import/gltf/`. What the format cannot express
+//! becomes a remark.
 //!
 //! | file | holds |
 //! |---|---|

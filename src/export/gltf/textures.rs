@@ -1,4 +1,4 @@
-//! Textures of materials: what of them is a factor, an image, or the colour of vertices.
+//! Textures of materials as factors, images and vertex colours.
 use std::io::Read;
 
 use serde_json::{Value, json};

@@ -1,7 +1,7 @@
 //! Scenes of Mitsuba 3 in XML.
 //!
 //! Each family of its plugins is a file: it undoes the translation of the same file of the reader, `import/mitsuba/`. What Mitsuba has
-//! no plugin for is a remark.
+//! no plugin for becomes a remark.
 //!
 //! | file | holds |
 //! |---|---|

@@ -96,11 +96,14 @@ impl Declare for Sky {
         const SKY_SCALE: Parameter = Parameter::new("sky_scale", "Factor that multiplies the radiance of the sky.");
         const MODEL: Parameter = Parameter::new("model", "Model of the radiance.");
         const ALBEDO: Parameter = Parameter::new("ground_albedo", "Albedo of the ground, which brightens the sky of `hosek`.");
-        const DIAMETER: Parameter =
-            Parameter::new("sun_diameter", "Angular diameter of the sun. Changing it keeps the irradiance. Default: that of the model.")
-                .unit("degrees");
+        const DIAMETER: Parameter = Parameter::new(
+            "sun_diameter",
+            "Angular diameter of the sun. Changing it keeps the irradiance. Default: that of the model.",
+        )
+        .unit("degrees");
         const ZENITH: Parameter = Parameter::new("zenith", "Direction of the zenith, of any length.");
-        const SUN_SCALE: Parameter = Parameter::new("sun_scale", "Factor that multiplies the radiance of the sun; 0 shows the sky alone.");
+        const SUN_SCALE: Parameter =
+            Parameter::new("sun_scale", "Factor that multiplies the radiance of the sun; 0 shows the sky alone.");
         p.value(&SUN, Value::Vector(&mut self.sun));
         p.number(&TURBIDITY, &mut self.turbidity, Range::linear(1.0, 10.0));
         p.number(&SKY_SCALE, &mut self.sky_scale, Range::log(0.0, 1e12));

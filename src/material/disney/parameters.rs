@@ -13,7 +13,8 @@ pub(super) const ANISOTROPIC: Parameter =
 pub(super) const IOR: Parameter =
     Parameter::new("ior", "Index of refraction. With 1, nothing is reflected, even by metal.").symbol("η").aliases("eta index");
 pub(super) const SPEC_TINT: Parameter =
-    Parameter::new("spec_tint", "How strongly the hue of the base colour tints the reflection off the interface.").aliases("specular_tint");
+    Parameter::new("spec_tint", "How strongly the hue of the base colour tints the reflection off the interface.")
+        .aliases("specular_tint");
 pub(super) const SPEC_TRANS: Parameter =
     Parameter::new("spec_trans", "Fraction of the non-metallic base that is clear and refracts.")
         .aliases("transmission specular_transmission");

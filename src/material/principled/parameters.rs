@@ -8,8 +8,10 @@ pub(super) const BASE_COLOR: Parameter =
 pub(super) const BASE_DIFFUSE_ROUGHNESS: Parameter =
     Parameter::new("base_diffuse_roughness", "Roughness of the diffuse base; 0 is Lambertian.");
 pub(super) const BASE_METALNESS: Parameter = Parameter::new("base_metalness", "Fraction of the base that is metal.");
-pub(super) const SPECULAR_WEIGHT: Parameter =
-    Parameter::new("specular_weight", "Factor that multiplies the reflectance of the interface; for metals, also at grazing angles.");
+pub(super) const SPECULAR_WEIGHT: Parameter = Parameter::new(
+    "specular_weight",
+    "Factor that multiplies the reflectance of the interface; for metals, also at grazing angles.",
+);
 pub(super) const SPECULAR_COLOR: Parameter =
     Parameter::new("specular_color", "Tint of the reflection off the interface; for metals, only at grazing angles.");
 pub(super) const SPECULAR_ROUGHNESS: Parameter =
@@ -21,8 +23,11 @@ pub(super) const TRANSMISSION_WEIGHT: Parameter =
     Parameter::new("transmission_weight", "Fraction of the non-metallic base that is clear and refracts.");
 pub(super) const TRANSMISSION_COLOR: Parameter =
     Parameter::new("transmission_color", "Colour of the transmitted light, at each interface or after `transmission_depth`.");
-pub(super) const TRANSMISSION_DEPTH: Parameter =
-    Parameter::new("transmission_depth", "Distance inside after which light has the colour of transmission; 0 tints at the interface.").unit("m");
+pub(super) const TRANSMISSION_DEPTH: Parameter = Parameter::new(
+    "transmission_depth",
+    "Distance inside after which light has the colour of transmission; 0 tints at the interface.",
+)
+.unit("m");
 pub(super) const COAT_WEIGHT: Parameter = Parameter::new("coat_weight", "Fraction of the surface under a clear coat.");
 pub(super) const COAT_COLOR: Parameter =
     Parameter::new("coat_color", "Fraction of the light that the coat transmits, in and out.");

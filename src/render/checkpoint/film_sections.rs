@@ -164,7 +164,7 @@ fn read_film(mut fields: Fields, film: &mut Film) -> Result<(), RenderFileError>
 fn sharing_of(number: u8) -> Result<Sharing, RenderFileError> {
     let known = [Sharing::Nothing, Sharing::Suffixes, Sharing::BrightSamples, Sharing::Both];
     let of_number = known.into_iter().find(|sharing| *sharing as u8 == number);
-    of_number.ok_or_else(|| RenderFileError::contents("the film shares what is not known"))
+    of_number.ok_or_else(|| RenderFileError::contents("the film has an unknown kind of sharing"))
 }
 
 fn read_tile(mut fields: Fields, place: u32, tile: &mut Tile) -> Result<(), RenderFileError> {

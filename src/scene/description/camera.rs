@@ -92,8 +92,10 @@ impl CameraDescription {
 
 impl Declare for CameraDescription {
     fn parameters(&mut self, p: &mut dyn Parameters) {
-        const SHUTTER: Parameter =
-            Parameter::new("shutter", "Times at which the shutter opens and closes. Motion runs from time 0 to 1. Default: time 0.");
+        const SHUTTER: Parameter = Parameter::new(
+            "shutter",
+            "Times at which the shutter opens and closes. Motion runs from time 0 to 1. Default: time 0.",
+        );
         const SHIFT: Parameter = Parameter::new(
             "shift",
             "Shift of the image plane to the right and up, in widths of the image. Upright lines stay parallel.",

@@ -5,7 +5,7 @@
 //! Rounds: an image of each ─▶ Measured: noise and time ─▶ rank
 //! ```
 //! No reference is needed: images of the same settings with different seeds differ by their noise alone. This holds for every
-//! sampler, because each seed scrambles its points differently. All candidates converge to the same image, because directions,
+//! sampler, because each seed scrambles its points differently. All candidates converge to the same image, because directions
 //! and cap stay as they are.
 mod candidate;
 mod candidates;

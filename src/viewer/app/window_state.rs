@@ -70,7 +70,7 @@ pub struct Dialogs {
     pub unfinished: Option<FoundRender>,
     /// Why the last scene could not be opened.
     pub scene_error: Option<String>,
-    /// The list of what was not taken over exactly is open.
+    /// The list of what was not imported exactly is open.
     pub remarks: bool,
     /// Why the file of the open scene cannot be reloaded.
     pub file_error: Option<String>,

@@ -89,7 +89,9 @@ fn layers_choice(ui: &mut egui::Ui, target: &mut SaveTarget, field: &mut PathFie
     if !has_layers && *target != SaveTarget::Picture {
         return;
     }
-    let choice = ui.checkbox(&mut has_layers, "Layers").on_hover_text("Adds layers with the first surfaces and the sample counts to an EXR.");
+    let choice = ui
+        .checkbox(&mut has_layers, "Layers")
+        .on_hover_text("Adds layers with the first surfaces and the sample counts to an EXR.");
     if choice.changed() {
         *target = if has_layers { SaveTarget::Layers } else { SaveTarget::Picture };
         if has_layers {

@@ -48,8 +48,7 @@ impl StatusBar<'_> {
             let (colour, state) = self.state_text(ui);
             let (dot, _) = ui.allocate_exact_size(egui::vec2(10.0, 10.0), egui::Sense::hover());
             ui.painter().circle_filled(dot.center(), 4.5, colour);
-            ui.label(RichText::new(state).strong())
-                .on_hover_text("State of the renderer, or the target that it has reached.");
+            ui.label(RichText::new(state).strong()).on_hover_text("State of the renderer, or the target that it has reached.");
             if self.opened.is_none() {
                 return;
             }
@@ -116,7 +115,7 @@ impl StatusBar<'_> {
         ui.separator();
     }
 
-    /// The number of things that were not taken over exactly. Returns whether it was clicked.
+    /// The number of things that were not imported exactly. Returns whether it was clicked.
     fn remarks_link(&self, ui: &mut egui::Ui) -> bool {
         let Some(opened) = self.opened.filter(|opened| !opened.remarks.is_empty()) else { return false };
         ui.separator();

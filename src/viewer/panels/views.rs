@@ -48,10 +48,7 @@ pub fn rows(
                 }
                 match pinned {
                     Some(pinned) => {
-                        drop(
-                            ui.weak(format!("{} spp", pinned.spp))
-                                .on_hover_text("Samples per pixel of the pinned image."),
-                        );
+                        drop(ui.weak(format!("{} spp", pinned.spp)).on_hover_text("Samples per pixel of the pinned image."));
                     }
                     None => drop(ui.weak("none")),
                 }

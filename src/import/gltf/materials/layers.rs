@@ -44,7 +44,11 @@ impl Work<'_, '_> {
         let colour = volume.attenuation_color.map(|x| x.clamp(0.0, 1.0));
         let Some(distance) = distance.filter(|_| colour != [1.0; 3]) else { return };
         if principled.base_color != Textured::grey(1.0) {
-            self.remark("a base colour besides `attenuationColor`", "`attenuationColor`", "the interface does not tint the light");
+            self.remark(
+                "a base colour besides `attenuationColor`",
+                "`attenuationColor`",
+                "the interface does not tint the light",
+            );
         }
         principled.transmission_color = Textured::Constant(colour);
         principled.transmission_depth = distance;

@@ -1,4 +1,4 @@
-//! Textures without counterpart, and what stands for them.
+//! Textures without counterpart, and their substitutes.
 use super::Content;
 use crate::{
     declare::Textured,
