@@ -58,7 +58,7 @@ const PAGES: [Page; 5] = [
         tries: ("Compare MIS with both ends", TourRequest::CompareBothEnds),
     },
     Page {
-        title: "Now you",
+        title: "Your turn",
         text: "Change the sampler or the estimator and watch the curves (F2). Drag with the tool Camera (C) to move through the scene. \
                Click with Inspect (I) to see the paths of a pixel. Open the gallery (F6) for other scenes. Every control has a \
                tooltip; F1 lists the keys.",
