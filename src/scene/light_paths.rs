@@ -1,4 +1,4 @@
-//! Whether paths can start at the lights of a scene.
+//! Decides whether paths can start at the lights of a scene.
 use std::fmt;
 
 use glam::DVec3;

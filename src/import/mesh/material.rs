@@ -1,4 +1,4 @@
-//! Which of our materials stands for one of MTL.
+//! The material of Noisefall for a material of MTL.
 //!
 //! | MTL | ours |
 //! |---|---|

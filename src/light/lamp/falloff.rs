@@ -1,4 +1,4 @@
-//! How spots fall off.
+//! The falloff of spots from their inner to their outer angle.
 use crate::declare::words;
 
 /// How the intensity of a spot falls to 0 between its inner angle and its edge.

@@ -1,4 +1,4 @@
-//! The camera stays where it can see; where it sees nothing, the picture says why and offers the way back.
+//! The camera stops before it would see nothing. If it sees nothing, the image says why and offers a way back.
 use noisefall::{math::colour::luminance, scene::Camera};
 
 use super::*;

@@ -1,4 +1,4 @@
-//! Manners: rest when there is nothing to do, other threads, coalesced drags, the tour, the gallery.
+//! The window rests when there is nothing to do, uses other threads, and joins moves of a drag; the tour and the gallery.
 use noisefall::{
     render::{RenderRequest, RenderTask},
     scene::RenderSettings,

@@ -1,4 +1,4 @@
-//! Settings: what starts a new picture, and what does not.
+//! Settings: the changes that start a new image, and those that do not.
 use super::*;
 
 #[test]

@@ -1,4 +1,4 @@
-//! Things that must not move, and things that must not lie.
+//! Parts of the window that must not move, and figures that must not be wrong.
 use noisefall::{render::view::View as Shown, scene::RenderSettings};
 
 use super::{rasteriser::Blind, *};

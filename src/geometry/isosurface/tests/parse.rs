@@ -1,3 +1,4 @@
+//! Expressions: precedence, values, and messages about mistakes.
 use glam::DVec3;
 use rand::{Rng, SeedableRng, rngs::SmallRng};
 

@@ -1,3 +1,4 @@
+//! Materials and textures of pbrt.
 use super::{error, remarks, world};
 use crate::{
     declare::Textured,
