@@ -114,9 +114,11 @@ impl Parser<'_> {
         let at = at.start..self.tokens.last_end();
         match self.graph.value(exponent) {
             Some(n) if n.fract() == 0.0 && n.abs() <= HIGHEST_POWER => Ok(self.graph.integer_power(base, n as i32)),
-            Some(n) if n.abs() > HIGHEST_POWER => {
-                Err(ParseError::new(at, format!("expected a power from -{HIGHEST_POWER} to {HIGHEST_POWER}"), "too high a power"))
-            }
+            Some(n) if n.abs() > HIGHEST_POWER => Err(ParseError::new(
+                at,
+                format!("a power must lie between -{HIGHEST_POWER} and {HIGHEST_POWER}"),
+                "too high a power",
+            )),
             Some(c) => Ok(self.graph.real_power(base, c)),
             None => Err(ParseError::new(at, "a power must be a number", "write exp(b * log(a)) for a^b")),
         }
