@@ -179,7 +179,7 @@ fn check_new(path: &Path) -> Result<(), Failure> {
     if path.exists() {
         let shown = quote::path(path);
         return Err(format!(
-            "{shown}: there is a render already. `render --resume {shown}` continues it; remove it to begin again"
+            "{shown}: there is a render already. `render --resume {shown}` continues it; remove the file to start again"
         ));
     }
     file::check(path).map_err(|error| error.to_string())

@@ -70,7 +70,7 @@ fn missing(document: &Document) -> Refusal {
     let compressed = |name: &&String| name.ends_with("_compression");
     match document.extensions_used.iter().find(compressed) {
         Some(name) => {
-            Refusal::new(format!("its data is compressed by {name}, which is not read"), "export it without compression")
+            Refusal::new(format!("its data is compressed by {name}, which is not supported"), "export it without compression")
         }
         None => "it has no data".into(),
     }

@@ -152,7 +152,9 @@ impl<'a> Textures<'a> {
         let webp = texture.extensions.webp.as_ref().map(|image| image.source);
         let source = match webp.or(texture.source) {
             Some(source) => source,
-            None if texture.extensions.basisu.is_some() => return Err("KTX2 files (KHR_texture_basisu) are not read".to_owned()),
+            None if texture.extensions.basisu.is_some() => {
+                return Err("KTX2 files (KHR_texture_basisu) are not supported".to_owned());
+            }
             None => return Err("it has no image".to_owned()),
         };
         let sampler = match texture.sampler {

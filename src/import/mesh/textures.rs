@@ -93,7 +93,7 @@ impl Textures {
         let extension = map.path.rsplit('.').next().unwrap_or_default().to_ascii_lowercase();
         let located = match READABLE.contains(&extension.as_str()) {
             true => locate(&map.path, &self.folder),
-            false => Err(format!("`{}` is not of a format that is read", quote::path(Path::new(&map.path)))),
+            false => Err(format!("`{}` is not of a supported format", quote::path(Path::new(&map.path)))),
         };
         let path = match located {
             Ok(path) => self.folder.described(&path),

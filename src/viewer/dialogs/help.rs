@@ -4,7 +4,7 @@ use egui::{Align2, RichText};
 const KEYS: [(&str, &[(&str, &str)]); 5] = [
     ("Render", &[("Space", "pause, resume"), (".", "one more sample per pixel, then pause"), ("Ctrl+R", "restart")]),
     (
-        "Picture",
+        "Image",
         &[
             ("P", "drag and wheel pan and zoom the image"),
             ("Wheel, drag", "zoom, pan"),

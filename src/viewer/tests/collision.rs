@@ -228,7 +228,7 @@ fn the_toolbar_is_one_line_in_a_window_of_1280_with_a_region_too() {
     let mut window = window("cornell_spheres");
     window.state_mut().session.budget.region = Some(noisefall::render::Region::between([10, 10], [40, 40]));
     window.run_steps(4);
-    let labels = ["Pause", "Step", "Restart", "Picture", "Clear", "Home", "Fit", "1:1", "Compare with…", "Save…", "Help"];
+    let labels = ["Pause", "Step", "Restart", "Image", "Clear", "Home", "Fit", "1:1", "Compare with…", "Save…", "Help"];
     let rects = labels.map(|label| window.get_all_by_label(label).next().expect("it is there").rect());
     for (pair, name) in rects.windows(2).zip(labels) {
         assert!((pair[0].center().y - pair[1].center().y).abs() < 3.0, "{name}: {pair:?}");
