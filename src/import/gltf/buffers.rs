@@ -59,7 +59,7 @@ impl Buffers {
     /// Accounts for decoded data. A small file cannot ask for much memory.
     pub fn spend(&self, bytes: u64, what: &str) -> Found<()> {
         let left = self.allowance.get().checked_sub(bytes);
-        let help = "the file repeats its data too often; export it with less";
+        let help = "the file repeats its data too often; export it with fewer copies";
         self.allowance
             .set(left.ok_or_else(|| Refusal::new(format!("{what} need more memory than a file of its size should"), help))?);
         Ok(())
