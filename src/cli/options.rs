@@ -133,7 +133,7 @@ pub fn sample_range(text: &str) -> Result<Range<u32>, String> {
 pub fn frame_range(text: &str) -> Result<Range<u32>, String> {
     let frames = range(text).filter(|frames| frames.start > 0);
     frames.ok_or_else(|| {
-        "expected A..B with A below B, such as 1..11: the frames from A to B - 1, of which the first is 1".to_owned()
+        "expected A..B with A below B, such as 1..11: the frames from A to B - 1; the first frame is 1".to_owned()
     })
 }
 
