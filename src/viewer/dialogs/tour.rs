@@ -53,7 +53,8 @@ const PAGES: [Page; 5] = [
         title: "Paths can start at both ends",
         text: "Paths from the lamp form a caustic directly; a path from the camera meets the lamp through glass only by chance. A \
                strategy (s, t) takes s vertices from the lamp and t from the camera. Bidirectional paths use all strategies, each \
-               weighted by its pdf over the sum of all pdfs. The image stays the same. Caustics have less noise, but simple scenes take more time.",
+               weighted by its pdf over the sum of all pdfs. The image stays the same. Caustics have less noise, but simple scenes \
+               take more time.",
         shows: Some(InstrumentTab::Compare),
         tries: ("Compare MIS with both ends", TourRequest::CompareBothEnds),
     },
