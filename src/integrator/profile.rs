@@ -32,7 +32,7 @@ pub struct CountedRays {
     pub visits: Visits,
 }
 
-/// One path in so many is counted.
+/// One path in this many is counted.
 const COUNTED: usize = 1024;
 
 /// Costs of the stages.

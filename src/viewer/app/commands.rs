@@ -212,7 +212,7 @@ impl App {
         if std::mem::take(&mut dialogs.gallery.open) {
             return;
         }
-        // Escape gives the edit of a field up, and nothing else.
+        // Escape discards the edit of a field, and does nothing else.
         if self.window.had_focus || self.cancel_loading() {
             return;
         }

@@ -59,7 +59,7 @@ pub struct Dialogs {
     pub file: Option<FileDialog>,
     pub tev: Option<TevDialog>,
     pub sequence: Option<SequenceDialog>,
-    /// Frames to render of which this many exist, of this many.
+    /// Frames to render, with the numbers of existing ones and of all.
     pub existing_frames: Option<(SequenceRequest, [usize; 2])>,
     /// What waits for an answer about unsaved changes.
     pub unsaved: Option<Leaving>,

@@ -60,8 +60,8 @@ const ROW: f32 = 24.0;
 const GAP: f32 = 2.0;
 
 impl Outliner {
-    /// Shows the parts of a description in the room that is left, one of which may be selected. They are listed anew when its revision
-    /// is another one.
+    /// Shows the parts of a description in the remaining room. One of them may be selected. The list is made again when the revision
+    /// changes.
     pub fn show(&mut self, ui: &mut Ui, description: &SceneDescription, revision: u64, selected: Option<&Subject>) -> Asked {
         let mut asked = Asked::default();
         ui.horizontal(|ui| {
