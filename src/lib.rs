@@ -3,7 +3,7 @@
 //! | task | items |
 //! |---|---|
 //! | read a scene file of any format | [`load`], [`parse`], [`SceneError`] |
-//! | read one with options, and list what was not taken over exactly | [`open`], [`ImportOptions`], [`Remarks`] |
+//! | read one with options, and list what was not imported exactly | [`open`], [`ImportOptions`], [`Remarks`] |
 //! | build a scene in code | [`description`] |
 //! | change a scene file, and undo the change | [`edit`] |
 //! | choose settings | [`RenderSettings`], [`Camera`] |

@@ -1,4 +1,4 @@
-//! Edits of a scene: from the change of the description to its picture on the screen, while the renderer has all cores but one.
+//! Edits of a scene: from the change of the description to its image on the screen, while the renderer has all cores but one.
 use std::{
     fs,
     path::{Path, PathBuf},

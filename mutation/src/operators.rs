@@ -1,4 +1,4 @@
-//! What a slip of the hand turns an operator, a literal or the name of a method into.
+//! Mistakes that turn an operator, a literal or the name of a method into another one.
 use syn::{BinOp, Lit};
 
 /// What a binary operator may be mistaken for.

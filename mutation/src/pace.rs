@@ -1,4 +1,4 @@
-//! How much time is left for this run.
+//! The time that is left for this run.
 use std::time::{Duration, Instant};
 
 pub struct Pace {

@@ -12,11 +12,11 @@ class Sky:
     """A clear sky with a sun; black below the horizon."""
 
     sky_scale: float | None = None
-    """Factor of the radiance of the sky."""
+    """Factor that multiplies the radiance of the sky."""
     sun: Sequence[float] | None = None
     """Direction towards the sun, of any length."""
     sun_scale: float | None = None
-    """Factor of the radiance of the sun; 0 shows the sky alone."""
+    """Factor that multiplies the radiance of the sun; 0 shows the sky alone."""
     turbidity: float | None = None
     """Haze: 2 is very clear, 10 is hazy."""
 
@@ -68,7 +68,7 @@ class Gaussian:
 
 @dataclass(kw_only=True)
 class Tent:
-    """Falls linearly to 0."""
+    """Falls linearly from the centre to 0."""
 
     radius: float
     """Radius of the tent. (pixels)"""
@@ -80,7 +80,7 @@ class Filter:
     gaussian: Gaussian | Mapping[str, Any] | None = None
     """A normal distribution, cut off at three standard deviations."""
     tent: Tent | Mapping[str, Any] | None = None
-    """Falls linearly to 0."""
+    """Falls linearly from the centre to 0."""
 
 @dataclass(kw_only=True)
 class Lens:
@@ -139,15 +139,15 @@ class Camera:
     resolution: Sequence[int]
     """Width and height. (pixels)"""
     shift: Sequence[float] | None = None
-    """How far the image plane is shifted to the right and up, which keeps upright lines parallel, in widths of the image."""
+    """Shift of the image plane to the right and up, in widths of the image. Upright lines stay parallel."""
     shutter: Sequence[float] | None = None
-    """Times at which the shutter opens and closes, from 0 to 1 of the motion. Default: time 0."""
+    """Times at which the shutter opens and closes. Motion runs from time 0 to 1. Default: time 0."""
     up: Sequence[float] | None = None
     """Direction that points up in the image. Default: [0, 1, 0]."""
 
 @dataclass(kw_only=True)
 class Directional:
-    """Light from a direction, of a sun far away."""
+    """Parallel light, as from a distant sun."""
 
     direction: Sequence[float] | None = None
     """Direction in which the light travels, of any length."""
@@ -161,36 +161,36 @@ class Point:
     intensity: Sequence[float] | float | None = None
     """Radiant intensity of each channel. (W·sr⁻¹)"""
     position: Sequence[float] | None = None
-    """Where it stands. (m)"""
+    """Position of the lamp. (m)"""
 
 @dataclass(kw_only=True)
 class Projector:
     """An image that is cast from a point."""
 
     angle: float | None = None
-    """Angle between the axis and the edge of a cone, where the light ends; 180 for no cone. (°)"""
+    """Angle between the axis and the edge of the cone, where the light ends; 180 for no cone. (°)"""
     aspect: float | None = None
-    """Width of the image over its height; 0 for that of the file."""
+    """Width of the image divided by its height; 0 takes that of the file."""
     encoding: Literal['srgb', 'linear'] | None = None
     """Encoding of the file's numbers; EXR and HDR are always linear."""
     flat: bool | None = None
-    """Whether a screen that faces it is lit evenly; otherwise the intensity is the same in all directions."""
+    """Whether a screen that faces the projector is lit evenly. Otherwise the intensity is the same in all directions."""
     fov: float | None = None
     """Angle across the width of the image. (°)"""
     image: str | None = None
     """The image file, relative to the scene; a white square if it is empty."""
     inner: float | None = None
-    """Angle up to which a cone does not dim the image; between it and `angle`, the light falls linearly. (°)"""
+    """Angle up to which the cone does not dim the image. From there to `angle`, the light falls linearly. (°)"""
     position: Sequence[float] | None = None
-    """Where it stands. (m)"""
+    """Position of the lamp. (m)"""
     scale: float | None = None
     """Radiant intensity on the axis where the image is 1. (W·sr⁻¹)"""
     target: Sequence[float] | None = None
-    """A point on its axis. (m)"""
+    """Point that the lamp is aimed at. (m)"""
     tint: Sequence[float] | float | None = None
-    """Factor of the colours of the image."""
+    """Factor that multiplies the colours of the image."""
     up: Sequence[float] | None = None
-    """Upwards in the image."""
+    """Direction that points up in the image."""
 
 @dataclass(kw_only=True)
 class Spot:
@@ -199,22 +199,22 @@ class Spot:
     angle: float | None = None
     """Angle between the axis and the edge of the cone, where the light ends. (°)"""
     falloff: Literal['smooth', 'linear', 'square'] | None = None
-    """How the intensity falls between the two angles."""
+    """How the intensity falls from `inner` to `angle`."""
     inner: float | None = None
     """Angle up to which the intensity is that of the axis; at most `angle`. (°)"""
     intensity: Sequence[float] | float | None = None
     """Radiant intensity on the axis. (W·sr⁻¹)"""
     position: Sequence[float] | None = None
-    """Where it stands. (m)"""
+    """Position of the lamp. (m)"""
     target: Sequence[float] | None = None
-    """A point on its axis. (m)"""
+    """Point that the lamp is aimed at. (m)"""
 
 @dataclass(kw_only=True)
 class Lamp:
     """An entry of `lamps`."""
 
     directional: Directional | Mapping[str, Any] | None = None
-    """Light from a direction, of a sun far away."""
+    """Parallel light, as from a distant sun."""
     name: str | None = None
     """Name in the window."""
     point: Point | Mapping[str, Any] | None = None
@@ -290,9 +290,9 @@ class Dielectric:
     roughness: float | Mapping[str, str] | None = None
     """Square root of α; 0 is smooth."""
     specular_reflectance: Sequence[float] | float | Mapping[str, str] | None = None
-    """Factor of the light that the surface reflects; 1 for a physical one."""
+    """Factor that multiplies the reflected light; 1 is physical."""
     specular_transmittance: Sequence[float] | float | Mapping[str, str] | None = None
-    """Factor of the light that passes the surface; 1 for a physical one."""
+    """Factor that multiplies the transmitted light; 1 is physical."""
     tangent_rotation: float | None = None
     """Rotation of the tangent about the normal. (°)"""
     transmittance: Sequence[float] | float | None = None
@@ -316,13 +316,13 @@ class Disney:
     base_color: Sequence[float] | float | Mapping[str, str] | None = None
     """Albedo of the diffuse base, and reflectance of the metal at normal incidence."""
     clearcoat: float | Mapping[str, str] | None = None
-    """Amount of the clear coat, which takes no light from the base."""
+    """Strength of the clear coat. It takes no light from the base."""
     clearcoat_gloss: float | Mapping[str, str] | None = None
     """Sharpness of the clear coat: its facets have a width from 0.1 to 0.001."""
     flatness: float | Mapping[str, str] | None = None
-    """How far the diffuse lobe is that of thin subsurface scattering."""
+    """How strongly the diffuse lobe resembles thin subsurface scattering."""
     ior: float | None = None
-    """Index of refraction; 1 reflects nothing, not even as metal."""
+    """Index of refraction. With 1, nothing is reflected, even by metal."""
     metallic: float | Mapping[str, str] | None = None
     """Fraction of the base that is metal."""
     roughness: float | Mapping[str, str] | None = None
@@ -330,11 +330,11 @@ class Disney:
     sheen: float | Mapping[str, str] | None = None
     """Amount of light that fibres reflect at grazing angles."""
     sheen_tint: float | Mapping[str, str] | None = None
-    """How far the sheen has the hue of the base colour."""
+    """How strongly the hue of the base colour tints the sheen."""
     spec_tint: float | Mapping[str, str] | None = None
-    """How far the interface reflects in the hue of the base colour."""
+    """How strongly the hue of the base colour tints the reflection off the interface."""
     spec_trans: float | Mapping[str, str] | None = None
-    """Fraction of the base, besides metal, that is clear and refracts."""
+    """Fraction of the non-metallic base that is clear and refracts."""
 
 @dataclass(kw_only=True)
 class Lambertian:
@@ -379,7 +379,7 @@ class Principled:
     base_metalness: float | Mapping[str, str] | None = None
     """Fraction of the base that is metal."""
     base_weight: float | Mapping[str, str] | None = None
-    """Factor of the base colour."""
+    """Factor that multiplies the base colour."""
     coat_color: Sequence[float] | float | Mapping[str, str] | None = None
     """Fraction of the light that the coat transmits, in and out."""
     coat_darkening: float | Mapping[str, str] | None = None
@@ -399,7 +399,7 @@ class Principled:
     fuzz_weight: float | Mapping[str, str] | None = None
     """Fraction of the surface under fuzz."""
     specular_color: Sequence[float] | float | Mapping[str, str] | None = None
-    """Tint of the reflection off the interface; of metals, at grazing angles."""
+    """Tint of the reflection off the interface; for metals, only at grazing angles."""
     specular_ior: float | None = None
     """Index of refraction of the base."""
     specular_roughness: float | Mapping[str, str] | None = None
@@ -407,7 +407,7 @@ class Principled:
     specular_roughness_anisotropy: float | Mapping[str, str] | None = None
     """How much longer the highlight is along the tangent; 0 is round."""
     specular_weight: float | Mapping[str, str] | None = None
-    """Factor of the reflectance of the interface; of metals, at grazing angles too."""
+    """Factor that multiplies the reflectance of the interface; for metals, also at grazing angles."""
     tangent_rotation: float | None = None
     """Rotation of the tangent about the normal. (°)"""
     thin_film_ior: float | None = None
@@ -419,11 +419,11 @@ class Principled:
     thin_walled: bool | None = None
     """Whether the surface is a thin sheet, which refracts nothing."""
     transmission_color: Sequence[float] | float | Mapping[str, str] | None = None
-    """Colour of the light that passes: at each interface, or after the depth."""
+    """Colour of the transmitted light, at each interface or after `transmission_depth`."""
     transmission_depth: float | None = None
-    """Distance after which the inside has its colour; 0 tints the interface. (m)"""
+    """Distance inside after which light has the colour of transmission; 0 tints at the interface. (m)"""
     transmission_weight: float | Mapping[str, str] | None = None
-    """Fraction of the base, besides metal, that is clear and refracts."""
+    """Fraction of the non-metallic base that is clear and refracts."""
 
 @dataclass(kw_only=True)
 class RoughPlastic:
@@ -436,7 +436,7 @@ class RoughPlastic:
     distribution: Literal['ggx', 'beckmann'] | None = None
     """Distribution of the microfacets."""
     internal_reflectance: float | None = None
-    """Fraction of the light from the base that the coat returns to it; larger values than that of a smooth coat count as it."""
+    """Fraction of the light from the base that the coat reflects back to it, at most that of a smooth coat."""
     ior: float
     """Index of refraction of the coat."""
     nonlinear: bool | None = None
@@ -444,7 +444,7 @@ class RoughPlastic:
     roughness: float | Mapping[str, str] | None = None
     """Square root of α; 0 is smooth."""
     specular_reflectance: Sequence[float] | float | None = None
-    """Factor of the light that the surface reflects; 1 for a physical one."""
+    """Factor that multiplies the reflected light; 1 is physical."""
 
 @dataclass(kw_only=True)
 class ThinDielectric:
@@ -453,9 +453,9 @@ class ThinDielectric:
     ior: float
     """Index of refraction of the pane relative to its surroundings."""
     specular_reflectance: Sequence[float] | float | None = None
-    """Factor of the light that the surface reflects; 1 for a physical one."""
+    """Factor that multiplies the reflected light; 1 is physical."""
     specular_transmittance: Sequence[float] | float | None = None
-    """Factor of the light that passes the surface; 1 for a physical one."""
+    """Factor that multiplies the transmitted light; 1 is physical."""
     transmittance: Sequence[float] | float | None = None
     """Fraction of the light that the inside of the pane transmits at normal incidence."""
 
@@ -740,17 +740,17 @@ class Image:
     filter: Literal['bilinear', 'nearest'] | None = None
     """Interpolation between texels."""
     offset: Sequence[float] | None = None
-    """Added to u and v at last."""
+    """Offset that is added to u and v, applied last."""
     path: str
     """PNG, JPEG, TGA, WebP, EXR or HDR file."""
     rotate: float | None = None
     """Rotation of u towards v, applied second. (°)"""
     scale: Sequence[float] | None = None
-    """Factors of u and of v, which points downwards; applied first."""
+    """Factors that multiply u and v, applied first. v points downwards."""
     wrap_u: Literal['repeat', 'mirror', 'clamp', 'black'] | None = None
-    """What continues the image in u."""
+    """How the image continues beyond 0 and 1 in u."""
     wrap_v: Literal['repeat', 'mirror', 'clamp', 'black'] | None = None
-    """What continues the image in v."""
+    """How the image continues beyond 0 and 1 in v."""
 
 @dataclass(kw_only=True)
 class Mix:
@@ -831,7 +831,7 @@ class Texture:
 
 @dataclass(kw_only=True)
 class Truth:
-    """What the image converges to, if that is known."""
+    """What the image must converge to, if it is known."""
 
     image: str | None = None
     """Reference image, of the resolution of the camera."""
@@ -853,7 +853,7 @@ class Description:
     materials: Mapping[str, Material | Mapping[str, Any]] | None = None
     """Materials by name."""
     notes: str | None = None
-    """Notes for readers."""
+    """Notes about the scene."""
     objects: Sequence[Object | Mapping[str, Any]] | None = None
     """The objects of the scene, one table each."""
     render: Render | Mapping[str, Any] | None = None
@@ -861,6 +861,6 @@ class Description:
     textures: Mapping[str, Texture | Mapping[str, Any]] | None = None
     """Textures by name."""
     title: str | None = None
-    """What the window and reports call the scene."""
+    """Name of the scene in the window and in reports."""
     truth: Truth | Mapping[str, Any] | None = None
-    """What the image converges to, if that is known."""
+    """What the image must converge to, if it is known."""

@@ -36,7 +36,7 @@ class Scene:
 
     @property
     def notes(self) -> str:
-        """Notes for readers."""
+        """Notes about the scene."""
         return self._native.notes
 
     @property
@@ -61,7 +61,7 @@ class Scene:
 
     @property
     def remarks(self) -> list[str]:
-        """What was not taken over exactly from a file of another program."""
+        """What was not imported exactly from a file of another program."""
         return self._native.remarks
 
     def render(
@@ -89,8 +89,8 @@ class Scene:
         The settings are the options of `noisefall render`; `None` takes that of the scene. Equal settings give the bits of the
         program's image.
 
-        spp: stops after so many samples per pixel. Without `spp`, `time` and `noise`: the scene's number, or 256.
-        time: stops after so many seconds.
+        spp: stops after this many samples per pixel. Without `spp`, `time` and `noise`: the scene's number, or 256.
+        time: stops after this many seconds.
         noise: stops at an estimated relative noise; 0.01 is 1 %. The first of the given targets stops the render.
         size: width and height in pixels.
         callback: called with the image so far, twice a second and at the end. It stops the render by returning `False`; an exception

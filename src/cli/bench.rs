@@ -52,7 +52,7 @@ pub struct Arguments {
     /// Number of threads; 0 for one per core
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = parse::threads)]
     threads: u16,
-    /// Print one line of figures
+    /// Print the figures as one line of JSON
     #[arg(long)]
     json: bool,
 }

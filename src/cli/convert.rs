@@ -18,8 +18,8 @@ use super::{
 
 const NOTES: &str = "\
 Meshes and textures go to the folder OUT.files beside the scene file, or into OUT.glb. Files that lie in the folder of the scene \
-file stay where they are. Existing files of the same names are replaced. A format may have no word for a part of the scene: warnings \
-list these parts and what stands for them.
+file stay where they are. Existing files of the same names are replaced. Warnings list the parts of the scene that \
+the format cannot express, and their substitutes.
 
 Examples:
   noisefall convert room.gltf -o room.toml

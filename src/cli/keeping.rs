@@ -37,11 +37,11 @@ pub struct KeepOptions {
     /// Keep the render in a file (.nf) from which --resume continues it to the same bits
     #[arg(long, value_name = "FILE", conflicts_with_all = ["sequence", "pixel"], requires = "output")]
     checkpoint: Option<PathBuf>,
-    /// Time between two checkpoints [default: 60]. They take at most 1 % of the time: if that is too often, they are written less
-    /// often
+    /// Time between two checkpoints [default: 60]. Slow checkpoints are written less often, so that they take at most 1 % of the
+    /// time
     #[arg(long, value_name = "SECONDS", value_parser = parse::seconds)]
     every: Option<Duration>,
-    /// Continue a render although its scene or the program has changed, so that its first samples are of another image. The file
+    /// Continue a render even if its scene or the program has changed. Its first samples are then of another image, and the file
     /// says so
     #[arg(long, requires = "resume")]
     anyway: bool,
@@ -80,7 +80,7 @@ impl KeepOptions {
         if self.every.is_some() && self.checkpoint.is_none() && resumed.is_none() {
             return Some("--every is the time between checkpoints: it needs --checkpoint FILE or --resume FILE".to_owned());
         }
-        (self.anyway && resumed.is_none()).then(|| "--anyway needs the file of a render, as in --resume picture.nf".to_owned())
+        (self.anyway && resumed.is_none()).then(|| "--anyway needs the file of a render, as in --resume image.nf".to_owned())
     }
 
     /// Opens the file of a render. Fails if files of its scene have changed.
@@ -157,7 +157,7 @@ impl Resumed {
     /// The error for an option that would change the image. `was` are the options of the image so far.
     pub fn changes_image(&self, option: &str, was: &str) -> Failure {
         let (option, was, path) = (option.trim(), was.trim(), quote::path(&self.path));
-        format!("{path}: `{option}` would change the image, which was begun with `{was}`. Leave it out, or begin again")
+        format!("{path}: `{option}` would change the image, which was started with `{was}`. Leave it out, or start a new render")
     }
 
     /// The error for options of the scene, which is in the file.
@@ -169,7 +169,7 @@ impl Resumed {
         let lines: String = differences.iter().map(|line| format!("\n  {line}")).collect();
         let path = quote::path(&self.path);
         format!(
-            "{path}: continued, this would be no single image:{lines}\nrestore it, begin again, or add --anyway: the image then says so"
+            "{path}: continuing would mix two images:{lines}\nundo these changes, start a new render, or add --anyway, which the image records"
         )
     }
 }
@@ -179,7 +179,7 @@ fn check_new(path: &Path) -> Result<(), Failure> {
     if path.exists() {
         let shown = quote::path(path);
         return Err(format!(
-            "{shown}: there is a render already. `render --resume {shown}` continues it; remove it to begin again"
+            "{shown}: there is a render already. `render --resume {shown}` continues it; remove the file to start again"
         ));
     }
     file::check(path).map_err(|error| error.to_string())
@@ -198,6 +198,6 @@ pub fn message(event: &KeepEvent) -> Option<String> {
             let often = format!("a checkpoint takes {took:.2} s, so they are at least {every:.0} s apart");
             Some(format!("note: {often}: together they take 1 % of the time at most"))
         }
-        KeepEvent::Failed(error) => Some(format!("warning: no checkpoint was written: {error}; the render goes on")),
+        KeepEvent::Failed(error) => Some(format!("warning: no checkpoint was written: {error}; the render continues")),
     }
 }

@@ -27,10 +27,9 @@ use super::{
 
 const NOTES: &str = "\
 The files come from `render --samples A..B -o NAME.nf`, or from `merge` itself. However the samples are split, the image has the bits of \
-`render --samples 0..N`. Files of other scenes, cameras, settings or programs are refused, and so are samples that are there twice or \
-missing.
+`render --samples 0..N`. Files of other scenes, cameras, settings or programs are refused, and so are duplicate and missing samples.
 
-Example: noisefall merge part-*.nf -o picture.exr";
+Example: noisefall merge part-*.nf -o image.exr";
 
 /// Time between two looks at the files.
 const EVERY: &str = "2";
@@ -48,13 +47,13 @@ pub struct Arguments {
     /// Format of an image on standard output: png or exr
     #[arg(long, value_name = "FORMAT", value_parser = parse::format)]
     format: Option<Format>,
-    /// Join what is there, although samples are missing in between. The metadata of the image says so
+    /// Join the samples even if some in between are missing. The metadata of the image say so
     #[arg(long)]
     allow_gaps: bool,
-    /// The samples must be 0..N
+    /// Fail unless the samples are 0..N
     #[arg(long, value_name = "N", value_parser = parse::samples)]
     until: Option<u32>,
-    /// Wait for files that are missing or not yet whole, and look at them every SECONDS, until the samples are 0..N
+    /// Wait for missing or incomplete files, and check them every SECONDS, until the samples are 0..N
     #[arg(long, value_name = "SECONDS", num_args = 0..=1, default_missing_value = EVERY, value_parser = parse::seconds,
           requires = "until", conflicts_with = "allow_gaps")]
     watch: Option<Duration>,
@@ -78,7 +77,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let Some(join) = joined else { return Ok(ExitCode::from(INTERRUPTED)) };
     let missing = join.samples().missing(arguments.until);
     if !missing.is_empty() && !arguments.allow_gaps && !is_sample_file(&output) {
-        let advice = "render them, or add --allow-gaps: the image then says so";
+        let advice = "render them, or add --allow-gaps, which the image records";
         return Err(format!("the samples {missing} are missing; there are {}: {advice}", join.samples()));
     }
     arguments.deliver(join, &output, missing)

@@ -84,7 +84,7 @@ struct Arguments {
 enum Command {
     /// Render a scene to a PNG or EXR file, without a window
     Render(Box<render::Arguments>),
-    /// Join samples that were rendered apart to an image, with the bits of one render
+    /// Join samples that were rendered separately into one image, with the bits of one render
     Merge(merge::Arguments),
     /// Measure the error of image A against reference B
     Compare(compare::Arguments),
@@ -105,7 +105,7 @@ enum Command {
     Bench(bench::Arguments),
     /// Report errors and likely mistakes in scene files
     Check(check::Arguments),
-    /// Write a scene of another program as a scene file of Noisefall, with its meshes and textures
+    /// Convert a scene to a scene file of Noisefall, to XML of Mitsuba 3, or to glTF, with its meshes and textures
     Convert(convert::Arguments),
     /// Print the JSON Schema of scene files, for editors
     Schema,
@@ -191,5 +191,5 @@ fn open_window(scene: Option<PathBuf>, options: &SceneOptions) -> Result<(), Fai
 
 #[cfg(not(feature = "viewer"))]
 fn open_window(_: Option<PathBuf>, _: &SceneOptions) -> Result<(), Failure> {
-    Err("this build has no window (feature `viewer` is off); use `noisefall render SCENE -o picture.png`".to_owned())
+    Err("this build has no window (feature `viewer` is off); use `noisefall render SCENE -o image.png`".to_owned())
 }

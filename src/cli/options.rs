@@ -132,9 +132,8 @@ pub fn sample_range(text: &str) -> Result<Range<u32>, String> {
 /// Parses a range of frames `A..B`, without B; the first frame is 1.
 pub fn frame_range(text: &str) -> Result<Range<u32>, String> {
     let frames = range(text).filter(|frames| frames.start > 0);
-    frames.ok_or_else(|| {
-        "expected A..B with A below B, such as 1..11: the frames from A to B - 1, of which the first is 1".to_owned()
-    })
+    frames
+        .ok_or_else(|| "expected A..B with A below B, such as 1..11: the frames from A to B - 1; the first frame is 1".to_owned())
 }
 
 fn range(text: &str) -> Option<Range<u32>> {

@@ -64,7 +64,7 @@ impl Output {
         match self {
             Output::File(path) => check_target(path).map_err(advise),
             Output::Stream(_) if stdout().is_terminal() => {
-                Err("standard output is a terminal: redirect it to a file, as in `-o - --format png > picture.png`".to_owned())
+                Err("standard output is a terminal: redirect it to a file, as in `-o - --format png > image.png`".to_owned())
             }
             Output::Stream(_) if is_closed() => Err("standard output is closed: the image would be lost".to_owned()),
             Output::Stream(_) => Ok(()),

@@ -37,20 +37,20 @@ use super::{
 const STEP: Duration = Duration::from_secs(2);
 
 /// Why targets do not split, and what to do instead.
-const ROUNDS: &str = "cannot be combined with --samples: where they stop depends on the samples, or on the machine. Render rounds of \
-                          a fixed number of samples, such as 0..64, then 64..128; `noisefall merge` prints the noise after each round";
+const ROUNDS: &str = "cannot be combined with --samples, because where it stops depends on the samples or on the machine. Render rounds \
+                      of a fixed number of samples, such as 0..64, then 64..128; `noisefall merge` prints the noise after each round";
 
 /// The mistake in the options of a range of samples, if there is one. `others` are the options that a range excludes.
 pub fn mistake(output: Option<&Output>, has_range: bool, others: &[(&str, bool)]) -> Option<String> {
     let output = output?;
     if !has_range {
-        let advice = "a file of samples needs --samples A..B, which says which, such as --samples 0..64";
+        let advice = "a file of samples needs a range of samples: add --samples A..B, such as --samples 0..64";
         return is_sample_file(output).then(|| format!("{output}: {advice}"));
     }
     let (option, _) = others.iter().find(|(_, is_given)| *is_given)?;
     Some(match *option {
         "--time" | "--noise" => format!("{option} {ROUNDS}"),
-        option => format!("{option} cannot be combined with --samples, whose sums are of the image alone"),
+        option => format!("{option} cannot be combined with --samples, which keeps only sums of the image"),
     })
 }
 

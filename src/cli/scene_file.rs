@@ -28,7 +28,7 @@ pub struct SceneOptions {
     /// Read files outside the folder of the scene too, if it names them
     #[arg(long, help_heading = HEADING)]
     allow_outside: bool,
-    /// Fail if anything in the scene cannot be taken over exactly
+    /// Fail if anything in the scene cannot be imported exactly
     #[arg(long, help_heading = HEADING)]
     pub strict: bool,
 }
@@ -54,7 +54,7 @@ impl SceneOptions {
             tell("note: -D, --at, --variant and --allow-outside affect scenes of other programs only");
         }
         let opened = with_bar(&options.progress, || import::open(path, &options)).map_err(|error| error.report())?;
-        self.report(path, &opened.remarks, "taken over exactly")?;
+        self.report(path, &opened.remarks, "imported exactly")?;
         Ok(opened)
     }
 
@@ -144,8 +144,8 @@ mod tests {
     fn a_long_list_of_remarks_is_cut() {
         let mut remarks = Remarks::default();
         (0..30).for_each(|i| remarks.add("a.xml:1:1", format!("`{i}`"), "nothing", "it is missing"));
-        let list = list(Path::new("a.xml"), &remarks, "taken over exactly");
-        assert!(list.starts_with("a.xml: 30 things were not taken over exactly:\n  a.xml:1:1: `0` → nothing: it is missing\n"));
+        let list = list(Path::new("a.xml"), &remarks, "imported exactly");
+        assert!(list.starts_with("a.xml: 30 things were not imported exactly:\n  a.xml:1:1: `0` → nothing: it is missing\n"));
         assert_eq!((list.lines().count(), list.lines().last()), (MOST_REMARKS + 2, Some("  … and 10 more")));
     }
 }

@@ -23,10 +23,10 @@ pub struct SequenceOptions {
     /// Render the frames of a camera path, a TOML file; -o is then a name such as frame-####.png
     #[arg(long, value_name = "FILE", group = "sequence", requires = "output")]
     cameras: Option<PathBuf>,
-    /// Render these frames of the sequence only: from A to B - 1; the first one is 1
+    /// Render only the frames A to B - 1 of the sequence; the first one is 1
     #[arg(long, value_name = "A..B", value_parser = parse::frame_range, requires = "sequence")]
     frames: Option<Range<u32>>,
-    /// Continue the render in a file of --checkpoint; no scene is given, since it is inside. Without a file: leave out frames of a
+    /// Continue the render that --checkpoint kept in FILE; give no scene, because the file has it. Without FILE: skip frames of a
     /// sequence whose file exists
     #[arg(long, value_name = "FILE", num_args = 0..=1)]
     resume: Option<Option<PathBuf>>,
@@ -62,7 +62,7 @@ impl SequenceOptions {
         let left: Vec<Shot> =
             cameras.into_iter().zip(1..).filter(|(_, number)| frames.contains(number)).filter_map(shot).filter(is_left).collect();
         if left.len() < all {
-            tell(&format!("note: {} of {all} frames exist and are left out", all - left.len()));
+            tell(&format!("note: {} of {all} frames exist and are skipped", all - left.len()));
         }
         Ok(left)
     }
@@ -81,7 +81,7 @@ impl SequenceOptions {
     pub fn mistake(&self, output: Option<&Output>) -> Option<String> {
         if self.resume == Some(None) && !self.is_asked() {
             return Some(
-                "--resume needs the file of a render, as in --resume picture.nf; without one it continues a sequence".to_owned(),
+                "--resume needs the file of a render, as in --resume image.nf; without one it continues a sequence".to_owned(),
             );
         }
         let is_pattern = |output: &Output| output.file().is_some_and(|path| numbered(path, 1).is_some());

@@ -46,11 +46,11 @@ pub struct Arguments {
     spp: Vec<u32>,
     #[command(flatten)]
     lists: ListOptions,
-    /// Each strategy (s, t) of bidirectional paths of up to N bounces, in place of the lists
+    /// Show each strategy (s, t) of bidirectional paths of up to N bounces, in place of the lists
     #[arg(long, value_name = "N", value_parser = triangle::strategy_bounces,
           conflicts_with_all = ["estimators", "directions", "samplers", "roulette", "max_bounces", "reuse", "adaptive", "columns"])]
     strategies: Option<u32>,
-    /// With --strategies: all light that each strategy finds, without its weight among the others
+    /// With --strategies: show all light that each strategy finds, without its weight among the others
     #[arg(long, requires = "strategies")]
     unweighted: bool,
     /// Resolution of each image [default: the scene's, scaled down to 256 along the longer side]

@@ -36,7 +36,7 @@ pub struct Job<'a> {
     pub is_sequence: bool,
     /// The options of the scene as words of a command.
     pub scene_options: String,
-    /// What of the scene was not taken over exactly.
+    /// What was not imported exactly from the scene.
     pub scene_remarks: Remarks,
     pub json: bool,
 }
@@ -123,7 +123,7 @@ impl Job<'_> {
     /// A frame without its noise, nor its noise estimate. `None`, with a warning, if it has no half images.
     fn denoised(&self, frame: &Frame) -> Option<Frame> {
         let Some(radiance) = self.threads.install(|| denoise::denoised(frame, &|| false)) else {
-            tell("warning: the image is not denoised: that needs two samples of every pixel, and memory for half images");
+            tell("warning: the image is not denoised: denoising needs two samples of every pixel, and memory for half images");
             return None;
         };
         tell(&format!("note: {}", denoise::LABEL));

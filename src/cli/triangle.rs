@@ -6,7 +6,7 @@ use noisefall::{
 
 use super::messages::Failure;
 
-/// Parses a number of bounces of which all strategies fit on a sheet.
+/// Parses a number of bounces. The strategies of the largest one still fit on a sheet.
 pub fn strategy_bounces(text: &str) -> Result<u32, String> {
     let bounces = text.parse().ok().filter(|bounces| (1..=12).contains(bounces));
     bounces.ok_or_else(|| "expected a whole number of bounces from 1 to 12".to_owned())

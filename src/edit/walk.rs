@@ -1,4 +1,4 @@
-//! Follows a visitor on its way to a path.
+//! A visitor that follows a path to one part of a description.
 use crate::declare::{Path, Step};
 
 /// The methods of a visitor that keep the walk in its field `walk` at the table that is visited, and pass over tables beside the path.

@@ -1,4 +1,4 @@
-//! Shapes in world space, and triangles that stand for them.
+//! Shapes in world space, and triangles that replace them.
 use std::f64::consts::{PI, TAU};
 
 use glam::{DAffine3, DVec3};

@@ -8,11 +8,11 @@
 //! | `files.rs`, `new_assets.rs` | meshes and textures beside the scene file |
 //! | `file_names.rs` | names that every system accepts |
 //! | `notes.rs` | remarks by place |
-//! | `geometry.rs` | shapes in world space, and triangles that stand for them |
+//! | `geometry.rs` | shapes in world space, and triangles that replace them |
 //! | `textures.rs` | means and images of textures |
 //! | `substitutes.rs` | what stands for kinds that a format does not know |
 //!
-//! Another format is a file beside `toml.rs` and a line in [`check`]. What a format cannot say is a remark, as in the readers.
+//! Another format is a file beside `toml.rs` and a line in [`check`]. What a format cannot express becomes a remark, as in the readers.
 mod file_names;
 mod files;
 mod geometry;

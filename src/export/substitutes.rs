@@ -19,18 +19,18 @@ impl Colors<'_> {
     /// The albedo of a diffuse surface in place of a material: its mean color.
     pub fn diffuse_substitute(&self, kind: &Material, notes: &mut Notes) -> [f64; 3] {
         let effect = "it has no highlights, and no light passes";
-        notes.add(format!("a material `{}`", kind.name()), "a diffuse surface of its mean color", effect);
+        notes.add(format!("a material `{}`", kind.name()), "a diffuse surface of its mean colour", effect);
         let compiled = self.compiled(kind);
         compiled.map_or([0.0; 3], |color| color.map(|x| f64::from(x.clamp(0.0, 1.0))))
     }
 
-    /// The color of a material head-on; white for kinds without one. `None` if it cannot be compiled.
+    /// The colour of a material head-on; white for kinds without one. `None` if it cannot be compiled.
     fn compiled(&self, kind: &Material) -> Option<[f32; 3]> {
         let compiled = Materials::default().compile(kind, self.compiler()).ok()?;
         Some(self.compiler().typical(compiled.colour))
     }
 
-    /// The radiance of an emission, without its factor: a color or a texture.
+    /// The radiance of an emission, without its factor: a colour or a texture.
     pub fn radiance(&self, source: &EmissionSource, notes: &mut Notes) -> Textured {
         match source {
             EmissionSource::Radiance(radiance) => Textured::Constant(radiance.radiance),
@@ -42,7 +42,7 @@ impl Colors<'_> {
 
     /// The mean of an emission.
     fn emission_substitute(&self, source: &EmissionSource, notes: &mut Notes) -> Textured {
-        notes.add(format!("emission by `{}`", source.name()), "its mean", "the light has one color");
+        notes.add(format!("emission by `{}`", source.name()), "its mean", "the light has one colour");
         let emission = source.kind().compile(1.0, Side::Front, self.compiler());
         Textured::Constant(emission.map_or([0.0; 3], |emission| emission.mean.map(f64::from)))
     }
@@ -59,7 +59,7 @@ impl Colors<'_> {
     /// The radiance of a constant background in place of another one: its mean.
     pub fn background_substitute(&self, background: &BackgroundDescription, notes: &mut Notes) -> [f64; 3] {
         let found = format!("a background `{}`", background.name());
-        notes.add(found, "its mean color", "light comes from all directions alike");
+        notes.add(found, "its mean colour", "light comes from all directions alike");
         let compiled = background.compile(self.compiler().resources).ok().flatten();
         compiled.map_or([0.0; 3], |background| background.mean().map(f64::from))
     }

@@ -1,4 +1,4 @@
-//! The colors of textures, for formats that have no word for a texture: its mean, or an image of it.
+//! The colours of textures, for formats without such textures: the mean, or an image.
 use crate::{
     declare::{Resources, Textured},
     import::mitsuba::pictures,
@@ -42,7 +42,7 @@ impl<'a> Colors<'a> {
         self.description.textures.get(name)
     }
 
-    /// A color, or the mean of its texture.
+    /// A colour, or the mean of its texture.
     pub fn mean(&self, color: &Textured) -> [f64; 3] {
         match color {
             Textured::Constant(color) => *color,

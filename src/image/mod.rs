@@ -78,7 +78,7 @@ impl Pixel for [f32; 4] {
     }
 }
 
-/// A pixel of which only the opacity is kept.
+/// A pixel that keeps only its opacity.
 #[derive(Clone, Copy, Default)]
 struct Opacity(f32);
 
@@ -290,7 +290,7 @@ fn room<P>(width: u32, height: u32, besides: u64) -> Result<Reservation, TooMuch
     reserve(format_args!("{width} × {height} pixels"), pixels * size_of::<P>() as u64 + besides)
 }
 
-/// An empty list with capacity for so many pixels.
+/// An empty list with capacity for this many pixels.
 fn pixels<P>(count: usize) -> Result<Vec<P>, ImageFormatError> {
     let mut list = Vec::new();
     list.try_reserve_exact(count).map_err(ImageFormatError::broken)?;

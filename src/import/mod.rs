@@ -40,7 +40,7 @@ pub struct Imported {
     /// Meshes and images that exist in memory only: [`crate::model::Model`] by paths such as `meshes/chair.ply`, and encoded image
     /// files, as `Vec<u8>`, by paths such as `textures/wood.png`.
     pub assets: Assets,
-    /// What was not taken over exactly.
+    /// What was not imported exactly.
     pub remarks: Remarks,
 }
 

@@ -11,7 +11,7 @@ use crate::{
 pub struct Opened {
     /// The scene. Its text is in the format of Noisefall, whatever the format of the file.
     pub scene: Scene,
-    /// What was not taken over exactly. Scenes of Noisefall have no remarks.
+    /// What was not imported exactly. Scenes of Noisefall have no remarks.
     pub remarks: Remarks,
     /// The description of the scene of another program; absent for others, whose text has it.
     pub description: Option<Arc<SceneDescription>>,

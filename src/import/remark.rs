@@ -1,6 +1,6 @@
-//! Remarks about what was not taken over exactly.
+//! Remarks about what was not imported exactly.
 
-/// Something that was not taken over exactly.
+/// Something that was not imported exactly.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Remark {
     /// Where it stands: `scene.xml:12:5`, or `scene.gltf: material "Wood"`.

@@ -59,7 +59,7 @@ impl Remarks {
         self.list.len() + self.left_out
     }
 
-    /// Whether everything was taken over exactly.
+    /// Whether everything was imported exactly.
     pub fn is_empty(&self) -> bool {
         self.list.is_empty()
     }

@@ -67,7 +67,7 @@ const HEIGHT: usize = 64;
 pub fn light(description: &mut SceneDescription, assets: &mut Assets, remarks: &mut Remarks, place: &str) {
     assets.insert(SKY, sky());
     description.background = Some(Image { path: SKY.to_owned(), ..Image::default() }.into());
-    remarks.add(place, "no light", "a neutral studio sky", "the light is not the author's");
+    remarks.add(place, "no light", "a neutral studio sky", "the light differs from the original");
 }
 
 /// A Radiance file of the sky, equirectangular.

@@ -1,4 +1,4 @@
-//! Shadows of the relief that bump and normal maps pretend.
+//! Shadows of the relief that bump and normal maps imitate.
 //!
 //! Light that grazes a surface meets a tilted shading normal from the front where the relief would lie in its own shadow, up to the
 //! horizon of the surface, which cuts it off hard. If the relief is taken for a field of GGX microfacets, light from a direction at the

@@ -1,4 +1,4 @@
-//! Where the time of the path loop goes: times and rays of its stages, by bounce.
+//! Profile of the path loop: times and rays of its stages, by bounce.
 use std::time::{Duration, Instant};
 
 use super::{
@@ -32,7 +32,7 @@ pub struct CountedRays {
     pub visits: Visits,
 }
 
-/// One path in so many is counted.
+/// One path in this many is counted.
 const COUNTED: usize = 1024;
 
 /// Costs of the stages.

@@ -42,11 +42,9 @@ impl Declare for Blend {
     fn parameters(&mut self, p: &mut dyn Parameters) {
         const FIRST: Parameter = Parameter::new("first", "Name of the first material.").required();
         const SECOND: Parameter = Parameter::new("second", "Name of the second material.").required();
-        const BY_SIDE: Parameter = Parameter::new(
-            "by_side",
-            "Whether the front is of the first material alone, and the back of the second, whatever the weight.",
-        )
-        .aliases("sides front_and_back");
+        const BY_SIDE: Parameter =
+            Parameter::new("by_side", "Whether the front has the first material and the back the second, whatever the weight.")
+                .aliases("sides front_and_back");
         p.value(&FIRST, Value::Name(&mut self.first, Family::Material));
         p.value(&SECOND, Value::Name(&mut self.second, Family::Material));
         p.textured_number(&Self::WEIGHT, &mut self.weight, Range::UNIT);

@@ -110,9 +110,9 @@ impl Dielectric {
 
 /// The tints of interfaces.
 pub(super) const SPECULAR_REFLECTANCE: Parameter =
-    Parameter::new("specular_reflectance", "Factor of the light that the surface reflects; 1 for a physical one.");
+    Parameter::new("specular_reflectance", "Factor that multiplies the reflected light; 1 is physical.");
 pub(super) const SPECULAR_TRANSMITTANCE: Parameter =
-    Parameter::new("specular_transmittance", "Factor of the light that passes the surface; 1 for a physical one.");
+    Parameter::new("specular_transmittance", "Factor that multiplies the transmitted light; 1 is physical.");
 
 impl Kind for Dielectric {
     const KIND: Parameter =

@@ -23,7 +23,7 @@ pub fn id(source: ColourSource) -> f32 {
     }
 }
 
-/// The color of the texture whose id plus 1 is `id`; `constant` in lanes where that is 0, and without a lookup.
+/// The colour of the texture whose id plus 1 is `id`; `constant` in lanes where that is 0, and without a lookup.
 #[inline(always)]
 pub fn colour<L: Lanes>(l: L, constant: V<L>, id: U<L>, lookup: &Lookup<L>) -> V<L> {
     let Some((textures, at)) = lookup else { return constant };

@@ -1,4 +1,4 @@
-//! What smooth, rough and layered interfaces between transparent media share.
+//! Functions that smooth, rough and layered interfaces between transparent media share.
 use crate::math::{F, Lanes, M, Pick};
 
 /// Interfaces whose indices differ by less are treated as smooth. Even at the roughest facet they refract light by a smaller

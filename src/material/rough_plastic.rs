@@ -1,7 +1,7 @@
 //! A diffuse base under a coat whose facets scatter light once, as in Mitsuba.
 //!
 //! W. Jakob et al., "Mitsuba 3", plugins `plastic` and `roughplastic`: light passes the coat with T(μ), is reflected by the base,
-//! returned by the coat with R and passes again: f = ρ T(ω_o) T(ω_i)/(π η² (1 − R)), or with 1 − ρ R in the denominator if the color
+//! returned by the coat with R and passes again: f = ρ T(ω_o) T(ω_i)/(π η² (1 − R)), or with 1 − ρ R in the denominator if the colour
 //! becomes more saturated with every reflection. T is the transmittance of single refraction by the facets, so that rough coats lose
 //! light, other than those of `plastic.rs`. R is a parameter: see [`RoughPlastic::internal_reflectance`].
 use std::f32::consts::FRAC_1_PI;
@@ -37,7 +37,7 @@ pub struct RoughPlastic {
     pub specular_reflectance: [f64; 3],
     /// Fraction R of the light from the base that the coat returns; at most 1 − T_avg/η², and that of a smooth coat.
     pub internal_reflectance: f64,
-    /// Whether every reflection by the base makes the color more saturated.
+    /// Whether every reflection by the base makes the colour more saturated.
     pub nonlinear: bool,
 }
 
@@ -74,7 +74,7 @@ impl Declare for RoughPlastic {
             Parameter::new("distribution", "Distribution of the microfacets.").aliases("facets microfacets ndf");
         const INTERNAL_REFLECTANCE: Parameter = Parameter::new(
             "internal_reflectance",
-            "Fraction of the light from the base that the coat returns to it; larger values than that of a smooth coat count as it.",
+            "Fraction of the light from the base that the coat reflects back to it, at most that of a smooth coat.",
         )
         .symbol("R");
         const NONLINEAR: Parameter =

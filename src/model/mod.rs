@@ -73,7 +73,7 @@ pub enum ModelFormatError {
     #[error("cannot be read: {0}")]
     Unreadable(String),
     /// The file exceeds the limit.
-    #[error("the file is larger than {LARGEST_FILE} bytes, the most that is read")]
+    #[error("the file is larger than the limit of {LARGEST_FILE} bytes")]
     TooLarge,
     /// The format is not known.
     #[error("not a mesh: its first line is not `ply` and its name does not end in `.obj` or `.stl`")]

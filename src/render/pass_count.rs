@@ -1,4 +1,4 @@
-//! What a pass tells beside its samples.
+//! The counts that a pass reports besides its samples.
 
 /// Figures of a pass.
 #[derive(Clone, Debug, Default, PartialEq)]

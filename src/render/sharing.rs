@@ -1,4 +1,4 @@
-//! Decides what pixels share, by a trial of a few tiles.
+//! Decides what pixels share, by a trial on a few tiles.
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use rayon::prelude::*;
@@ -15,7 +15,7 @@ use crate::{
 const PLACES: [[f64; 2]; 5] = [[0.25, 0.25], [0.75, 0.25], [0.5, 0.5], [0.25, 0.75], [0.75, 0.75]];
 /// Samples per pixel, for each way to share and each seed.
 const SPP: u32 = 4;
-/// Errors are relative to the mean of so many pixels, a row of a tile: the mean of a pixel alone follows its noise.
+/// Errors are relative to the mean of this many pixels, a row of a tile: the mean of a pixel alone follows its noise.
 const ROW: usize = TILE as usize;
 /// Cost of a sample with shared path suffixes relative to one without: in scenes of lists, and in scenes with trees. Measured costs are 1.7
 /// to 2.2 and 1.1 to 1.5.

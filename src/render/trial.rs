@@ -24,7 +24,7 @@ const BLOCK: usize = 128;
 
 /// The variance, summed over the pixels as in [`relative_variances`], that would explain what one image has more than another.
 ///
-/// It is told from the means of blocks. Where no path of a block has found some light, its pixels have a variance of at least the square of
+/// It is estimated from the means of blocks. Where no path of a block has found some light, its pixels have a variance of at least the square of
 /// what is missing times their number, which a single pixel does not show.
 pub(super) fn relative_excess(a: &[Estimate], b: &[Estimate]) -> f64 {
     let mean =

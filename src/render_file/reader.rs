@@ -38,7 +38,7 @@ impl<R: Read + Seek> Reader<R> {
             return Err(RenderFileError::contents("its first section is not a header"));
         }
         let header = serde_json::from_slice(&cursor.payload);
-        let header = header.map_err(|error| RenderFileError::contents(format!("its header makes no sense: {error}")))?;
+        let header = header.map_err(|error| RenderFileError::contents(format!("its header is invalid: {error}")))?;
         Ok(Reader { from, header, cursor })
     }
 

@@ -1,4 +1,4 @@
-//! Whatever happens to a file, it is read as it was written, or refused with a reason.
+//! A file that is damaged in any way is read as it was written, or refused with a reason.
 use std::io::Cursor;
 
 use rand::{Rng, SeedableRng, rngs::SmallRng};

@@ -19,7 +19,7 @@ impl CompileReport {
     }
 }
 
-/// "1.9 ms: lights 0.4 ms, shapes 0.1 ms; reused: mesh trees, pictures".
+/// "1.9 ms: lights 0.4 ms, shapes 0.1 ms; reused: mesh trees, images".
 impl fmt::Display for CompileReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let milliseconds = |time: Duration| format!("{:.1} ms", time.as_secs_f64() * 1e3);

@@ -1,4 +1,4 @@
-//! Whether paths can start at the lights of a scene.
+//! Decides whether paths can start at the lights of a scene.
 use std::fmt;
 
 use glam::DVec3;
@@ -29,7 +29,7 @@ impl fmt::Display for EstimatorInForce {
     }
 }
 
-/// Whether paths may have so many vertices that the connections between them would take for ever.
+/// Whether paths may have too many vertices to connect all of them in reasonable time.
 fn goes_on_for_ever(settings: &RenderSettings) -> bool {
     settings.estimator.connects()
         && settings.roulette.survival() > MOST_SURVIVORS

@@ -95,7 +95,7 @@ const MOST_LOOKED_AT: usize = 256;
 /// kept: what it pays to share, the estimator that `auto` stands for, how paths start at the lights, and the warnings. All depend on the
 /// scene alone.
 pub struct Scene {
-    /// What the window and reports call the scene.
+    /// Name of the scene in the window and in reports.
     pub title: String,
     /// The text of the scene file.
     pub source: SceneText,
@@ -135,7 +135,7 @@ pub struct Scene {
     pub spp: Option<u32>,
     /// Exposure that the scene is displayed with, stops.
     pub exposure: f32,
-    /// What the image converges to, if that is known.
+    /// What the image must converge to, if it is known.
     pub truth: Option<Truth>,
     /// Largest number of media around the middle of a dielectric.
     pub deepest_media: usize,

@@ -8,8 +8,8 @@ use super::{
     used::Used,
 };
 
-/// Parts whose compile leaves the image as it is: they are made every time, or only compared with the image, or belong to materials,
-/// of which only unused ones differ.
+/// Parts whose compile leaves the image as it is: they are made every time, are only compared with the image, or belong to materials.
+/// Only unused materials differ here.
 const HARMLESS: [&str; 3] = ["surfaces", "references", "material tables"];
 
 impl SceneDescription {

@@ -71,11 +71,11 @@ pub enum Reuse {
 
 crate::declare::words! {
     Reuse {
-        Auto: "auto", "Auto", "Shares what a short trial of the scene shows to pay. The decision is made once per scene.";
+        Auto: "auto", "Auto", "Shares what a short trial of the scene finds most efficient. The trial runs once per scene.";
         On: "on", "Paths", "Reuses each path in a 4 × 4 block of pixels, weighted by multiple importance sampling.";
         Bright: "bright", "Bright samples", "Replays bright samples, such as those of caustics, in a 4 × 4 block of pixels, weighted by multiple importance sampling.";
-        Both: "both", "Both", "Reuses each path, and replays samples whose rest is bright.";
-        Off: "off", "Never", "Every pixel uses only its own paths, so the noise of neighbouring pixels is independent.";
+        Both: "both", "Both", "Reuses each path, and replays samples that are bright without the reused light.";
+        Off: "off", "Nothing", "Every pixel uses only its own paths, so the noise of neighbouring pixels is independent.";
     }
 }
 
@@ -109,7 +109,7 @@ impl RenderSettings {
         "reuse",
         "What neighbouring pixels share: path suffixes (Bekaert, Sbert and Halton 2002), bright samples, or both.",
     )
-    .title("Share paths")
+    .title("Sharing")
     .aliases("sharing share");
     /// Whether noisier pixels get more samples, as files and the window name it.
     pub const ADAPTIVE: Parameter = Parameter::new("adaptive", "Whether noisier pixels get more samples.");

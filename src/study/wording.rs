@@ -119,7 +119,7 @@ fn some_of(names: Vec<String>) -> String {
 /// The command that renders with the best settings.
 pub fn command(findings: &Findings) -> Option<String> {
     let best = findings.best()?;
-    Some(format!("noisefall render {} -o picture.exr{}", findings.path.display(), options(&best.settings, &findings.of_scene)))
+    Some(format!("noisefall render {} -o image.exr{}", findings.path.display(), options(&best.settings, &findings.of_scene)))
 }
 
 /// A line of the table.

@@ -9,7 +9,7 @@ use crate::{
 
 /// Textures of textures may go this deep.
 const DEEPEST: usize = 64;
-/// A lookup may make so many of other textures. A product of a product of … with itself would make 2ⁿ.
+/// Most lookups of other textures that one lookup may make. n nested products of a texture with itself would make 2ⁿ.
 pub(super) const MOST_LOOKUPS: u32 = 64;
 
 /// A colour of the scene: constant or by a texture.

@@ -1,4 +1,4 @@
-//! A mixture of two colors or textures.
+//! A mixture of two colours or textures.
 use fearless_simd_macros::simd;
 
 use super::{
@@ -10,12 +10,12 @@ use crate::{
     math::{Lanes, M, Pick, V},
 };
 
-/// A mixture of two colors or textures.
+/// A mixture of two colours or textures.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mix {
-    /// Color where the weight is 0.
+    /// Colour where the weight is 0.
     pub a: Textured,
-    /// Color where the weight is 1.
+    /// Colour where the weight is 1.
     pub b: Textured,
     /// Fraction of the second color.
     pub weight: Textured<f64>,

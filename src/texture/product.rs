@@ -1,4 +1,4 @@
-//! The product of two colors or textures.
+//! The product of two colours or textures.
 use fearless_simd_macros::simd;
 
 use super::{ColourSource, Found, Pattern, Summary, TextureCompiler, TextureCoordinates, Textures, Texturing, parts::finest};
@@ -7,7 +7,7 @@ use crate::{
     math::{Lanes, M, Pick, V},
 };
 
-/// The product of two colors or textures.
+/// The product of two colours or textures.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Product {
     /// First factor.

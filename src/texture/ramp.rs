@@ -1,4 +1,4 @@
-//! Colors along a scale, interpolated between stops.
+//! Colours along a scale, interpolated between stops.
 use fearless_simd_macros::simd;
 
 use super::{Found, NumberSource, Pattern, Summary, TextureCompiler, TextureCoordinates, Textures, Texturing};
@@ -8,21 +8,21 @@ use crate::{
     sampling::hash::hash_one,
 };
 
-/// Colors along a scale, interpolated between stops.
+/// Colours along a scale, interpolated between stops.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ramp {
     /// Place on the scale.
     pub input: Textured<f64>,
-    /// Colors by place, in ascending order.
+    /// Colours by place, in ascending order.
     pub stops: Vec<Stop>,
 }
 
-/// A color at a place of a scale.
+/// A colour at a place of a scale.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Stop {
     /// Place, from 0 to 1.
     pub at: f64,
-    /// The color there.
+    /// The colour there.
     pub color: [f64; 3],
 }
 

@@ -1,11 +1,11 @@
-//! The colors of a mesh’s vertices, interpolated; white without them.
+//! The colours of a mesh’s vertices, interpolated; white without them.
 use super::{Found, Pattern, Summary, TextureCompiler, TextureCoordinates, Textures, Texturing, image::Channel};
 use crate::{
     declare::{Declare, Kind, Parameter, Parameters, Problem},
     math::{Lanes, M, Pick, V},
 };
 
-/// The colors of a mesh’s vertices, interpolated; white without them.
+/// The colours of a mesh’s vertices, interpolated; white without them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct VertexColor {
     /// The channels that are used.

@@ -1,7 +1,7 @@
-//! The window. It requests pictures, displays what is published, and never waits.
+//! The window. It requests images, displays what is published, and never waits.
 //!
 //! From the top down: [`app`] joins all parts; [`panels`] and [`dialogs`] show what they are given and return requests;
-//! [`instruments`] lie below the picture, which is the [`canvas`]; work that could take longer than a frame runs on threads of
+//! [`instruments`] lie below the image, which is the [`canvas`]; work that could take longer than a frame runs on threads of
 //! [`background`]; [`widgets`] are shared. Arrows between these folders point down (`tests/program/layers.rs`).
 mod app;
 mod background;
@@ -25,7 +25,7 @@ use noisefall::{
 use panels::window::{all_but_one, cores};
 
 const ICON: &[u8] = include_bytes!("../../assets/icon.png");
-const NO_WINDOW: &str = "use `noisefall render SCENE -o picture.png` to render without a window";
+const NO_WINDOW: &str = "use `noisefall render SCENE -o image.png` to render without a window";
 
 /// Opens the window on a scene file, or on the built-in scene. Returns when it is closed.
 pub fn run(scene: GivenScene) -> Result<(), String> {

@@ -73,10 +73,10 @@ fn what_would_change_the_image_or_lose_a_render_is_refused_by_name() {
     for (options, expected) in [
         (
             &["--sampler", "stratified"][..],
-            "`--sampler stratified` would change the image, which was begun with `--sampler sobol`",
+            "`--sampler stratified` would change the image, which was started with `--sampler sobol`",
         ),
         (&["--seed", "3", "--adaptive", "on"], "`--adaptive on --seed 3` would change"),
-        (&["--size", "8x8"], "`--size 8x8` would change the image, which was begun with `--size 60x40`"),
+        (&["--size", "8x8"], "`--size 8x8` would change the image, which was started with `--size 60x40`"),
         (&["-D", "a=1"], "the file has its scene with its options"),
         (&[&spheres], "give either a scene or --resume FILE"),
         (&["--checkpoint", "a.txt"], "must end in .nf"),

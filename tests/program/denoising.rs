@@ -45,7 +45,11 @@ fn an_image_that_cannot_be_denoised_is_saved_as_it_is() {
         done
     };
     let done = render("short.exr", &short);
-    assert!(text(&done.stderr).contains("warning: the image is not denoised: that needs two samples"), "{}", text(&done.stderr));
+    assert!(
+        text(&done.stderr).contains("warning: the image is not denoised: denoising needs two samples"),
+        "{}",
+        text(&done.stderr)
+    );
     assert!(text(&done.stdout).contains(" 1 spp ") && text(&done.stdout).contains(", unbiased;"), "{}", text(&done.stdout));
     render("plain.exr", &["--spp", "1"]);
     let [short, plain] = ["short.exr", "plain.exr"].map(|name| shell.path(name));

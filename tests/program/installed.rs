@@ -1,4 +1,4 @@
-//! What a program has that was installed alone: its scenes, manual pages, and completions.
+//! A program that is installed alone has its scenes, manual pages and completions.
 use std::{collections::BTreeSet, fs};
 
 use super::{

@@ -1,4 +1,4 @@
-//! JSON Schemas, as far as ours go.
+//! A validator of JSON Schemas for the keywords that our schemas use.
 use serde_json::Value;
 
 /// Whether a value fits a schema: types, objects, lists, words, choices, and references within the schema. Ranges of numbers are not

@@ -65,7 +65,7 @@ fn every_frame_of_a_turntable_is_the_image_of_its_camera() {
     fs::remove_file(shell.path("turn-03.png")).expect("it is there");
     fs::write(shell.path("turn-02.png"), "kept").expect("it is written");
     let resumed = turn(&["--resume"]);
-    assert!(text(&resumed.stderr).contains("2 of 3 frames exist and are left out"), "{}", text(&resumed.stderr));
+    assert!(text(&resumed.stderr).contains("2 of 3 frames exist and are skipped"), "{}", text(&resumed.stderr));
     assert!(bytes("turn-02.png") == b"kept" && bytes("turn-03.png") == third);
     assert!(turn(&[]).status.success() && bytes("turn-02.png") != b"kept", "without --resume all are rendered");
 }

@@ -1,4 +1,4 @@
-//! Vertex colors of meshes, as the view of a triangle whose color is its barycentric coordinates.
+//! Vertex colours of meshes, as the view of a triangle whose colour is its barycentric coordinates.
 use noisefall::{
     integrator::{Features, features},
     math::SimdLevel,

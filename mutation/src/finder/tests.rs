@@ -1,3 +1,4 @@
+//! The places where faults are found.
 use super::*;
 
 fn changes(body: &str) -> Vec<String> {

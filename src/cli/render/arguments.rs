@@ -43,12 +43,11 @@ pub struct Arguments {
     /// `noisefall merge`, which joins any ranges to the bits of one run; -o FILE.exr or .png writes their image
     #[arg(long, value_name = "A..B", value_parser = parse::sample_range, requires = "output", conflicts_with = "spp")]
     pub samples: Option<Range<u32>>,
-    /// Stop after a rendering time
+    /// Stop after this rendering time
     #[arg(long, value_name = "SECONDS", value_parser = parse::seconds, overrides_with_all = ["spp", "noise"])]
     pub time: Option<Duration>,
-    /// Stop at an estimated relative noise (0.01 is 1 %): the root of relMSE, the mean of (x − r)²/(r² + 0.01 · mean r²). The
-    /// sample count then depends on the samples, which biased the mean by less than a fortieth of the target in the worst case
-    /// tested
+    /// Stop at an estimated relative noise, such as 0.01 for 1 %: the root of relMSE, the mean of (x − r)²/(r² + 0.01 · mean r²).
+    /// Such a stop depends on the samples. It biased the mean by less than a fortieth of the target in the worst case tested
     #[arg(long, value_name = "RELATIVE", value_parser = parse::noise, overrides_with_all = ["spp", "time"])]
     pub noise: Option<f64>,
     #[arg(long, help = format!("How direct light is estimated: {}", parse::one_of::<Estimator>()),

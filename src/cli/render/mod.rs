@@ -188,8 +188,7 @@ impl Arguments {
         }
     }
 
-    /// How far to render an image of a scene: as far as is said, or as far as the render was to go that is continued. Fails if that
-    /// is not enough for denoising.
+    /// The target of a render: that of the options, or that of the render that is continued. Fails if it is not enough for denoising.
     fn budget(&self, scene: &Scene, before: Option<Target>) -> Result<Budget, Failure> {
         let is_said = self.spp.is_some() || self.time.is_some() || self.noise.is_some();
         let budget = match before.filter(|_| !is_said) {

@@ -17,7 +17,7 @@ pub struct Done<'a> {
     pub output: &'a Output,
     pub scene: &'a Scene,
     pub scene_path: &'a Path,
-    /// What of the scene was not taken over exactly.
+    /// What was not imported exactly from the scene.
     pub remarks: &'a Remarks,
     pub settings: &'a RenderSettings,
     pub frame: &'a Frame,

@@ -1,4 +1,4 @@
-//! What is written: only what changed, in the style of the file.
+//! Saving writes only what changed, in the style of the file.
 use super::*;
 use crate::{declare::Textured, scene::describe, shape::Transform};
 

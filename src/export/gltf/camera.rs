@@ -1,4 +1,4 @@
-//! The camera, and what glTF does not say about the image.
+//! The camera, and the image settings that glTF cannot express.
 use glam::{DAffine3, DMat3, DVec3};
 use serde_json::json;
 

@@ -1,4 +1,4 @@
-//! What an export has made so far.
+//! The state of an export: what it has written so far.
 use std::collections::HashMap;
 
 use glam::DAffine3;
@@ -29,7 +29,7 @@ pub struct Export<'a> {
     pub maps: HashMap<String, Option<Mapped>>,
     /// Accessors of vertices and triangles.
     pub columns: HashMap<(Triangles, bool), Columns>,
-    /// Accessors of colors of vertices, and whether they have opacity.
+    /// Accessors of colours of vertices, and whether they have opacity.
     pub vertex_colors: HashMap<(Triangles, bool), usize>,
     pub meshes: HashMap<MeshKey, usize>,
     /// Number of meshes whose nodes would shear them.

@@ -1,4 +1,4 @@
-//! Lamps of KHR_lights_punctual, and what has no word there.
+//! Lamps of KHR_lights_punctual, and light that glTF cannot express.
 use glam::{DAffine3, DVec3};
 use serde_json::{Map, Value, json};
 
@@ -107,7 +107,7 @@ impl Export<'_> {
 
     /// A spot with the mean of the image.
     fn projector(&mut self, lamp: &Projector) -> Result<(Value, [f64; 3]), ExportError> {
-        self.remark("a projector", "a spot of its width and its mean color", "its light is round and has no image");
+        self.remark("a projector", "a spot of its width and its mean colour", "its light is round and has no image");
         let mean = match lamp.image.is_empty() {
             true => [1.0; 3],
             false => {

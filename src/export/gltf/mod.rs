@@ -1,7 +1,7 @@
 //! Scenes in glTF 2.0.
 //!
-//! Each family is a file: it undoes the translation of the same file of the reader, `import/gltf/`. What the format has no word for is a
-//! remark.
+//! Each family is a file: it undoes the translation of the same file of the reader, `import/gltf/`. What the format cannot express
+//! becomes a remark.
 //!
 //! | file | holds |
 //! |---|---|
@@ -9,7 +9,7 @@
 //! | `document.rs`, `buffer.rs`, `accessors.rs`, `container.rs` | JSON, binary data, and the files of both |
 //! | `shapes.rs`, `units.rs` | nodes and meshes |
 //! | `materials/` | materials and the light that surfaces emit |
-//! | `textures.rs`, `pixels.rs` | colors, numbers and images |
+//! | `textures.rs`, `pixels.rs` | colours, numbers and images |
 //! | `lights.rs` | lamps |
 //! | `camera.rs` | the camera |
 mod accessors;

@@ -20,7 +20,7 @@ use crate::{
     },
 };
 
-/// Error of a color or number that counts as none.
+/// Error of a colour or number that counts as none.
 const EXACT: f64 = 1e-6;
 
 /// Squares of a checker along a side, as far as the lookup of images resolves them.

@@ -44,7 +44,7 @@ impl Export<'_> {
         let (triangles, name, map) = match (shape, &unit) {
             (Shape::Mesh { data, map, .. }, _) => {
                 if made.uses_coordinates && data.uvs.is_empty() {
-                    self.remark("textures of a mesh without coordinates", "their factors", "the surface has one color");
+                    self.remark("textures of a mesh without coordinates", "their factors", "the surface has one colour");
                 }
                 (Triangles::Mesh(Arc::as_ptr(data) as usize), object.name.as_str(), map)
             }

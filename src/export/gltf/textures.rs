@@ -1,4 +1,4 @@
-//! Textures of materials: what of them is a factor, an image, or the color of vertices.
+//! Textures of materials as factors, images and vertex colours.
 use std::io::Read;
 
 use serde_json::{Value, json};
@@ -28,7 +28,7 @@ pub struct Part {
     pub texture: Option<String>,
     /// The channel of a number; `Rgb` for a color.
     pub channel: Channel,
-    /// Whether the colors of vertices are a further factor.
+    /// Whether the colours of vertices are a further factor.
     pub has_vertices: bool,
 }
 
@@ -69,7 +69,7 @@ impl Export<'_> {
         self.part(&grey(number), channel, None)
     }
 
-    /// A color or number, without its factors. `vertices` is the channel of the colors of vertices that may be one of them.
+    /// A colour or number, without its factors. `vertices` is the channel of the colours of vertices that may be one of them.
     pub fn part(&self, value: &Textured, channel: Channel, vertices: Option<Channel>) -> Part {
         let mut part = Part { factor: [1.0; 3], texture: None, channel, has_vertices: false };
         let mut rest = vec![value];

@@ -114,7 +114,7 @@ impl Export<'_> {
         Element::plugin("bsdf", "blendbsdf").with(weight).with_all(parts)
     }
 
-    /// Mitsuba's thin sheet has one color for both sides.
+    /// Mitsuba's thin sheet has one colour for both sides.
     fn sheet(&mut self, sheet: &DiffuseTransmission) -> Element {
         let [reflected, passed] = [&sheet.reflectance, &sheet.transmittance].map(|color| self.colors.mean(color));
         let color = [0, 1, 2].map(|i| (reflected[i] + passed[i]).min(1.0));
@@ -122,7 +122,7 @@ impl Export<'_> {
         let share = if all > 0.0 { (through / all).min(1.0) } else { 0.0 };
         self.remark(
             "`diffuse_transmission`",
-            "a thin principled sheet of its mean color",
+            "a thin principled sheet of its mean colour",
             "both sides have the same hue, and grazing light is brighter",
         );
         Element::plugin("bsdf", "principledthin")

@@ -1,4 +1,4 @@
-//! What an export has made so far.
+//! The state of an export: what it has written so far.
 use std::collections::HashMap;
 
 use super::{

@@ -78,7 +78,7 @@ impl Export<'_> {
             self.remark(
                 "the tint, the cone or the aspect of a projector",
                 "none",
-                "its picture has other colors or another outline",
+                "its image has other colours or another outline",
             );
         }
         if !lamp.flat {
@@ -106,7 +106,7 @@ impl Export<'_> {
             }
             BackgroundDescription::Sky(sky) => {
                 if sky.model == SkyModel::Preetham {
-                    self.remark("a sky by Preetham", "`sunsky`", "another fit of the radiance and the color of the sky");
+                    self.remark("a sky by Preetham", "`sunsky`", "another fit of the radiance and the colour of the sky");
                 }
                 let zenith = sky.zenith.normalize_or(DVec3::Y);
                 let diameter = sky.sun_diameter.map(|degrees| Element::number("sun_aperture", degrees));

@@ -103,7 +103,7 @@ impl Export<'_> {
         element.with(tint)
     }
 
-    /// Ours is that of Mitsuba with `nonlinear` if its coat is smooth. Otherwise the color of the base is another one.
+    /// Ours is that of Mitsuba with `nonlinear` if its coat is smooth. Otherwise the colour of the base is another one.
     pub fn plastic(&mut self, plastic: &Plastic) -> Element {
         let is_smooth = is_smooth(&plastic.roughness);
         let element = Element::plugin("bsdf", if is_smooth { "plastic" } else { "roughplastic" })
@@ -203,7 +203,7 @@ fn word(distribution: Distribution) -> &'static str {
     }
 }
 
-/// The color of a nonlinear `roughplastic` whose base reflects as much as ours of an albedo ρ.
+/// The colour of a nonlinear `roughplastic` whose base reflects as much as ours of an albedo ρ.
 ///
 /// Ours is f = b T T/π with b = ρ/(η² (1 − ρ) + ρ T̄), Mitsuba's has b = ρ'/(η² (1 − ρ' R)).
 fn nonlinear(albedo: f64, eta: f64, alpha: f64) -> f64 {

@@ -43,7 +43,7 @@ impl Export<'_> {
         let is_clear = transmits && material.transmission_depth == 0.0;
         let base = if is_clear && material.transmission_color != Textured::grey(1.0) {
             let tint = self.colors.mean(&material.transmission_color);
-            // Disney tints by the root of the base color at each interface.
+            // Disney tints by the root of the base colour at each interface.
             Textured::Constant(if is_thin { tint } else { tint.map(|x| x * x) })
         } else if transmits && material.base_color == Principled::default().base_color {
             Textured::grey(1.0)

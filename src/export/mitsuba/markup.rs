@@ -34,7 +34,7 @@ impl Element {
         Element::value("float", name, value.to_string())
     }
 
-    /// A color with a name.
+    /// A colour with a name.
     pub fn color(name: &str, color: [f64; 3]) -> Element {
         Element::value("rgb", name, words(&color))
     }

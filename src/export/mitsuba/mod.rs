@@ -1,7 +1,7 @@
 //! Scenes of Mitsuba 3 in XML.
 //!
 //! Each family of its plugins is a file: it undoes the translation of the same file of the reader, `import/mitsuba/`. What Mitsuba has
-//! no plugin for is a remark.
+//! no plugin for becomes a remark.
 //!
 //! | file | holds |
 //! |---|---|
@@ -9,7 +9,7 @@
 //! | `context.rs` | the scene so far, names and remarks |
 //! | `shapes.rs` | shapes and the light that they emit |
 //! | `bsdfs.rs`, `glossy.rs`, `layered.rs` | materials |
-//! | `textures.rs` | colors, numbers and textures |
+//! | `textures.rs` | colours, numbers and textures |
 //! | `emitters.rs` | lamps and backgrounds |
 //! | `sensor.rs` | camera, film, sampler and integrator |
 mod bsdfs;

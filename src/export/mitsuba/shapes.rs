@@ -87,7 +87,7 @@ impl Export<'_> {
         let image = if self.colors.is_flat(name) { self.baked(name, &found, |color| color.map(|x| x * scale)) } else { None };
         image.map_or_else(
             || {
-                self.remark(found, "its mean", "the light has one color");
+                self.remark(found, "its mean", "the light has one colour");
                 let mean = self.colors.mean(&Textured::Texture(name.to_owned()));
                 Element::color("radiance", mean.map(|x| x * scale))
             },
@@ -156,7 +156,7 @@ impl Export<'_> {
         Ok(Geometry { element: ply(&path, is_flat).transform("to_world", map), flip })
     }
 
-    /// Adds the file of a mesh. Mitsuba knows colors of vertices by other names.
+    /// Adds the file of a mesh. Mitsuba knows colours of vertices by other names.
     fn add_model(&mut self, name: &str, model: Model) -> Result<String, ExportError> {
         if model.colours.is_none() {
             return Ok(self.new.add("meshes", name, "ply", model));

@@ -1,4 +1,4 @@
-//! Colors and numbers, constant or textured.
+//! Colours and numbers, constant or textured.
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 
 use super::{
@@ -13,7 +13,7 @@ use crate::{
 };
 
 impl Export<'_> {
-    /// A color with the name of a parameter.
+    /// A colour with the name of a parameter.
     pub fn color(&mut self, name: &str, color: &Textured) -> Element {
         match color {
             Textured::Constant(color) => Element::color(name, *color),
@@ -53,8 +53,8 @@ impl Export<'_> {
                 let mean = self.colors.mean(&Textured::Texture(texture.to_owned()));
                 self.remark(
                     format!("the texture `{texture}`, which varies in space"),
-                    "its mean color",
-                    "the surface has one color",
+                    "its mean colour",
+                    "the surface has one colour",
                 );
                 Element::color(name, mean)
             }

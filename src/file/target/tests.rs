@@ -1,4 +1,4 @@
-//! Whatever fails, either the old file or the new one exists, and no other file beside it.
+//! After any failure, either the old file or the new one exists, and no other file beside it.
 use super::*;
 
 fn folder() -> tempfile::TempDir {

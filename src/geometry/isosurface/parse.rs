@@ -40,7 +40,8 @@ pub(super) fn parse(text: &str) -> Result<(Graph, Id), ParseError> {
     }
     let value = parser.sum()?;
     if let Some((token, at)) = parser.tokens.take() {
-        let label = if token == Token::Symbol(')') { "no ( belongs to it" } else { "an operator such as * is missing before it" };
+        let label =
+            if token == Token::Symbol(')') { "it has no matching (" } else { "an operator such as * is missing before it" };
         return Err(ParseError::new(at, format!("{token} is not expected here"), label));
     }
     Ok((parser.graph, value))
@@ -64,11 +65,7 @@ impl Parser<'_> {
         }
         if self.graph.has_infinite_constant() {
             let at = start..self.tokens.last_end();
-            return Err(ParseError::new(
-                at,
-                "a constant is infinite or undefined",
-                "when worked out, it is above 3.4e38 or divides by 0",
-            ));
+            return Err(ParseError::new(at, "a constant is infinite or undefined", "its value exceeds 3.4e38 or divides by 0"));
         }
         Ok(sum)
     }
@@ -117,9 +114,11 @@ impl Parser<'_> {
         let at = at.start..self.tokens.last_end();
         match self.graph.value(exponent) {
             Some(n) if n.fract() == 0.0 && n.abs() <= HIGHEST_POWER => Ok(self.graph.integer_power(base, n as i32)),
-            Some(n) if n.abs() > HIGHEST_POWER => {
-                Err(ParseError::new(at, format!("powers reach from -{HIGHEST_POWER} to {HIGHEST_POWER}"), "too high a power"))
-            }
+            Some(n) if n.abs() > HIGHEST_POWER => Err(ParseError::new(
+                at,
+                format!("a power must lie between -{HIGHEST_POWER} and {HIGHEST_POWER}"),
+                "too high a power",
+            )),
             Some(c) => Ok(self.graph.real_power(base, c)),
             None => Err(ParseError::new(at, "a power must be a number", "write exp(b * log(a)) for a^b")),
         }
@@ -136,9 +135,9 @@ impl Parser<'_> {
                 Ok(value)
             }
             Some((token, at)) => {
-                Err(ParseError::new(at, format!("{token} is not expected here"), "a number, a name or ( should stand here"))
+                Err(ParseError::new(at, format!("{token} is not expected here"), "expected a number, a name or ("))
             }
-            None => Err(ParseError::new(here, "the expression ends too early", "a number, a name or ( should follow")),
+            None => Err(ParseError::new(here, "the expression ends too early", "expected a number, a name or (")),
         }
     }
 
@@ -150,7 +149,7 @@ impl Parser<'_> {
         match self.tokens.take() {
             Some((Token::Symbol(','), at)) => Err(ParseError::new(at, "a comma is not expected here", "too many arguments")),
             Some((token, at)) => {
-                Err(ParseError::new(at, format!("{token} is not expected here"), "an operator or ) should stand before it"))
+                Err(ParseError::new(at, format!("{token} is not expected here"), "expected an operator or ) before it"))
             }
             None => Err(ParseError::new(open, "a parenthesis is not closed", "its ) is missing")),
         }

@@ -15,7 +15,7 @@ use crate::{
 const LONG: f32 = 24.0;
 /// Long triangles are divided if they have more than this share of the area of all boxes,
 const SHARE: f32 = 0.25;
-/// and if their boxes are so many times as large as the mesh: a ray through it enters about as many of them.
+/// and if their boxes are this many times as large as the mesh: a ray through it enters about as many of them.
 const CROWD: f32 = 32.0;
 /// Number of pieces per triangle, on average at most.
 const PIECES: f32 = 6.0;

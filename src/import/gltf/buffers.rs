@@ -59,7 +59,7 @@ impl Buffers {
     /// Accounts for decoded data. A small file cannot ask for much memory.
     pub fn spend(&self, bytes: u64, what: &str) -> Found<()> {
         let left = self.allowance.get().checked_sub(bytes);
-        let help = "the file repeats its data too often; export it with less";
+        let help = "the file repeats its data too often; export it with fewer copies";
         self.allowance
             .set(left.ok_or_else(|| Refusal::new(format!("{what} need more memory than a file of its size should"), help))?);
         Ok(())
@@ -70,7 +70,7 @@ fn missing(document: &Document) -> Refusal {
     let compressed = |name: &&String| name.ends_with("_compression");
     match document.extensions_used.iter().find(compressed) {
         Some(name) => {
-            Refusal::new(format!("its data is compressed by {name}, which is not read"), "export it without compression")
+            Refusal::new(format!("its data is compressed by {name}, which is not supported"), "export it without compression")
         }
         None => "it has no data".into(),
     }

@@ -126,5 +126,5 @@ pub fn parse(json: &[u8]) -> Found<Document> {
 }
 
 fn refused_version(version: &str) -> Refusal {
-    Refusal::new(format!("glTF {version} is not read"), "export the file as glTF 2.0")
+    Refusal::new(format!("glTF {version} is not supported"), "export the file as glTF 2.0")
 }

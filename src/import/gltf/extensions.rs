@@ -33,7 +33,7 @@ pub const KNOWN: [&str; 21] = [
 pub const REFUSED: [(&str, &str); 3] = [
     ("EXT_meshopt_compression", "export the file without meshopt compression"),
     ("KHR_meshopt_compression", "export the file without meshopt compression"),
-    ("KHR_texture_basisu", "export its textures as PNG, JPEG or WebP: KTX2 files are not read"),
+    ("KHR_texture_basisu", "export its textures as PNG, JPEG or WebP: KTX2 files are not supported"),
 ];
 
 macro_rules! extensions {

@@ -69,7 +69,7 @@ impl<'a> Images<'a> {
     }
 }
 
-const KTX2: &str = "KTX2 files (KHR_texture_basisu) are not read";
+const KTX2: &str = "KTX2 files (KHR_texture_basisu) are not supported";
 
 /// The ending of a file with these bytes.
 fn ending(bytes: &[u8]) -> Result<&'static str, String> {

@@ -226,7 +226,7 @@ impl<'a> Instances<'a> {
         if primitive.targets.iter().any(|target| target.color.is_some() || (0..4).any(|set| target.uvs(set).is_some())) {
             to.remarks.add(
                 place,
-                "morph targets of colors or texture coordinates",
+                "morph targets of colours or texture coordinates",
                 "those at rest",
                 "textures do not follow the pose",
             );

@@ -84,7 +84,7 @@ fn translated(container: Container, folder: &Folder, options: &ImportOptions, fi
     lamps(&document, &hierarchy, &mut to, file)?;
     if !camera(&document, &hierarchy, &mut to, file)? {
         studio::frame(&mut to.description, bounds);
-        to.remarks.add(file, "no camera", "a camera that shows everything", "the view is not the author's");
+        to.remarks.add(file, "no camera", "a camera that shows everything", "the view differs from the original");
     }
     if to.description.lamps.is_empty() && to.description.objects.iter().all(|object| object.emission.is_none()) {
         let Imported { description, assets, remarks } = &mut to;
@@ -99,7 +99,7 @@ fn check_extensions(document: &Document, to: &mut Imported, file: &str) -> Found
     if let Some(name) = document.extensions_required.iter().find(|name| !is_known(name)) {
         let help = extensions::REFUSED.iter().find(|(refused, _)| refused == name).map(|(_, help)| *help);
         let help = help.unwrap_or("export the file without this extension");
-        return Err(Refusal::new(format!("it requires the extension `{name}`, which is not read"), help));
+        return Err(Refusal::new(format!("it requires the extension `{name}`, which is not supported"), help));
     }
     let has_fallback = |name: &str| extensions::REFUSED.iter().any(|(refused, _)| *refused == name);
     for name in document.extensions_used.iter().filter(|name| !is_known(name) && !has_fallback(name)) {

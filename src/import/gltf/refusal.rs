@@ -1,4 +1,4 @@
-//! Why a file is refused.
+//! The reason why a file is refused.
 use std::path::Path;
 
 use crate::{memory::TooMuch, progress::Cancelled, scene::SceneError};

@@ -50,7 +50,7 @@ impl<'a> Textures<'a> {
         Textures { document, images, names: Names::default(), known: HashMap::new() }
     }
 
-    /// A factor times the color of a texture.
+    /// A factor times the colour of a texture.
     pub fn colour(&mut self, to: &mut Imported, factor: [f64; 3], of: &Use, encoding: Encoding) -> Textured {
         match self.image(to, of, Channel::Rgb, encoding) {
             Some(name) => self.times(to, Textured::Constant(factor), Textured::Texture(name)),
@@ -82,7 +82,7 @@ impl<'a> Textures<'a> {
         }
     }
 
-    /// The colors of the vertices, or a channel of them.
+    /// The colours of the vertices, or a channel of them.
     pub fn vertex_colour(&mut self, to: &mut Imported, channel: Channel) -> Textured {
         Textured::Texture(self.add(to, VertexColor { channel }.into(), "vertex color"))
     }
@@ -108,7 +108,7 @@ impl<'a> Textures<'a> {
     pub fn path(&mut self, to: &mut Imported, of: &Use) -> Option<Image> {
         let info = of.map?;
         let Some(set) = of.surface.uvs else {
-            to.remarks.add(of.place, "a texture on a mesh without TEXCOORD_n", "its factor alone", "the surface has one color");
+            to.remarks.add(of.place, "a texture on a mesh without TEXCOORD_n", "its factor alone", "the surface has one colour");
             return None;
         };
         if info.set() != set {
@@ -152,7 +152,9 @@ impl<'a> Textures<'a> {
         let webp = texture.extensions.webp.as_ref().map(|image| image.source);
         let source = match webp.or(texture.source) {
             Some(source) => source,
-            None if texture.extensions.basisu.is_some() => return Err("KTX2 files (KHR_texture_basisu) are not read".to_owned()),
+            None if texture.extensions.basisu.is_some() => {
+                return Err("KTX2 files (KHR_texture_basisu) are not supported".to_owned());
+            }
             None => return Err("it has no image".to_owned()),
         };
         let sampler = match texture.sampler {
@@ -181,7 +183,7 @@ impl<'a> Textures<'a> {
     }
 }
 
-/// A color as a number: textures give their luminance, which is that of a grey.
+/// A colour as a number: textures give their luminance, which is that of a grey.
 pub fn number(colour: Textured) -> Textured<f64> {
     match colour {
         Textured::Constant([grey, _, _]) => Textured::Constant(grey),

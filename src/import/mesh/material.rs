@@ -1,8 +1,8 @@
-//! Which of our materials stands for one of MTL.
+//! The material of Noisefall for a material of MTL.
 //!
 //! | MTL | ours |
 //! |---|---|
-//! | any of `Pr Pm Ps Pc Pcr aniso anisor` or their maps | `principled`: `Kd` is the base color, `Pm` metalness, `Pr` roughness, `Pc` and `Pcr` the coat, `Ps` fuzz |
+//! | any of `Pr Pm Ps Pc Pcr aniso anisor` or their maps | `principled`: `Kd` is the base colour, `Pm` metalness, `Pr` roughness, `Pc` and `Pcr` the coat, `Ps` fuzz |
 //! | `illum` 6 or 7; 4 or 9 with `d` < 1 | `dielectric` of index `Ni`; with `Tf`, `principled` that is transparent |
 //! | black `Kd`, bright `Ks` | `conductor` with F₀ = `Ks` |
 //! | `Ks` and `illum` 2 or more | `plastic`: `Kd` under a coat of index `Ni` |
@@ -23,7 +23,7 @@ use crate::{
 
 /// Index of glass and coats where the file has none.
 const INDEX: f64 = 1.5;
-/// Surfaces with a darker diffuse and a brighter specular color are metal.
+/// Surfaces with a darker diffuse and a brighter specular colour are metal.
 const DARK: f64 = 0.02;
 const BRIGHT: f64 = 0.2;
 /// Height of a bump map's white over its black, as part of the size of the scene: MTL has no unit.
@@ -92,7 +92,7 @@ impl Work<'_> {
         self.mtl.number("Ni").filter(|index| *index > 1.0).map_or(INDEX, |index| index.min(20.0))
     }
 
-    /// A reflectance: a color of at most 1 times its map. Some exporters write black where a map says everything.
+    /// A reflectance: a colour of at most 1 times its map. Some exporters write black where a map says everything.
     fn reflectance(&mut self, key: &str, map: &str) -> Textured {
         let map = self.mtl.map(map);
         let mut colour = self.mtl.colour(key).unwrap_or(if map.is_some() { [1.0; 3] } else { [0.0; 3] });
@@ -140,7 +140,7 @@ impl Work<'_> {
             let f0 = self.reflectance("Ks", "map_ks");
             return Conductor { fresnel: Reflectance::Schlick(f0), roughness, ..Conductor::default() }.into();
         }
-        self.remark("Phong's highlight (`Ks Ns`)", "`plastic`", "the highlight has another shape, strength and color");
+        self.remark("Phong's highlight (`Ks Ns`)", "`plastic`", "the highlight has another shape, strength and colour");
         Plastic { albedo: self.diffuse(), ior: self.index(), roughness }.into()
     }
 
@@ -194,7 +194,7 @@ impl Work<'_> {
         self.textures.number(self.to, self.place, factor, map, Channel::Rgb)
     }
 
-    /// The opacity; `None` is 1. A map that is the image of the colors means the opacity of that image.
+    /// The opacity; `None` is 1. A map that is the image of the colours means the opacity of that image.
     fn opacity(&mut self) -> Option<Textured<f64>> {
         let map = self.mtl.map("map_d").or_else(|| {
             let inverse = self.mtl.map("map_tr");

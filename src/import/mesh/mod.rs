@@ -65,7 +65,7 @@ pub fn read(path: &Path, options: &ImportOptions, folder: &Folder) -> Result<Imp
         objects.add(part, &mut to).map_err(|error| SceneError::of_file(path, error.to_string(), "raise the memory limit"))?;
     }
     studio::frame(&mut to.description, bounds);
-    to.remarks.add(&*file, "no camera", "a camera that shows everything", "the view is not the author's");
+    to.remarks.add(&*file, "no camera", "a camera that shows everything", "the view differs from the original");
     if to.description.objects.iter().all(|object| object.emission.is_none()) {
         studio::light(&mut to.description, &mut to.assets, &mut to.remarks, &file);
     }
@@ -144,7 +144,7 @@ impl Objects<'_> {
             Some(name) => format!("material \"{}\", which no library has", quote::piece(name)),
             None => "no material".to_owned(),
         };
-        to.remarks.add(self.file, found, "a grey diffuse surface", "the color is not the author's");
+        to.remarks.add(self.file, found, "a grey diffuse surface", "the colour differs from the original");
         MaterialDescription { kind: Lambertian { albedo: grey }.into(), ..MaterialDescription::default() }
     }
 }

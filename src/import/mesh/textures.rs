@@ -29,7 +29,7 @@ impl Textures {
         Textures { folder, names: Names::default(), known: HashMap::new() }
     }
 
-    /// A color times a texture.
+    /// A colour times a texture.
     pub fn colour(&mut self, to: &mut Imported, place: &str, factor: [f64; 3], map: Option<&Map>) -> Textured {
         let Some(map) = map else { return Textured::Constant(factor) };
         let Some(image) = self.image(to, place, map, Encoding::Srgb) else { return Textured::Constant(factor) };
@@ -82,7 +82,7 @@ impl Textures {
         if factor == [1.0; 3] {
             return Textured::Texture(name);
         }
-        let wanted = format!("{name} times a color");
+        let wanted = format!("{name} times a colour");
         let factor = factor.map(|x| x.clamp(0.0, 1e15));
         let product = Product { a: Textured::Constant(factor), b: Textured::Texture(name) };
         Textured::Texture(self.add(to, product.into(), &wanted))
@@ -93,7 +93,7 @@ impl Textures {
         let extension = map.path.rsplit('.').next().unwrap_or_default().to_ascii_lowercase();
         let located = match READABLE.contains(&extension.as_str()) {
             true => locate(&map.path, &self.folder),
-            false => Err(format!("`{}` is not of a format that is read", quote::path(Path::new(&map.path)))),
+            false => Err(format!("`{}` is not of a supported format", quote::path(Path::new(&map.path)))),
         };
         let path = match located {
             Ok(path) => self.folder.described(&path),

@@ -16,7 +16,7 @@ pub fn across_width(element: Element, aspect: f64) -> Result<f64, SceneError> {
         let axis = element.text("fov_axis")?.unwrap_or("x");
         return match axis {
             "x" | "y" | "diagonal" | "smaller" | "larger" => Ok(of_axis(fov, axis, aspect)),
-            _ => Err(element.error(format!("`{axis}` is no axis of the field of view"), "x, y, diagonal, smaller or larger")),
+            _ => Err(element.error(format!("`{axis}` is not an axis of the field of view"), "x, y, diagonal, smaller or larger")),
         };
     }
     element.ignore(&["fov_axis"]);

@@ -53,7 +53,7 @@ pub fn parse(source: &SourceText) -> Result<Document<'_>, SceneError> {
         let in_line = text[line_start..].chars().take(position.col.saturating_sub(1) as usize).map(char::len_utf8).sum::<usize>();
         let at = line_start + in_line;
         let message = format!("this is not valid XML: {error}");
-        source.error(at..at + 1, message, "here").with_help("entities and document types are not read")
+        source.error(at..at + 1, message, "here").with_help("entities and document types are not supported")
     })
 }
 

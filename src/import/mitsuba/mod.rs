@@ -56,7 +56,7 @@ fn scene(import: &mut Import, root: Element) -> Result<(), SceneError> {
     let sensors = root.objects(&["sensor"])?;
     match sensors.first() {
         Some((_, sensor)) => import.sensor(*sensor)?,
-        None => import.remark(root, "our default camera", "the scene has no sensor"),
+        None => import.remark(root, "a default camera", "the scene has no sensor"),
     }
     for (_, sensor) in sensors.iter().skip(1) {
         import.remark(*sensor, "the first sensor", "further views are missing");

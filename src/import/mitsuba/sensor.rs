@@ -43,7 +43,7 @@ impl Import {
         self.sampler(element)?;
         let map = element.affine("to_world")?;
         if map.matrix3.determinant() < 0.0 {
-            self.remark_value(element, "to_world", "a camera without its mirror", "the picture is mirrored")?;
+            self.remark_value(element, "to_world", "a camera without its mirror", "the image is mirrored")?;
         }
         match element.kind() {
             "orthographic" => self.orthographic(element, &map, &film)?,
@@ -89,7 +89,7 @@ impl Import {
         let [eye, forward, up] = frame(element, map)?;
         let [across, upwards] = [DVec3::X, DVec3::Y].map(|axis| map.transform_vector3(axis).length());
         if (across - upwards).abs() > 1e-6 * across {
-            self.remark_value(element, "to_world", "square pixels", "the picture is not stretched")?;
+            self.remark_value(element, "to_world", "square pixels", "the image is not stretched")?;
         }
         let width = 2.0 * across * f64::from(film.crop[0]) / f64::from(film.size[0]);
         // Rays begin at the near plane.

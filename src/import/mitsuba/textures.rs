@@ -109,7 +109,7 @@ impl Import {
             "mesh_attribute" => self.mesh_attribute(element),
             "volume" => Err(element.error("a `volume` texture, which Noisefall does not read", "use an image texture")),
             kind => Err(element.error(
-                format!("`{kind}` is no texture that Noisefall knows"),
+                format!("`{kind}` is not a texture that Noisefall knows"),
                 "it knows bitmap, checkerboard, mesh_attribute and the spectra",
             )),
         }
@@ -125,7 +125,7 @@ impl Import {
             "repeat" => Wrap::Repeat,
             "mirror" => Wrap::Mirror,
             "clamp" => Wrap::Clamp,
-            other => return Err(element.error(format!("`{other}` is no wrap mode"), "repeat, mirror or clamp")),
+            other => return Err(element.error(format!("`{other}` is not a wrap mode"), "repeat, mirror or clamp")),
         };
         let filter = match element.text("filter_type")?.unwrap_or("bilinear") {
             "nearest" => TexelFilter::Nearest,

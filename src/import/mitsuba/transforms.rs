@@ -33,7 +33,8 @@ impl Element<'_> {
             "lookat" | "look_at" => self.look_at(),
             "matrix" => self.matrix(),
             tag => {
-                Err(self.error(format!("`<{tag}>` is no step of a transform"), "use translate, scale, rotate, lookat or matrix"))
+                Err(self
+                    .error(format!("`<{tag}>` is not a step of a transform"), "use translate, scale, rotate, lookat or matrix"))
             }
         }
     }

@@ -1,4 +1,4 @@
-//! The last step: materials, now that all of them are known, and light if there is none.
+//! The last step of a translation: assigns materials, which are all known by then, and adds light if there is none.
 use std::path::Path;
 
 use super::import::Import;

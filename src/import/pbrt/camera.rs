@@ -94,7 +94,7 @@ fn optics(import: &mut Import, entity: &Entity, scales: [f64; 3]) -> Result<(), 
             import.remark(entity, "a perspective camera with an angle of 90°", "only a part of all directions is seen");
             angle = 90.0;
         }
-        other => return Err(entity.error(format!("`{other}` is no camera of pbrt-v4"), "perspective or orthographic")),
+        other => return Err(entity.error(format!("`{other}` is not a camera of pbrt-v4"), "perspective or orthographic")),
     }
     let ratio = width / 2.0 * scales[0] / scales[2];
     import.description.camera.fov = Some(fov(angle.to_radians(), ratio));

@@ -90,7 +90,7 @@ impl Interpreter {
             "ReverseOrientation" => self.state.reverse = !self.state.reverse,
             "ColorSpace" => {
                 let name = self.quoted(place)?;
-                let unknown = || place.error(format!("`{name}` is no colour space"), "srgb, dci-p3, rec2020 or aces2065-1");
+                let unknown = || place.error(format!("`{name}` is not a colour space"), "srgb, dci-p3, rec2020 or aces2065-1");
                 self.state.space = ColourSpace::named(&name).ok_or_else(unknown)?;
             }
             "Include" | "Import" => self.include(word == "Import", place)?,
@@ -152,7 +152,9 @@ impl Interpreter {
             "MakeNamedMaterial" => ("MakeNamedMaterial", Some(Target::Material)),
             "MakeNamedMedium" => ("MakeNamedMedium", Some(Target::Medium)),
             _ => {
-                return Err(place.error(format!("`{word}` is no directive of pbrt-v4"), "pbrt-v3 scenes must be converted first"));
+                return Err(
+                    place.error(format!("`{word}` is not a directive of pbrt-v4"), "pbrt-v3 scenes must be converted first")
+                );
             }
         };
         let entity = Rc::new(self.read_entity(directive, target, place)?);

@@ -1,4 +1,4 @@
-//! What a translation has made so far.
+//! The state of a translation: what it has made so far.
 use std::{collections::HashMap, path::PathBuf, rc::Rc};
 
 use glam::DAffine3;

@@ -39,7 +39,8 @@ impl Interpreter {
             }
             "CoordSysTransform" => {
                 let name = self.quoted(place)?;
-                let unknown = || place.error(format!("`{name}` is no coordinate system"), "name one by CoordinateSystem first");
+                let unknown =
+                    || place.error(format!("`{name}` is not a coordinate system"), "name one by CoordinateSystem first");
                 self.state.maps = *self.systems.get(&name).ok_or_else(unknown)?;
             }
             "ActiveTransform" => {
@@ -48,7 +49,7 @@ impl Interpreter {
                     "StartTime" => [true, false],
                     "EndTime" => [false, true],
                     "All" => [true, true],
-                    _ => return Err(at.error(format!("`{name}` is no time"), "StartTime, EndTime or All")),
+                    _ => return Err(at.error(format!("`{name}` is not a time"), "StartTime, EndTime or All")),
                 };
             }
             "TransformTimes" => {

@@ -15,10 +15,10 @@ pub fn parameters(tokens: &mut Tokens, space: ColourSpace) -> Result<Vec<Paramet
         let declaration = unquoted(tokens.text(&place));
         let mut words = declaration.split_whitespace();
         let (Some(of_type), Some(name), None) = (words.next(), words.next(), words.next()) else {
-            return Err(place.error(format!("`{declaration}` declares no parameter"), "expected \"type name\""));
+            return Err(place.error(format!("`{declaration}` does not declare a parameter"), "expected \"type name\""));
         };
         let Some(of_type) = type_named(of_type) else {
-            return Err(place.error(format!("`{of_type}` is no type of parameters"), "such as \"float\" or \"point3\""));
+            return Err(place.error(format!("`{of_type}` is not a type of parameters"), "such as \"float\" or \"point3\""));
         };
         let values = values(tokens, of_type, &place)?;
         found.push(Parameter::new(of_type, name, values, place, space));

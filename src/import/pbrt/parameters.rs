@@ -169,7 +169,7 @@ impl Parameter {
         }
     }
 
-    /// The numbers, if there are at least so many.
+    /// The numbers, if there are at least this many.
     pub fn numbers(&self, least: usize) -> Result<&[f64], SceneError> {
         match &self.values {
             Values::Numbers(numbers) if numbers.len() >= least => Ok(numbers),

@@ -1,4 +1,4 @@
-//! What follows a directive: names, numbers, parameters, and files.
+//! Reads what follows a directive: names, numbers, parameters and files.
 use std::rc::Rc;
 
 use super::{

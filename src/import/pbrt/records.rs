@@ -1,4 +1,4 @@
-//! What is kept of surfaces until all materials are known.
+//! Records of surfaces, kept until all materials are known.
 use std::rc::Rc;
 
 use glam::DAffine3;

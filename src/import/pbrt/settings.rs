@@ -104,7 +104,7 @@ fn filter(import: &mut Import, entity: &Entity) -> Result<(), SceneError> {
             import.remark(entity, "a box of a pixel", near);
             Filter::Box
         }
-        other => return Err(entity.error(format!("`{other}` is no filter of pbrt-v4"), "such as gaussian or box")),
+        other => return Err(entity.error(format!("`{other}` is not a filter of pbrt-v4"), "such as gaussian or box")),
     };
     Ok(())
 }
@@ -152,7 +152,7 @@ fn integrator(import: &mut Import, entity: &Entity) -> Result<(), SceneError> {
             entity.ignore(&["cossample", "maxdistance", "function", "filename", "skipbad", "imagefilename"]);
             import.remark(entity, "path tracing", "the image shows light instead");
         }
-        other => return Err(entity.error(format!("`{other}` is no integrator of pbrt-v4"), "such as path or volpath")),
+        other => return Err(entity.error(format!("`{other}` is not an integrator of pbrt-v4"), "such as path or volpath")),
     }
     Ok(())
 }

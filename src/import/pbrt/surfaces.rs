@@ -74,7 +74,7 @@ impl Import {
 
     /// `ObjectInstance`.
     pub fn instance(&mut self, name: &str, by: [DAffine3; 2], place: &Place) -> Result<(), SceneError> {
-        let unknown = || place.error(format!("`{name}` is no object"), "define it by ObjectBegin first");
+        let unknown = || place.error(format!("`{name}` is not an object"), "define it by ObjectBegin first");
         let surfaces: Rc<_> = self.definitions.get(name).ok_or_else(unknown)?.clone();
         surfaces.iter().try_for_each(|surface| self.add_surface(surface, by))
     }

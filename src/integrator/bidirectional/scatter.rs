@@ -1,4 +1,4 @@
-//! What depends on the type of BSDF: its values for two directions, and samples of it.
+//! The functions that depend on the type of BSDF: its value for two directions, and samples of it.
 use fearless_simd_macros::simd;
 
 use crate::{

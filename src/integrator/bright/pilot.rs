@@ -1,4 +1,5 @@
-//! The pilot that tells what is typical of the pixels of a tile. It has a seed of its own, so thresholds depend on no sample of the image.
+//! The pilot that estimates the typical brightness of the pixels of a tile. It has a seed of its own, so thresholds depend on no
+//! sample of the image.
 use crate::{
     integrator::{batch::Batch, bright_samples::Thresholds, interrupted::Interrupted, trace::trace_alone, work::Work},
     math::SimdLevel,

@@ -1,4 +1,4 @@
-//! What sharing of bright samples stores: [`super::bright`] does it.
+//! The data that sharing of bright samples stores. [`super::bright`] does the sharing.
 mod found;
 mod replays;
 mod thresholds;

@@ -1,4 +1,4 @@
-//! What is kept of paths from both ends while a batch is traced. [`super::bidirectional`] has their stages.
+//! The data of paths from both ends while a batch is traced. [`super::bidirectional`] has their stages.
 //!
 //! | file | content |
 //! |---|---|

@@ -1,4 +1,4 @@
-//! What is kept of paths from both ends, by slot, and the queues of their stages.
+//! The data of paths from both ends, by slot, and the queues of their stages.
 use super::{
     path_state::PathState,
     records::{CameraRay, Connection, DirectSample},

@@ -1,4 +1,4 @@
-//! Which vertices of a path the camera sees.
+//! Finds the vertices of a path that the camera sees.
 use glam::{DVec3, Vec3};
 
 use super::Replay;

@@ -1,10 +1,10 @@
-//! Light from a direction, of a sun far away.
+//! Parallel light, as from a distant sun.
 use glam::{DAffine3, DVec3};
 
 use super::{Lamp, LampKind, Shine};
 use crate::declare::{Declare, Kind, Parameter, Parameters, Problem, Range, Resources, Value};
 
-/// Light from a direction, of a sun far away.
+/// Parallel light, as from a distant sun.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Directional {
     /// Direction in which the light travels, of any length.
@@ -21,7 +21,7 @@ impl Default for Directional {
 
 impl Kind for Directional {
     const KIND: Parameter =
-        Parameter::new("directional", "Light from a direction, of a sun far away.").aliases("sun distant directional_light");
+        Parameter::new("directional", "Parallel light, as from a distant sun.").aliases("sun distant directional_light");
 }
 
 impl Declare for Directional {

@@ -1,4 +1,4 @@
-//! How spots fall off.
+//! The falloff of spots from their inner to their outer angle.
 use crate::declare::words;
 
 /// How the intensity of a spot falls to 0 between its inner angle and its edge.
@@ -16,6 +16,6 @@ words! {
     Falloff {
         Smooth: "smooth", "Smooth", "Smoothstep of the cosine of the angle.";
         Linear: "linear", "Linear", "Linear in the angle.";
-        Square: "square", "Square", "Square of what is linear in the cosine of the angle.";
+        Square: "square", "Square", "Square of a ramp that is linear in the cosine of the angle.";
     }
 }

@@ -7,7 +7,7 @@ use crate::declare::{Declare, Kind, Parameter, Parameters, Problem, Range, Resou
 /// A lamp without size that shines equally in all directions.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Point {
-    /// Where it stands.
+    /// Position of the lamp.
     pub position: DVec3,
     /// Radiant intensity of each channel.
     pub intensity: [f64; 3],
@@ -26,7 +26,7 @@ impl Kind for Point {
 
 impl Declare for Point {
     fn parameters(&mut self, p: &mut dyn Parameters) {
-        const POSITION: Parameter = Parameter::new("position", "Where it stands.").unit("m");
+        const POSITION: Parameter = Parameter::new("position", "Position of the lamp.").unit("m");
         const INTENSITY: Parameter = Parameter::new("intensity", "Radiant intensity of each channel.").unit("W·sr⁻¹");
         p.point(&POSITION, &mut self.position);
         p.colour(&INTENSITY, &mut self.intensity, Range::RADIANCE);

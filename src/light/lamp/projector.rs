@@ -11,11 +11,11 @@ use crate::{
 /// An image that is cast from a point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Projector {
-    /// Where it stands.
+    /// Position of the lamp.
     pub position: DVec3,
-    /// A point on its axis.
+    /// Point that the lamp is aimed at.
     pub target: DVec3,
-    /// Upwards in the image.
+    /// Direction that points up in the image.
     pub up: DVec3,
     /// The image file, relative to the scene; a white square if it is empty.
     pub image: String,
@@ -23,15 +23,15 @@ pub struct Projector {
     pub encoding: Encoding,
     /// Angle across the width of the image.
     pub fov: f64,
-    /// Width of the image over its height; 0 for that of the file.
+    /// Width of the image divided by its height; 0 takes that of the file.
     pub aspect: f64,
     /// Radiant intensity on the axis where the image is 1.
     pub scale: f64,
-    /// Factor of the colors of the image.
+    /// Factor of the colours of the image.
     pub tint: [f64; 3],
     /// Whether a screen that faces it is lit evenly, as by a slide projector; otherwise the intensity is the same in all directions.
     pub flat: bool,
-    /// Angle between the axis and the edge of a cone, where the light ends; 180 for no cone.
+    /// Angle between the axis and the edge of the cone, where the light ends; 180 for no cone.
     pub angle: f64,
     /// Angle up to which a cone does not dim the image; at most `angle`.
     pub inner: f64,
@@ -62,26 +62,26 @@ impl Kind for Projector {
 
 impl Declare for Projector {
     fn parameters(&mut self, p: &mut dyn Parameters) {
-        const POSITION: Parameter = Parameter::new("position", "Where it stands.").unit("m");
-        const TARGET: Parameter = Parameter::new("target", "A point on its axis.").unit("m");
-        const UP: Parameter = Parameter::new("up", "Upwards in the image.");
+        const POSITION: Parameter = Parameter::new("position", "Position of the lamp.").unit("m");
+        const TARGET: Parameter = Parameter::new("target", "Point that the lamp is aimed at.").unit("m");
+        const UP: Parameter = Parameter::new("up", "Direction that points up in the image.");
         const IMAGE: Parameter = Parameter::new("image", "The image file, relative to the scene; a white square if it is empty.");
         const ENCODING: Parameter = Parameter::new("encoding", "Encoding of the file's numbers; EXR and HDR are always linear.");
         const FOV: Parameter = Parameter::new("fov", "Angle across the width of the image.").unit("°");
-        const ASPECT: Parameter = Parameter::new("aspect", "Width of the image over its height; 0 for that of the file.");
-        const TINT: Parameter = Parameter::new("tint", "Factor of the colours of the image.");
+        const ASPECT: Parameter = Parameter::new("aspect", "Width of the image divided by its height; 0 takes that of the file.");
+        const TINT: Parameter = Parameter::new("tint", "Factor that multiplies the colours of the image.");
         const ANGLE: Parameter =
-            Parameter::new("angle", "Angle between the axis and the edge of a cone, where the light ends; 180 for no cone.")
+            Parameter::new("angle", "Angle between the axis and the edge of the cone, where the light ends; 180 for no cone.")
                 .unit("°");
         const INNER: Parameter = Parameter::new(
             "inner",
-            "Angle up to which a cone does not dim the image; between it and `angle`, the light falls linearly.",
+            "Angle up to which the cone does not dim the image. From there to `angle`, the light falls linearly.",
         )
         .unit("°");
         const SCALE: Parameter = Parameter::new("scale", "Radiant intensity on the axis where the image is 1.").unit("W·sr⁻¹");
         const FLAT: Parameter = Parameter::new(
             "flat",
-            "Whether a screen that faces it is lit evenly; otherwise the intensity is the same in all directions.",
+            "Whether a screen that faces the projector is lit evenly. Otherwise the intensity is the same in all directions.",
         );
         p.point(&POSITION, &mut self.position);
         p.point(&TARGET, &mut self.target);

@@ -8,9 +8,9 @@ use crate::declare::{Declare, Kind, Parameter, Parameters, Problem, Range, Resou
 /// A lamp without size that shines within a cone.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spot {
-    /// Where it stands.
+    /// Position of the lamp.
     pub position: DVec3,
-    /// A point on its axis.
+    /// Point that the lamp is aimed at.
     pub target: DVec3,
     /// Radiant intensity on the axis.
     pub intensity: [f64; 3],
@@ -18,7 +18,7 @@ pub struct Spot {
     pub angle: f64,
     /// Angle up to which the intensity is that of the axis; at most `angle`.
     pub inner: f64,
-    /// How the intensity falls between the two angles.
+    /// How the intensity falls from `inner` to `angle`.
     pub falloff: Falloff,
 }
 
@@ -42,14 +42,14 @@ impl Kind for Spot {
 
 impl Declare for Spot {
     fn parameters(&mut self, p: &mut dyn Parameters) {
-        const POSITION: Parameter = Parameter::new("position", "Where it stands.").unit("m");
-        const TARGET: Parameter = Parameter::new("target", "A point on its axis.").unit("m");
+        const POSITION: Parameter = Parameter::new("position", "Position of the lamp.").unit("m");
+        const TARGET: Parameter = Parameter::new("target", "Point that the lamp is aimed at.").unit("m");
         const INTENSITY: Parameter = Parameter::new("intensity", "Radiant intensity on the axis.").unit("W·sr⁻¹");
         const ANGLE: Parameter =
             Parameter::new("angle", "Angle between the axis and the edge of the cone, where the light ends.").unit("°");
         const INNER: Parameter =
             Parameter::new("inner", "Angle up to which the intensity is that of the axis; at most `angle`.").unit("°");
-        const FALLOFF: Parameter = Parameter::new("falloff", "How the intensity falls between the two angles.");
+        const FALLOFF: Parameter = Parameter::new("falloff", "How the intensity falls from `inner` to `angle`.");
         p.point(&POSITION, &mut self.position);
         p.point(&TARGET, &mut self.target);
         p.colour(&INTENSITY, &mut self.intensity, Range::RADIANCE);

@@ -1,7 +1,7 @@
 //! Disney's principled BSDF, as in Mitsuba.
 //!
 //! B. Burley, "Physically Based Shading at Disney", 2012, and "Extending the Disney BRDF to a BSDF with Integrated Subsurface
-//! Scattering", 2015; W. Jakob et al., "Mitsuba 3", plugin `principled`. With metallic m, spec_trans t and base color c, the BSDF is
+//! Scattering", 2015; W. Jakob et al., "Mitsuba 3", plugin `principled`. With metallic m, spec_trans t and base colour c, the BSDF is
 //! the sum of
 //!
 //! * a diffuse lobe with retro-reflection that grows with the roughness, and `flatness` towards the look of thin subsurface
@@ -52,9 +52,9 @@ pub struct Disney {
     pub ior: f64,
     /// How far the interface reflects in the hue of the base color.
     pub spec_tint: Textured<f64>,
-    /// Fraction of the base, besides metal, that is clear and refracts.
+    /// Fraction of the non-metallic base that is clear and refracts.
     pub spec_trans: Textured<f64>,
-    /// How far the diffuse lobe is that of thin subsurface scattering.
+    /// How strongly the diffuse lobe resembles thin subsurface scattering.
     pub flatness: Textured<f64>,
     /// Amount of light that fibres reflect at grazing angles.
     pub sheen: Textured<f64>,

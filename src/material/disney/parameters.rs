@@ -11,18 +11,19 @@ pub(super) const ROUGHNESS: Parameter = Parameter::new("roughness", "Square root
 pub(super) const ANISOTROPIC: Parameter =
     Parameter::new("anisotropic", "How much longer the highlight is along the tangent; 0 is round.").aliases("anisotropy");
 pub(super) const IOR: Parameter =
-    Parameter::new("ior", "Index of refraction; 1 reflects nothing, not even as metal.").symbol("η").aliases("eta index");
+    Parameter::new("ior", "Index of refraction. With 1, nothing is reflected, even by metal.").symbol("η").aliases("eta index");
 pub(super) const SPEC_TINT: Parameter =
-    Parameter::new("spec_tint", "How far the interface reflects in the hue of the base colour.").aliases("specular_tint");
+    Parameter::new("spec_tint", "How strongly the hue of the base colour tints the reflection off the interface.")
+        .aliases("specular_tint");
 pub(super) const SPEC_TRANS: Parameter =
-    Parameter::new("spec_trans", "Fraction of the base, besides metal, that is clear and refracts.")
+    Parameter::new("spec_trans", "Fraction of the non-metallic base that is clear and refracts.")
         .aliases("transmission specular_transmission");
 pub(super) const FLATNESS: Parameter =
-    Parameter::new("flatness", "How far the diffuse lobe is that of thin subsurface scattering.");
+    Parameter::new("flatness", "How strongly the diffuse lobe resembles thin subsurface scattering.");
 pub(super) const SHEEN: Parameter = Parameter::new("sheen", "Amount of light that fibres reflect at grazing angles.");
-pub(super) const SHEEN_TINT: Parameter = Parameter::new("sheen_tint", "How far the sheen has the hue of the base colour.");
+pub(super) const SHEEN_TINT: Parameter = Parameter::new("sheen_tint", "How strongly the hue of the base colour tints the sheen.");
 pub(super) const CLEARCOAT: Parameter =
-    Parameter::new("clearcoat", "Amount of the clear coat, which takes no light from the base.");
+    Parameter::new("clearcoat", "Strength of the clear coat. It takes no light from the base.");
 pub(super) const CLEARCOAT_GLOSS: Parameter =
     Parameter::new("clearcoat_gloss", "Sharpness of the clear coat: its facets have a width from 0.1 to 0.001.");
 

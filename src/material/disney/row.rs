@@ -8,7 +8,7 @@ use super::super::{
 };
 use crate::math::{F, Lanes, U};
 
-/// The parameters besides base color and roughness, with the names of the description.
+/// The parameters besides base colour and roughness, with the names of the description.
 #[derive(Clone, Copy)]
 pub struct DisneyRow<T> {
     pub ior: T,

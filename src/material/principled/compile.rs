@@ -103,7 +103,7 @@ impl Principled {
         ((exact * STEPS).round() / STEPS).max(1.0 + 1.0 / STEPS)
     }
 
-    /// Transmittance of a metre of the inside: the color after the depth. A texture counts with its mean.
+    /// Transmittance of a metre of the inside: the colour after the depth. A texture counts with its mean.
     fn inside(&self, color: ColourSource, compiler: &MaterialCompiler) -> [f32; 3] {
         if self.transmission_depth == 0.0 {
             return [1.0; 3];
@@ -112,7 +112,7 @@ impl Principled {
     }
 }
 
-/// Colors and numbers of the parameters by the rows of [`layout`].
+/// Colours and numbers of the parameters by the rows of [`layout`].
 struct Sources {
     colors: [ColourSource; 4],
     weights: [ColourSource; 4],

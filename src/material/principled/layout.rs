@@ -16,7 +16,7 @@ pub const VARIES: u32 = 1 << 6;
 /// The interface is tinted, and not the inside.
 pub const TINTED: u32 = 1 << 7;
 
-/// Further rows with a color and a number: the number is the weight of the color's layer.
+/// Further rows with a colour and a number: the number is the weight of the colour's layer.
 pub const SPECULAR: u32 = 0;
 pub const TRANSMISSION: u32 = 1;
 pub const COATING: u32 = 2;
@@ -27,7 +27,7 @@ pub const BASE: u32 = 4;
 pub const LAYERS: u32 = 5;
 /// Weight and thickness of the film.
 pub const INTERFERENCE: u32 = 6;
-/// Texture ids plus 1 of the four colors, of their weights, and of the numbers in [`BASE`], [`LAYERS`] and [`INTERFERENCE`], as bits.
+/// Texture ids plus 1 of the four colours, of their weights, and of the numbers in [`BASE`], [`LAYERS`] and [`INTERFERENCE`], as bits.
 pub const IDS_OF_COLORS: u32 = 7;
 pub const IDS_OF_WEIGHTS: u32 = 8;
 /// The ids of a row of numbers are this many rows later.

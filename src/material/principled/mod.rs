@@ -60,9 +60,9 @@ pub struct Principled {
     pub base_diffuse_roughness: Textured<f64>,
     /// Fraction of the base that is metal.
     pub base_metalness: Textured<f64>,
-    /// Factor of the reflectance of the interface; of metals, at grazing angles too.
+    /// Factor that multiplies the reflectance of the interface; for metals, also at grazing angles.
     pub specular_weight: Textured<f64>,
-    /// Tint of the reflection off the interface; of metals, at grazing angles.
+    /// Tint of the reflection off the interface; for metals, only at grazing angles.
     pub specular_color: Textured,
     /// Square root of the width α of the GGX distribution.
     pub specular_roughness: Textured<f64>,
@@ -70,11 +70,11 @@ pub struct Principled {
     pub specular_roughness_anisotropy: Textured<f64>,
     /// Index of refraction of the base.
     pub specular_ior: f64,
-    /// Fraction of the base, besides metal, that is clear and refracts.
+    /// Fraction of the non-metallic base that is clear and refracts.
     pub transmission_weight: Textured<f64>,
-    /// Color of the light that passes: at each interface, or after the depth.
+    /// Colour of the light that passes: at each interface, or after the depth.
     pub transmission_color: Textured,
-    /// Distance after which the inside has its color; 0 tints the interface. Metres.
+    /// Distance after which the inside has its colour; 0 tints the interface. Metres.
     pub transmission_depth: f64,
     /// Fraction of the surface under a clear coat.
     pub coat_weight: Textured<f64>,

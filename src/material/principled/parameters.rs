@@ -2,27 +2,32 @@
 use super::Principled;
 use crate::declare::{Declare, Parameter, Parameters, Range};
 
-pub(super) const BASE_WEIGHT: Parameter = Parameter::new("base_weight", "Factor of the base colour.");
+pub(super) const BASE_WEIGHT: Parameter = Parameter::new("base_weight", "Factor that multiplies the base colour.");
 pub(super) const BASE_COLOR: Parameter =
     Parameter::new("base_color", "Albedo of the diffuse base, and reflectance of the metal at normal incidence.");
 pub(super) const BASE_DIFFUSE_ROUGHNESS: Parameter =
     Parameter::new("base_diffuse_roughness", "Roughness of the diffuse base; 0 is Lambertian.");
 pub(super) const BASE_METALNESS: Parameter = Parameter::new("base_metalness", "Fraction of the base that is metal.");
-pub(super) const SPECULAR_WEIGHT: Parameter =
-    Parameter::new("specular_weight", "Factor of the reflectance of the interface; of metals, at grazing angles too.");
+pub(super) const SPECULAR_WEIGHT: Parameter = Parameter::new(
+    "specular_weight",
+    "Factor that multiplies the reflectance of the interface; for metals, also at grazing angles.",
+);
 pub(super) const SPECULAR_COLOR: Parameter =
-    Parameter::new("specular_color", "Tint of the reflection off the interface; of metals, at grazing angles.");
+    Parameter::new("specular_color", "Tint of the reflection off the interface; for metals, only at grazing angles.");
 pub(super) const SPECULAR_ROUGHNESS: Parameter =
     Parameter::new("specular_roughness", "Square root of the width α of the GGX distribution.");
 pub(super) const SPECULAR_ROUGHNESS_ANISOTROPY: Parameter =
     Parameter::new("specular_roughness_anisotropy", "How much longer the highlight is along the tangent; 0 is round.");
 pub(super) const SPECULAR_IOR: Parameter = Parameter::new("specular_ior", "Index of refraction of the base.");
 pub(super) const TRANSMISSION_WEIGHT: Parameter =
-    Parameter::new("transmission_weight", "Fraction of the base, besides metal, that is clear and refracts.");
+    Parameter::new("transmission_weight", "Fraction of the non-metallic base that is clear and refracts.");
 pub(super) const TRANSMISSION_COLOR: Parameter =
-    Parameter::new("transmission_color", "Colour of the light that passes: at each interface, or after the depth.");
-pub(super) const TRANSMISSION_DEPTH: Parameter =
-    Parameter::new("transmission_depth", "Distance after which the inside has its colour; 0 tints the interface.").unit("m");
+    Parameter::new("transmission_color", "Colour of the transmitted light, at each interface or after `transmission_depth`.");
+pub(super) const TRANSMISSION_DEPTH: Parameter = Parameter::new(
+    "transmission_depth",
+    "Distance inside after which light has the colour of transmission; 0 tints at the interface.",
+)
+.unit("m");
 pub(super) const COAT_WEIGHT: Parameter = Parameter::new("coat_weight", "Fraction of the surface under a clear coat.");
 pub(super) const COAT_COLOR: Parameter =
     Parameter::new("coat_color", "Fraction of the light that the coat transmits, in and out.");

@@ -7,7 +7,7 @@ use super::{
 };
 use crate::math::{F, Lanes, U, V};
 
-/// The parameters that textures may vary, with the names of the description, besides base color and specular roughness.
+/// The parameters that textures may vary, with the names of the description, besides base colour and specular roughness.
 #[derive(Clone, Copy)]
 pub struct Values<L: Lanes> {
     pub specular_color: V<L>,
@@ -88,7 +88,7 @@ impl<L: Lanes> Reader<'_, L> {
         [a.bits(), b.bits(), c.bits(), d.bits()]
     }
 
-    /// The color and the weight of a layer.
+    /// The colour and the weight of a layer.
     #[inline(always)]
     fn layer(&self, row: u32, colors: &[U<L>; 4], weights: &[U<L>; 4]) -> (V<L>, F<L>) {
         let [x, y, z, w] = self.row(row);

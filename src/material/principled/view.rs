@@ -22,7 +22,7 @@ pub struct View<L: Lanes> {
     pub coat: F<L>,
     /// What passes fuzz and coat, darkened, but not absorbed.
     pub passed: V<L>,
-    /// log₂ of the coat's color, and the way in it towards the viewer over its thickness.
+    /// log₂ of the coat's colour, and the way in it towards the viewer over its thickness.
     absorption: Option<(V<L>, F<L>)>,
     /// What the interface of an opaque base lets in.
     pub entered: F<L>,
@@ -175,7 +175,7 @@ impl<L: Lanes, const CLEAR: bool> Point<'_, L, CLEAR> {
 impl<L: Lanes> View<L> {
     /// Transmittance of a coat of that weight, in and out: `way` is that of the other direction, 0 for light that stays inside.
     ///
-    /// The color is the transmittance at normal incidence, half of it on either way (OpenPBR 1.1, "Coat absorption").
+    /// The colour is the transmittance at normal incidence, half of it on either way (OpenPBR 1.1, "Coat absorption").
     #[inline(always)]
     pub fn absorbed(&self, weight: F<L>, way: F<L>) -> V<L> {
         let white = grey(way.splat(1.0));

@@ -20,7 +20,7 @@ fn number(value: f64) -> Textured<f64> {
     Textured::Constant(value)
 }
 
-/// The numbers that the surface stage looks up: base color and α.
+/// The numbers that the surface stage looks up: base colour and α.
 fn local(material: &Principled, front: bool) -> Local<One> {
     let (Textured::Constant(color), Textured::Constant(root)) = (&material.base_color, &material.specular_roughness) else {
         unreachable!("no textures here")

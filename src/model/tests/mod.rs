@@ -61,7 +61,7 @@ fn files_that_are_too_large_are_not_read() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("a.ply");
     File::create(&path).and_then(|file| file.set_len(LARGEST_FILE + 1)).expect("a file full of nothing");
-    assert_eq!(message(&path), "the file is larger than 2147483648 bytes, the most that is read");
+    assert_eq!(message(&path), "the file is larger than the limit of 2147483648 bytes");
 }
 
 #[test]

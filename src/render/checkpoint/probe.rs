@@ -1,4 +1,4 @@
-//! Notices that a scene or the program would no longer give the same samples.
+//! Checks whether a scene and the program still give the same samples.
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use rayon::prelude::*;
@@ -50,8 +50,8 @@ pub fn probe_difference(header: &Header, request: &RenderRequest, threads: &Thre
         return None;
     }
     let why = match header.program == Header::PROGRAM {
-        true => "the scene is not what it was".to_owned(),
+        true => "the scene has changed".to_owned(),
         false => format!("it was rendered by {}, and this is {}", header.program, Header::PROGRAM),
     };
-    Some(format!("samples have other bits than in the file: {why}"))
+    Some(format!("the first samples differ from those in the file: {why}"))
 }

@@ -1,4 +1,4 @@
-//! What a session publishes, and when: its frames and its status.
+//! Publishes the frames and the status of a session when they are due.
 use std::time::{Duration, Instant};
 
 use super::Session;

@@ -90,5 +90,5 @@ fn samples(header: &Header) -> Result<SampleRanges, RenderFileError> {
     let camera = header.camera.check();
     camera.map_err(|error| RenderFileError::contents(format!("its camera cannot be used: {error}")))?;
     let samples = SampleRanges::of(&header.samples).filter(|samples| !samples.is_empty());
-    samples.ok_or_else(|| RenderFileError::contents("its ranges of samples make no sense"))
+    samples.ok_or_else(|| RenderFileError::contents("its ranges of samples are invalid"))
 }

@@ -168,5 +168,5 @@ fn difference(a: &Header, b: &Header) -> Option<String> {
     }
     let other = setting().or_else(file);
     let has_other_bits = a.probe != b.probe || a.image != b.image;
-    other.or_else(|| has_other_bits.then(|| "its samples have other bits: the scene or the program is not the same".to_owned()))
+    other.or_else(|| has_other_bits.then(|| "its samples differ: the scene or the program is not the same".to_owned()))
 }

@@ -17,7 +17,7 @@ impl Tone for Neutral {
     const WORD: Word = Word {
         name: "neutral",
         title: "Khronos PBR Neutral",
-        doc: "Keeps colours below 0.8 and compresses only highlights. Made for pictures of products.",
+        doc: "Keeps colours below 0.8 and compresses only highlights. Made for product images.",
     };
 
     #[inline(always)]

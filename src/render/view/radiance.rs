@@ -1,4 +1,4 @@
-//! The picture itself, through exposure and tone map.
+//! The image itself, through exposure and tone map.
 use super::{DisplaySettings, Field, Legend, Quantity, Sources};
 use crate::{declare::Word, render::tone::to_srgb};
 

@@ -31,7 +31,7 @@ impl Default for Tent {
 }
 
 impl Kind for Tent {
-    const KIND: Parameter = Parameter::new("tent", "Falls linearly to 0.");
+    const KIND: Parameter = Parameter::new("tent", "Falls linearly from the centre to 0.");
 
     fn chosen(&mut self, p: &mut dyn Parameters) {
         p.table(&Self::KIND, self);

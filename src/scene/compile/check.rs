@@ -1,4 +1,4 @@
-//! Quick checks of single parts of a description: they read no files and make no procedural shapes.
+//! Quick checks of single parts of a description, without reading files or making procedural shapes.
 use super::{camera::camera, lamp::placed_lamp, object::placed_and_moved};
 use crate::{
     declare::{Path, Problem, Resources},

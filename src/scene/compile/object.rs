@@ -9,7 +9,7 @@ use crate::{
     texture::TextureCompiler,
 };
 
-/// Shapes that are smaller or larger, or farther away, cannot be told from nothing in f32.
+/// Shapes that are smaller, larger or farther away cannot be distinguished from nothing in f32.
 const LARGEST: f64 = 1e12;
 const SMALLEST: f64 = 1e-12;
 

@@ -92,11 +92,13 @@ impl CameraDescription {
 
 impl Declare for CameraDescription {
     fn parameters(&mut self, p: &mut dyn Parameters) {
-        const SHUTTER: Parameter =
-            Parameter::new("shutter", "Times at which the shutter opens and closes, from 0 to 1 of the motion. Default: time 0.");
+        const SHUTTER: Parameter = Parameter::new(
+            "shutter",
+            "Times at which the shutter opens and closes. Motion runs from time 0 to 1. Default: time 0.",
+        );
         const SHIFT: Parameter = Parameter::new(
             "shift",
-            "How far the image plane is shifted to the right and up, which keeps upright lines parallel, in widths of the image.",
+            "Shift of the image plane to the right and up, in widths of the image. Upright lines stay parallel.",
         )
         .aliases("lens_shift");
         const MOTION: Parameter = Parameter::new("motion", "Transforms that move the camera from time 0 to 1.");

@@ -40,14 +40,12 @@ impl Declare for MaterialDescription {
         const NORMAL_MAP: Parameter = Parameter::new("normal_map", "A linear image of shading normals.").aliases("normals");
         const SHADOWING: Parameter = Parameter::new(
             "normal_shadowing",
-            "Whether bump and normal maps darken light at grazing angles, as microfacets do, which softens hard edges of shading. Such a \
-             surface is not reciprocal. Default: false.",
+            "Whether bump and normal maps darken light at grazing angles, as microfacets do. This softens hard edges of shading, and makes the surface not reciprocal. Default: false.",
         )
         .aliases("use_shadowing_function shadow_terminator");
         const MIRRORED: Parameter = Parameter::new(
             "mirrored_normals",
-            "Whether normals of bump and normal maps that face away from the viewer are mirrored in the normal of the surface, which \
-             replaces them otherwise. Default: false.",
+            "Whether mapped normals that face away from the viewer are mirrored at the normal of the surface. Otherwise that normal replaces them. Default: false.",
         )
         .aliases("flip_invalid_normals");
         const TWO_SIDED: Parameter =

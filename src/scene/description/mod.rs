@@ -44,7 +44,7 @@ pub use crate::{
 pub struct SceneDescription {
     /// Title in the window and in reports.
     pub title: String,
-    /// Notes for readers.
+    /// Notes about the scene.
     pub notes: String,
     /// The camera that the scene opens with.
     pub camera: CameraDescription,
@@ -60,7 +60,7 @@ pub struct SceneDescription {
     pub lamps: Vec<LampDescription>,
     /// The settings that the scene opens with.
     pub render: RenderDescription,
-    /// What the image converges to, if that is known.
+    /// What the image must converge to, if it is known.
     pub truth: Option<TruthDescription>,
 }
 

@@ -7,11 +7,11 @@ use crate::declare::{Declare, Parameter, Parameters, Value};
 pub struct Presentation {
     /// Title in the window and in reports.
     pub title: String,
-    /// Notes for readers.
+    /// Notes about the scene.
     pub notes: String,
     /// The settings that the scene opens with.
     pub render: RenderDescription,
-    /// What the image converges to, if that is known.
+    /// What the image must converge to, if it is known.
     pub truth: Option<TruthDescription>,
 }
 
@@ -31,15 +31,15 @@ impl Declare for Presentation {
 }
 
 pub(super) fn texts(p: &mut dyn Parameters, title: &mut String, notes: &mut String) {
-    const TITLE: Parameter = Parameter::new("title", "What the window and reports call the scene.").aliases("name");
-    const NOTES: Parameter = Parameter::new("notes", "Notes for readers.").aliases("description comment");
+    const TITLE: Parameter = Parameter::new("title", "Name of the scene in the window and in reports.").aliases("name");
+    const NOTES: Parameter = Parameter::new("notes", "Notes about the scene.").aliases("description comment");
     p.value(&TITLE, Value::Text(title));
     p.value(&NOTES, Value::Text(notes));
 }
 
 pub(super) fn settings_and_truth(p: &mut dyn Parameters, render: &mut RenderDescription, truth: &mut Option<TruthDescription>) {
     const RENDER: Parameter = Parameter::new("render", "The settings that the scene opens with.").aliases("integrator settings");
-    const TRUTH: Parameter = Parameter::new("truth", "What the image converges to, if that is known.").aliases("reference");
+    const TRUTH: Parameter = Parameter::new("truth", "What the image must converge to, if it is known.").aliases("reference");
     p.optional_part(&RENDER, render);
     p.optional_table(&TRUTH, truth);
 }

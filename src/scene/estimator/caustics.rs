@@ -10,7 +10,7 @@ impl Weighting for Caustics {
     const WORD: Word = Word {
         name: "caustics",
         title: "Caustics",
-        doc: "MIS, and paths from lights for the caustics of mirrors and clear glass alone. Cheaper than all strategies (s, t).",
+        doc: "MIS, with paths from lights only for the caustics of mirrors and clear glass. Cheaper than Bidirectional.",
     };
     const COMPARISON: &'static str = "Caustics from lights";
     const COMPARES: bool = true;

@@ -12,7 +12,7 @@ impl Weighting for Forward {
     const WORD: Word = Word {
         name: "forward",
         title: "Forward",
-        doc: "Paths start at lights, and all points that they reach are joined with the camera. Good for caustics, noisy for the rest.",
+        doc: "Paths start at lights, and every point that they reach is joined with the camera. Good for caustics, noisy for other light.",
     };
     const COMPARISON: &'static str = "Forward tracing";
     const COMPARES: bool = true;

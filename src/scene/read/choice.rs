@@ -1,4 +1,4 @@
-//! Which alternative of a choice a table or a name stands for.
+//! Reads a choice: the alternative that a table or a name selects.
 use toml::{
     Spanned,
     de::{DeTable, DeValue},

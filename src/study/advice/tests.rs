@@ -104,8 +104,8 @@ fn insignificant_differences_count_as_equal() {
     assert!((candidate.standard_error - (logs.variance / 4.0).sqrt()).abs() < 1e-12);
     assert!(candidate.relative > 1.1 && !candidate.is_clearly_better() && advice.best == advice.current);
     let verdict = advice.verdict();
-    assert!(verdict.starts_with("Your settings are as good: the best alternative, Sobol (Owen), "), "{verdict}");
-    assert!(verdict.ends_with(" times as efficient, which may be chance."), "{verdict}");
+    assert!(verdict.starts_with("No alternative is clearly better: the best, Sobol (Owen), "), "{verdict}");
+    assert!(verdict.ends_with(" times as efficient as your settings, which may be chance."), "{verdict}");
     // 95 % of Student's t with three degrees of freedom lie within ±3.182.
     let by_errors = |count: f64| Candidate { relative: f64::exp(0.1 * count), standard_error: 0.1, ..candidate.clone() };
     assert_eq!([3.1, 3.2].map(|count| by_errors(count).is_clearly_better()), [false, true]);

@@ -65,6 +65,10 @@ impl Advice {
             return "No other settings were tried.".to_owned();
         };
         let chance = if next.may_be_better() { ", which may be chance" } else { "" };
-        format!("Your settings are as good: the best alternative, {}, is {} times as efficient{chance}.", next.name, next.ratio())
+        format!(
+            "No alternative is clearly better: the best, {}, is {} times as efficient as your settings{chance}.",
+            next.name,
+            next.ratio()
+        )
     }
 }

@@ -125,9 +125,9 @@ impl Exhibits<'_> {
 fn sharing(findings: &Findings) -> &'static str {
     let share = || findings.outcomes.iter().map(|outcome| outcome.sharing.correlates());
     match (share().any(|shares| shares), share().all(|shares| shares)) {
-        (false, _) => "no paths shared by pixels",
-        (true, true) => "paths shared by neighbouring pixels",
-        (true, false) => "paths shared by neighbouring pixels with some of these settings",
+        (false, _) => "nothing shared between pixels",
+        (true, true) => "light shared between neighbouring pixels",
+        (true, false) => "light shared between neighbouring pixels with some of these settings",
     }
 }
 

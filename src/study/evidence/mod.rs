@@ -148,7 +148,7 @@ impl FinishedRuns {
     }
 }
 
-/// The fraction of the work that is done after so many runs; there may be more than were planned.
+/// The fraction of the work that is done after this many runs; there may be more than were planned.
 fn share_after(done: u32, runs: u32) -> f64 {
     1.0 - FOR_RUNS - FOR_PICTURES + FOR_RUNS * f64::from(done.min(runs)) / f64::from(runs)
 }

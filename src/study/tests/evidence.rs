@@ -74,7 +74,7 @@ fn equal_time_is_the_same_time_for_all_and_intervals_are_of_those_near_the_best(
                 ["throughput", "–", "–", "2.00", "–", "–", "biased: 7 paths cut"],
             ]
         );
-        let held = "(mis, bsdf, sobol; no paths shared by pixels; 8 × 8 pixels, up to 16 samples per pixel, 2 runs each; against the \
+        let held = "(mis, bsdf, sobol; nothing shared between pixels; 8 × 8 pixels, up to 16 samples per pixel, 2 runs each; against the \
                     exact radiance)";
         assert!(table.caption.contains("T = 1.00 s") && table.caption.contains(held), "{}", table.caption);
         assert!(table.latex().starts_with(&format!("% {}\n", table.caption)));

@@ -227,7 +227,7 @@ fn findings_in_words_have_their_numbers() {
         "It is 9.00 times as efficient as the next (95 %, by the spread of repeats: 9.00 to 9.00). The scene opens with path, bsdf, \
          sobol, roulette throughput, which has 0.111 of the efficiency."
     );
-    assert_eq!(command(&found).as_deref(), Some("noisefall render scene.toml -o picture.exr --estimator mis"));
+    assert_eq!(command(&found).as_deref(), Some("noisefall render scene.toml -o image.exr --estimator mis"));
     let lines: Vec<String> = table(&found).lines().map(|line| line.split_whitespace().collect::<Vec<_>>().join(" ")).collect();
     assert_eq!(lines[0], "settings spp s error slope efficiency of best");
     assert_eq!(lines[1], "mis, bsdf, sobol, roulette throughput 16 0.500 20.0 % −0.50 ± 0.00 50.0 1.00");

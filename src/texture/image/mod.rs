@@ -1,6 +1,6 @@
 //! Image: the texels of an image, or one of their channels.
 //!
-//! The picture spans the unit square, u to the right and v downwards from its top left corner; texel centres lie at
+//! The image spans the unit square, u to the right and v downwards from its top left corner; texel centres lie at
 //! ((i + ½)/width, (j + ½)/height).
 //!
 //! | part | file |
@@ -41,19 +41,19 @@ pub struct Image {
     pub encoding: Encoding,
     /// The channels that are used.
     pub channel: Channel,
-    /// What continues the image in u.
+    /// How the image continues beyond 0 and 1 in u.
     pub wrap_u: Wrap,
-    /// What continues the image in v.
+    /// How the image continues beyond 0 and 1 in v.
     pub wrap_v: Wrap,
     /// Interpolation between texels.
     pub filter: TexelFilter,
     /// Factors of u and v, applied first.
     pub scale: [f64; 2],
-    /// What v adds to u, applied after the scale.
+    /// Multiple of v that is added to u, applied after the scale.
     pub shear: f64,
     /// Rotation of u towards v, degrees, applied after that.
     pub rotate: f64,
-    /// Added to u and v at last.
+    /// Offset that is added to u and v, applied last.
     pub offset: [f64; 2],
 }
 
@@ -84,13 +84,13 @@ impl Declare for Image {
             Parameter::new("path", "PNG, JPEG, TGA, WebP, EXR or HDR file.").required().aliases("file filename src");
         const ENCODING: Parameter = Parameter::new("encoding", "Encoding of the file's numbers; EXR and HDR are always linear.");
         const CHANNEL: Parameter = Parameter::new("channel", "The channels that are used.");
-        const WRAP_U: Parameter = Parameter::new("wrap_u", "What continues the image in u.");
-        const WRAP_V: Parameter = Parameter::new("wrap_v", "What continues the image in v.");
+        const WRAP_U: Parameter = Parameter::new("wrap_u", "How the image continues beyond 0 and 1 in u.");
+        const WRAP_V: Parameter = Parameter::new("wrap_v", "How the image continues beyond 0 and 1 in v.");
         const FILTER: Parameter = Parameter::new("filter", "Interpolation between texels.");
-        const SCALE: Parameter = Parameter::new("scale", "Factors of u and of v, which points downwards; applied first.");
-        const SHEAR: Parameter = Parameter::new("shear", "What v adds to u, applied after the scale.");
-        const ROTATE: Parameter = Parameter::new("rotate", "Rotation of u towards v, applied after that.").unit("°");
-        const OFFSET: Parameter = Parameter::new("offset", "Added to u and v at last.");
+        const SCALE: Parameter = Parameter::new("scale", "Factors that multiply u and v, applied first. v points downwards.");
+        const SHEAR: Parameter = Parameter::new("shear", "Multiple of v that is added to u, applied after the scale.");
+        const ROTATE: Parameter = Parameter::new("rotate", "Rotation from u towards v, applied after the shear.").unit("°");
+        const OFFSET: Parameter = Parameter::new("offset", "Offset that is added to u and v, applied last.");
         p.value(&PATH, Value::File(&mut self.path));
         p.word(&ENCODING, &mut self.encoding);
         p.word(&CHANNEL, &mut self.channel);

@@ -57,7 +57,7 @@ impl ImageTexture {
         read: impl FnOnce(&NamedFile) -> Result<Texels, PictureError>,
     ) -> Result<Arc<ImageTexture>, Problem> {
         let file = resources.file(path);
-        resources.once("pictures", format!("picture {} {what}", file.key()), || {
+        resources.once("images", format!("image {} {what}", file.key()), || {
             let picture = read(&file).map_err(|error| Problem::at(key, error.to_string(), "this image cannot be used"))?;
             resources.reserve(key, "the texels of an image", size_of_val(&picture.radiance[..]) as u64)?;
             Ok(ImageTexture::new(picture))

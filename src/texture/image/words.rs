@@ -41,9 +41,9 @@ pub enum Wrap {
 
 words! {
     Wrap {
-        Repeat: "repeat", "Repeat", "The image again.";
-        Mirror: "mirror", "Mirror", "The image, mirrored every second time.";
-        Clamp: "clamp", "Clamp", "The outermost texels.";
+        Repeat: "repeat", "Repeat", "Repeats the image.";
+        Mirror: "mirror", "Mirror", "Repeats the image, mirrored every second time.";
+        Clamp: "clamp", "Clamp", "Repeats the outermost texels.";
         Black: "black", "Black", "Black.";
     }
 }

@@ -110,7 +110,7 @@ fn edge(validation: &Validation, what: &str, camera: &str, place: f64, exact: im
     let scores: Vec<f64> = sure.iter().map(|column| z(column)).collect();
     let sigma = largest(sure.iter().map(|column| column[2].sqrt()));
     vec![
-        Statement::z(format!("{what}: mean of the picture"), of_columns(0), error, of_columns(1)),
+        Statement::z(format!("{what}: mean of the image"), of_columns(0), error, of_columns(1)),
         Statement::largest_z(format!("{what}: largest |z| of {} columns", scores.len()), &scores, SIGMAS + 0.5, sigma)
             .of_the_same(),
     ]

@@ -88,7 +88,7 @@ fn room(validation: &Validation) -> Statement {
         emission = { radiance = 1.0, two_sided = true }",
     );
     let found = picture(&scene, validation.path(Directions::Cosine), RED, validation.spp(200)).whole();
-    Statement::within("furnace of twelve triangles: mean of the picture", found.mean, 2.0, 2e-6)
+    Statement::within("furnace of twelve triangles: mean of the image", found.mean, 2.0, 2e-6)
 }
 
 /// A lamp with squares of two radiances. Their edges coincide with edges of pixels.

@@ -34,10 +34,10 @@ pub fn section(validation: &Validation) -> Section {
             }
         }
         let what =
-            format!("{}: pictures that differ in any bit, over 1, 2, 4 threads × {:?}", sampler.name(), SimdLevel::available());
+            format!("{}: images that differ in any bit, over 1, 2, 4 threads × {:?}", sampler.name(), SimdLevel::available());
         statements.push(Statement::none(what, others));
         let paused = u32::from(hash(&settings, 2, SimdLevel::best(), 37) != reference);
-        let what = format!("{}: pictures that differ after hundreds of pauses in the middle of paths", sampler.name());
+        let what = format!("{}: images that differ after hundreds of pauses in the middle of paths", sampler.name());
         statements.push(Statement::none(what, paused));
         let what = format!("{}: pixels that differ when their samples are replayed alone, last first", sampler.name());
         statements.push(Statement::none(what, replayed(&settings)));

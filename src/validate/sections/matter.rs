@@ -258,7 +258,7 @@ fn black_plastic(validation: &Validation) -> Statement {
     let found = picture(&scene, validation.path(Directions::Cosine), RED, validation.spp(2000)).whole();
     let disk = PI / 4.0;
     let exact = disk * average(2000, |mu| dielectric(mu, IOR).0) + 1.0 - disk;
-    Statement::mean("black plastic: mean of a picture with its ball and the field around it", found, exact)
+    Statement::mean("black plastic: mean of an image with its ball and the field around it", found, exact)
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! Agreement with pictures by independent renderers.
+//! Agreement with images by independent renderers.
 use std::{fs, path::Path};
 
 use statrs::distribution::{ChiSquared, ContinuousCDF};

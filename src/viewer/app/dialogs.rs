@@ -1,4 +1,4 @@
-//! Joins the windows over the picture with the state of the window.
+//! Joins the windows over the image with the state of the window.
 use noisefall::scene::{Estimator, RenderSettings, Roulette};
 
 use super::state::App;

@@ -1,4 +1,4 @@
-//! How a frame is displayed: the request to the display pipeline, the reference, and black pictures.
+//! The display of a frame: the request to the display pipeline, the reference, and black images.
 use std::sync::Arc;
 
 use noisefall::{

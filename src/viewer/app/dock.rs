@@ -1,4 +1,4 @@
-//! Joins the instruments below the picture with the state of the window. At most one is open.
+//! Joins the instruments below the image with the state of the window. At most one is open.
 use std::sync::Arc;
 
 use egui::{Align, Layout, Panel, ScrollArea, Ui};

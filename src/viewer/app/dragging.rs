@@ -1,4 +1,4 @@
-//! Materials and textures that are dragged from the list onto objects of the picture.
+//! Materials and textures that are dragged from the list onto objects of the image.
 use egui::{Align2, Color32, DragAndDrop, FontId, Id, LayerId, Order, Ui, vec2};
 
 use super::state::App;
@@ -30,7 +30,7 @@ impl App {
                 self.act_on(Subject::Object(object), action);
                 self.selection.select(Some(Subject::Object(object)));
             }
-            _ => self.tell("There is no object here. Drop it on one.".to_owned(), false),
+            _ => self.tell("There is no object here. Drop it on an object.".to_owned(), false),
         }
     }
 }

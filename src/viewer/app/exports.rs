@@ -87,7 +87,9 @@ impl App {
                 self.tell(format!("Rendered {rendered} of {frames} images: {}", request.files.display()), false);
             }
             Ok(SequenceEnd::Stopped { rendered, frames }) => {
-                let text = format!("Stopped after {rendered} of {frames} images. Render them again and keep these to continue.");
+                let text = format!(
+                    "Stopped after {rendered} of {frames} images. To continue, render them again and keep the existing ones."
+                );
                 self.tell(text, false);
             }
             Ok(SequenceEnd::Exist { existing, frames }) => self.dialogs.existing_frames = Some((request, [existing, frames])),

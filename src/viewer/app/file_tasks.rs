@@ -1,4 +1,4 @@
-//! The work on the files of the open scene that is under way.
+//! Tasks under way on the files of the open scene.
 use std::path::PathBuf;
 
 use crossbeam_channel::Receiver;

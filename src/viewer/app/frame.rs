@@ -1,4 +1,4 @@
-//! One frame of the window: keys, results, panels, picture, dialogs, and the next request.
+//! One frame of the window: keys, results, panels, image, dialogs, and the next request.
 use std::time::{Duration, Instant};
 
 use egui::{CentralPanel, Panel};

@@ -1,8 +1,8 @@
-//! Keeps the order of what is typed and where it is typed.
+//! Keeps typed text and changes of focus in their order.
 //!
-//! egui moves the keyboard before widgets read the text of a frame, so letters would be lost if Tab or a click elsewhere came in the
-//! same frame: such a frame is divided. So is one in which a button is pressed and the pointer goes on: a drag begins where it was
-//! pressed.
+//! egui moves the focus before widgets read the text of a frame. Letters would be lost if Tab or a click elsewhere came in the same
+//! frame, so such a frame is split. A frame in which a button is pressed and the pointer moves on is split too, so that the drag
+//! begins where the button was pressed.
 use egui::{Event, Key};
 
 /// Leaves the events of one frame, and returns those of later frames.

@@ -1,4 +1,4 @@
-//! Icons of lamps without surface over the picture, which select them.
+//! Icons of lamps without surface over the image, which select them.
 use egui::{Pos2, Ui};
 
 use super::state::App;

@@ -1,4 +1,4 @@
-//! A bump map that can be seen at once: its bumps are as large as suits the objects that have the material.
+//! A new bump map whose bumps have a size that suits the objects with the material.
 use noisefall::{
     declare::{Path, Step},
     edit::{Document, Edit, Tree},

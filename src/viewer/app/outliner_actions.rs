@@ -92,7 +92,7 @@ impl App {
         let (Some(opened), Some(editor), Subject::Object(place)) = (&self.session.opened, &self.editor, subject) else { return };
         match editor.document.drop_to_floor(&opened.scene, *place) {
             Some(edit) => _ = self.edit(&edit),
-            None => self.tell("There is nothing below this object, or it already rests on a surface".to_owned(), false),
+            None => self.tell("The object already rests on a surface, or there is nothing below it.".to_owned(), false),
         }
     }
 

@@ -1,4 +1,4 @@
-//! Notices on the picture: why it is black, and that the exposure of a scene that was opened does not suit it.
+//! Notices on the image: why it is black, and that the exposure of a scene that was opened does not suit it.
 use egui::Ui;
 use noisefall::{render::Frame, render::view::View, scene::Camera};
 
@@ -8,7 +8,7 @@ use crate::viewer::canvas::{notice::Notice, picture_area::PictureArea};
 use crate::viewer::instruments::compare::comparison::CompareLayout;
 use crate::viewer::widgets::wording::capitalised;
 
-const BACK: (&str, &str) = ("Back to the last view that showed something", "Returns to the camera of that view.");
+const BACK: (&str, &str) = ("Back to the last view with light", "Returns to the camera of that view.");
 const EXPOSURE: [(&str, &str); 2] = [
     ("Set exposure", "Brings the image into the range of the display. The samples do not change."),
     ("Leave it", "Keeps the exposure as it is."),

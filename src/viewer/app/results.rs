@@ -1,4 +1,4 @@
-//! What the renderer and the display pipeline have delivered.
+//! Results of the renderer and the display pipeline.
 use std::sync::Arc;
 
 use egui::{Context, TextureHandle, TextureOptions};

@@ -1,4 +1,4 @@
-//! Saves the picture, the curves or a path to a file.
+//! Saves the image, the curves or a path to a file.
 use std::{
     path::{Path, PathBuf},
     sync::Arc,

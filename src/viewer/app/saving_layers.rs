@@ -1,4 +1,4 @@
-//! Saves the picture as an EXR with layers.
+//! Saves the image as an EXR with layers.
 use std::{
     path::{Path, PathBuf},
     sync::Arc,

@@ -1,4 +1,4 @@
-//! Edits of the open scene, undo and redo included: the document changes at once, and its picture follows.
+//! Edits of the open scene, undo and redo included: the document changes at once, and its image follows.
 use noisefall::{
     declare::Problem,
     edit::Edit,

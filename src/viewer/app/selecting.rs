@@ -1,4 +1,4 @@
-//! Selects objects in the picture, outlines them, and looks at them.
+//! Selects objects in the image, outlines them, and looks at them.
 use std::sync::Arc;
 
 use egui::Ui;

@@ -1,4 +1,4 @@
-//! What the user has asked for.
+//! The session: what the user has requested.
 use std::{path::Path, sync::Arc};
 
 use noisefall::{

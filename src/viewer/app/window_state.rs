@@ -59,7 +59,7 @@ pub struct Dialogs {
     pub file: Option<FileDialog>,
     pub tev: Option<TevDialog>,
     pub sequence: Option<SequenceDialog>,
-    /// Frames to render of which this many exist, of this many.
+    /// Frames to render, with the numbers of existing ones and of all.
     pub existing_frames: Option<(SequenceRequest, [usize; 2])>,
     /// What waits for an answer about unsaved changes.
     pub unsaved: Option<Leaving>,
@@ -70,7 +70,7 @@ pub struct Dialogs {
     pub unfinished: Option<FoundRender>,
     /// Why the last scene could not be opened.
     pub scene_error: Option<String>,
-    /// The list of what was not taken over exactly is open.
+    /// The list of what was not imported exactly is open.
     pub remarks: bool,
     /// Why the file of the open scene cannot be reloaded.
     pub file_error: Option<String>,

@@ -41,8 +41,8 @@ pub fn open_kept(path: &Path, options: &ImportOptions) -> Result<ReopenedScene, 
     let header = file.header().clone();
     let refused = |differences: &[String]| {
         let lines: String = differences.iter().map(|line| format!("\n  {line}")).collect();
-        let advice = "Restore it, or continue with `noisefall render --resume FILE --anyway`.";
-        format!("{}: continued, this would be no single image:{lines}\n{advice}", path.display())
+        let advice = "Undo these changes, or continue with `noisefall render --resume FILE --anyway`.";
+        format!("{}: continuing would mix two images:{lines}\n{advice}", path.display())
     };
     let differences = file_differences(&header, path);
     if !differences.is_empty() {

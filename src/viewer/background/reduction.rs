@@ -1,4 +1,4 @@
-//! Reduces pictures to the pixels of the screen by a box filter in linear light: no line is lost, and noise looks as strong as it is.
+//! Reduces images to the pixels of the screen by a box filter in linear light: no line is lost, and noise looks as strong as it is.
 use noisefall::{
     math::colour::linear_from_srgb,
     render::{Display, tone::to_srgb},

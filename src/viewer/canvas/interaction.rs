@@ -1,4 +1,4 @@
-//! The canvas: zooms and pans the picture, moves the camera, marks regions, and reports the pixel under the pointer.
+//! The canvas: zooms and pans the image, moves the camera, marks regions, and reports the pixel under the pointer.
 use egui::{Color32, CursorIcon, PointerButton, Pos2, Rect, Response, Sense};
 use noisefall::{
     render::Region,

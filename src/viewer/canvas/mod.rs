@@ -1,4 +1,4 @@
-//! The picture: zoom, camera moves, overlays.
+//! The image: zoom, camera moves, overlays.
 pub mod drawing;
 mod flight;
 pub mod framing;

@@ -1,4 +1,4 @@
-//! A notice in the middle of the picture: what is wrong with it, and buttons that help.
+//! A notice in the middle of the image: what is wrong with it, and buttons that help.
 use egui::{Align, Button, Color32, FontId, Label, Layout, Rect, Stroke, StrokeKind, TextStyle, Ui, UiBuilder, Vec2, vec2};
 
 use super::picture_area::PictureArea;

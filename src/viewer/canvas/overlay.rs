@@ -1,4 +1,4 @@
-//! Overlays on the picture: the legend of a view, the marked region, the histogram of z-scores.
+//! Overlays on the image: the legend of a view, the marked region, the histogram of z-scores.
 use egui::{Align2, Color32, FontId, Pos2, Rect, Stroke, StrokeKind, Ui, Vec2, pos2, vec2};
 use noisefall::render::{
     Region,

@@ -1,4 +1,4 @@
-//! Draws the outline of the selected object over the picture.
+//! Draws the outline of the selected object over the image.
 use egui::{Color32, Mesh, Pos2, Rect, Shape, Ui};
 
 use super::picture_area::PictureArea;

@@ -113,7 +113,7 @@ impl Completion {
                 }
             }
             if self.matches.len() > MOST {
-                ui.label(RichText::new(format!("and {} more; type on to see them", self.matches.len() - MOST)).weak());
+                ui.label(RichText::new(format!("and {} more; type more letters to see them", self.matches.len() - MOST)).weak());
             }
             if self.matches.is_empty() {
                 ui.label(RichText::new("No scene, mesh or image here starts with this name.").weak());

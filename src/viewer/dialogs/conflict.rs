@@ -1,4 +1,4 @@
-//! The question which version of a scene counts if another program has changed its file.
+//! Asks which version of a scene to keep if another program has changed its file.
 use egui::Ui;
 use noisefall::edit::Outside;
 

@@ -1,4 +1,4 @@
-//! The scenes as pictures, to open with a click.
+//! The scenes as images, to open with a click.
 use std::{
     collections::HashMap,
     path::{Path, PathBuf},
@@ -21,7 +21,7 @@ const TEXT: f32 = 36.0;
 /// Between two cards of a row.
 const GAP: f32 = 12.0;
 /// Stands in the place of a picture.
-const NO_PICTURE: &str = "no picture";
+const NO_PICTURE: &str = "no image";
 
 /// Pictures of scenes, read off the UI thread when they are first looked at.
 #[derive(Default)]

@@ -4,7 +4,7 @@ use egui::{Align2, RichText};
 const KEYS: [(&str, &[(&str, &str)]); 5] = [
     ("Render", &[("Space", "pause, resume"), (".", "one more sample per pixel, then pause"), ("Ctrl+R", "restart")]),
     (
-        "Picture",
+        "Image",
         &[
             ("P", "drag and wheel pan and zoom the image"),
             ("Wheel, drag", "zoom, pan"),
@@ -62,7 +62,7 @@ const KEYS: [(&str, &[(&str, &str)]); 5] = [
             ("F1", "this help"),
             ("F2  F3  F4  F5", "convergence, compare, bounces, pixel"),
             ("F6", "gallery of scenes"),
-            ("Ctrl + or -, Ctrl+0", "larger or smaller interface, and back"),
+            ("Ctrl + or -, Ctrl+0", "larger or smaller interface; reset"),
             ("F11", "full screen"),
             ("F12", "frame times of the window"),
             ("Esc", "close"),

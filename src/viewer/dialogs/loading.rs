@@ -14,7 +14,7 @@ pub fn show(ctx: &egui::Context, name: &str, seconds: f64, progress: Option<&Pro
         let is_cancelled = ui.horizontal(|ui| {
             ui.add(Spinner::new());
             elided(ui, MOST_WIDTH, format!("Reading “{name}”, {seconds:.0} s"));
-            ui.button("Cancel").on_hover_text("Keeps the scene that is open. (Esc)").clicked()
+            ui.button("Cancel").on_hover_text("Cancels reading and keeps the open scene. (Esc)").clicked()
         });
         if let Some(progress) = progress {
             let percent = format!("{}: {:.0} %", progress.stage().name(), 100.0 * progress.fraction());

@@ -1,4 +1,4 @@
-//! Windows over the picture: dialogs, messages, help, the gallery and the tour.
+//! Windows over the image: dialogs, messages, help, the gallery and the tour.
 pub mod advice;
 pub mod choose_file;
 mod completion;

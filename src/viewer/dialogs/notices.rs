@@ -1,4 +1,4 @@
-//! Short messages over the picture.
+//! Short messages over the image.
 use std::time::Duration;
 
 use egui::{Align2, RichText};

@@ -1,4 +1,4 @@
-//! The question whether to restore changes that were not saved.
+//! Asks whether to restore unsaved changes of an earlier run.
 use std::time::Duration;
 
 use egui::Ui;
@@ -31,7 +31,7 @@ pub fn show(ctx: &egui::Context, found: &FoundRecovery) -> Option<RecoveryAnswer
     let choices = [
         Choice::new("Restore changes", "Opens the scene with these changes.", RecoveryAnswer::Restore),
         Choice::new("Discard changes", "Deletes these changes.", RecoveryAnswer::Discard),
-        Choice::new("Later", "Asks again the next time. (Esc)", RecoveryAnswer::Later),
+        Choice::new("Later", "Keeps them and asks again next time. (Esc)", RecoveryAnswer::Later),
     ];
     ask(ctx, "Unsaved changes were found", 420.0, explain, choices, RecoveryAnswer::Later)
 }

@@ -1,4 +1,4 @@
-//! The window that lists what of a scene of another program was not taken over exactly.
+//! The window that lists what was not imported exactly from a scene of another program.
 use std::path::is_separator;
 
 use egui::{Align2, ScrollArea, style::ScrollStyle};
@@ -24,7 +24,7 @@ pub fn show(ctx: &egui::Context, open: &mut bool, remarks: &Remarks) {
                 remarks.lines(MOST).iter().for_each(|line| show_remark(ui, line));
             });
             ui.add_space(4.0);
-            ui.label("Everything else was taken over exactly.");
+            ui.label("Everything else was imported exactly.");
             ui.add_space(4.0);
             if ui.button("Copy").on_hover_text("Copies the whole list.").clicked() {
                 ui.ctx().copy_text(copy());

@@ -1,4 +1,4 @@
-//! The dialog that saves the picture, the curves or a path.
+//! The dialog that saves the image, the curves or a path.
 use std::path::{Path, PathBuf};
 
 use egui::{Align2, Button, RichText};
@@ -89,7 +89,9 @@ fn layers_choice(ui: &mut egui::Ui, target: &mut SaveTarget, field: &mut PathFie
     if !has_layers && *target != SaveTarget::Picture {
         return;
     }
-    let choice = ui.checkbox(&mut has_layers, "Layers").on_hover_text("Adds the first surfaces and sample counts to an EXR.");
+    let choice = ui
+        .checkbox(&mut has_layers, "Layers")
+        .on_hover_text("Adds layers with the first surfaces and the sample counts to an EXR.");
     if choice.changed() {
         *target = if has_layers { SaveTarget::Layers } else { SaveTarget::Picture };
         if has_layers {
@@ -121,7 +123,7 @@ fn dialog_body(ui: &mut egui::Ui, target: &mut SaveTarget, field: &mut PathField
     ui.label(target.explanation());
     layers_choice(ui, target, field);
     if let Some(keeps_view) = keeps_view {
-        let doc = "The view on the screen is not the camera of the scene. Without this it is not saved.";
+        let doc = "Makes the view on the screen the camera of the scene. Otherwise the scene keeps its camera.";
         ui.checkbox(keeps_view, "Save this view as the scene's camera").on_hover_text(doc);
     }
     let target = *target;

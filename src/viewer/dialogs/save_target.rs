@@ -45,7 +45,9 @@ impl SaveTarget {
             SaveTarget::Scene => {
                 "TOML. Comments and formatting of the file are kept; paths in the scene are relative to its folder."
             }
-            SaveTarget::Progress => "NF keeps scene and samples. Opened again, the render continues as if it had never stopped.",
+            SaveTarget::Progress => {
+                "NF stores the scene and the samples. Open it, and the render continues as if it had never stopped."
+            }
             SaveTarget::CurvesCsv => "CSV with a row for each figure: settings, samples, seconds, errors and bias.",
             SaveTarget::CurvesSvg => "SVG with the curves of all settings.",
             SaveTarget::Path => "TXT lists all terms of the path, TEX its nested sum, CSV the samples of the pixel.",

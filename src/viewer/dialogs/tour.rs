@@ -1,4 +1,4 @@
-//! The tour on first run: noise, bounces, roulette and paths from both ends, shown on the picture itself.
+//! The tour on first run: noise, bounces, roulette and paths from both ends, shown on the image itself.
 use egui::{Align2, Button, RichText, ScrollArea, TextStyle, TextWrapMode, Ui, WidgetText, Window};
 
 use crate::viewer::{instruments::tabs::InstrumentTab, widgets::palette::Palette};
@@ -51,14 +51,15 @@ const PAGES: [Page; 5] = [
     },
     Page {
         title: "Paths can start at both ends",
-        text: "Paths from the lamp form a caustic by themselves; a path from the camera meets the lamp through glass by luck. A \
+        text: "Paths from the lamp form a caustic directly; a path from the camera meets the lamp through glass only by chance. A \
                strategy (s, t) takes s vertices from the lamp and t from the camera. Bidirectional paths use all strategies, each \
-               weighted by its pdf over the sum of all pdfs. The image stays the same; caustics lose noise, and plain scenes cost time.",
+               weighted by its pdf over the sum of all pdfs. The image stays the same. Caustics have less noise, but simple scenes \
+               take more time.",
         shows: Some(InstrumentTab::Compare),
         tries: ("Compare MIS with both ends", TourRequest::CompareBothEnds),
     },
     Page {
-        title: "Now you",
+        title: "Your turn",
         text: "Change the sampler or the estimator and watch the curves (F2). Drag with the tool Camera (C) to move through the scene. \
                Click with Inspect (I) to see the paths of a pixel. Open the gallery (F6) for other scenes. Every control has a \
                tooltip; F1 lists the keys.",

@@ -1,4 +1,4 @@
-//! The question whether to continue a render that another run of the program has left.
+//! Asks whether to continue the unfinished render of an earlier run.
 use egui::Ui;
 
 use super::{
@@ -20,12 +20,12 @@ pub fn show(ctx: &egui::Context, found: &FoundRender) -> Option<UnfinishedAnswer
     let explain = |ui: &mut Ui| {
         let FoundRender { scene, rendered, age, .. } = found;
         let (rendered, age) = (in_words(*rendered), in_words(*age));
-        ui.label(format!("Continue the render of “{scene}” from {age} ago? It has {rendered} of rendering."));
+        ui.label(format!("Continue the render of “{scene}” from {age} ago? It has rendered for {rendered}."));
     };
     let choices = [
         Choice::new("Continue render", "Opens the scene, and continues with these samples.", UnfinishedAnswer::Continue),
         Choice::new("Discard render", "Deletes these samples.", UnfinishedAnswer::Discard),
-        Choice::new("Later", "Asks again the next time. (Esc)", UnfinishedAnswer::Later),
+        Choice::new("Later", "Keeps them and asks again next time. (Esc)", UnfinishedAnswer::Later),
     ];
     ask(ctx, "An unfinished render was found", 420.0, explain, choices, UnfinishedAnswer::Later)
 }

@@ -1,4 +1,4 @@
-//! The question what becomes of changes that are not saved.
+//! Asks whether to save unsaved changes.
 use std::path::PathBuf;
 
 use egui::Ui;

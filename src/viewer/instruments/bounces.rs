@@ -1,4 +1,4 @@
-//! The bounces instrument: the picture as a series, term by term.
+//! The bounces instrument: the image as a series, term by term.
 use egui::{Color32, Label, RichText, Sense, Slider, Ui, vec2};
 use noisefall::{
     integrator::TERMS,
@@ -80,7 +80,7 @@ pub fn show(ui: &mut Ui, bounces: &mut Bounces, subject: Subject<'_>) {
     let remark = match known {
         Some((frame, _)) => {
             let samples = counted(frame.spp, "sample");
-            let how = if has_light_paths { "by paths from the camera (MIS)" } else { "without path sharing" };
+            let how = if has_light_paths { "by paths from the camera (MIS)" } else { "without sharing" };
             format!("After {samples} per pixel {how}. Shares are fractions of the luminance of the image.")
         }
         None => "Available after one sample per pixel.".to_owned(),

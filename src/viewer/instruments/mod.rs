@@ -1,4 +1,4 @@
-//! Instruments below the picture: convergence, comparison, bounces, paths of a pixel.
+//! Instruments below the image: convergence, comparison, bounces, paths of a pixel.
 pub mod bounces;
 pub mod compare;
 pub mod convergence;

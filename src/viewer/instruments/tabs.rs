@@ -1,4 +1,4 @@
-//! The row of tabs below the picture. At most one instrument is open.
+//! The row of tabs below the image. At most one instrument is open.
 use egui::Ui;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

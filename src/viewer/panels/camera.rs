@@ -27,7 +27,7 @@ pub fn show(ui: &mut egui::Ui, camera: &mut Camera, scene: Option<&Scene>) -> bo
             if let Some(field) = field.filter(|_| camera.up == DVec3::ZERO) {
                 camera.up = before;
                 // Its two other numbers are zero.
-                refusal::remember(ui, field, before.element_sum(), "A direction needs a number that is not 0.".to_owned());
+                refusal::remember(ui, field, before.element_sum(), "A direction must not be zero.".to_owned());
             }
         });
         projection(ui, camera);

@@ -38,7 +38,7 @@ fn white_balance(ui: &mut Ui, balance: &mut WhiteBalance) {
             let now = balance.kelvin.into();
             let kelvin = DragValue::new(&mut balance.kelvin).range(range(WhiteBalance::KELVIN)).speed(20.0).fixed_decimals(0);
             let kelvin = ui.add(Explained::new(kelvin, now).suffix(" K")).labelled_by(label);
-            kelvin.on_hover_text("Colour temperature in kelvin. Lower values make the image bluer.");
+            kelvin.on_hover_text("Colour temperature of white light in kelvin. Lower values make the image bluer.");
             let now = balance.tint.into();
             let tint = DragValue::new(&mut balance.tint).range(range(WhiteBalance::TINT)).speed(0.5).fixed_decimals(0);
             let tint = ui.add(Explained::new(tint, now)).labelled_by(label);

@@ -1,4 +1,4 @@
-//! The buttons that choose what the handles over the picture do.
+//! The buttons that choose what the handles over the image do.
 use egui::Ui;
 
 use crate::viewer::canvas::gizmo::Mode;

@@ -1,4 +1,4 @@
-//! The number under the pointer: the value of the view that is shown, with its unit.
+//! The value under the pointer, with the unit of the displayed view.
 use noisefall::{
     integrator::Features,
     math::colour::luminance,

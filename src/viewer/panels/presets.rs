@@ -16,12 +16,12 @@ const PRESETS: [(Preset, &str, &str); 2] = [
     (
         Preset::Teaching,
         "Teaching",
-        "The textbook estimator: no path sharing and no adaptive sampling. Estimator, sampler, directions and roulette stay as they are.",
+        "The textbook estimator: pixels share nothing, and sampling is not adaptive. Estimator, sampler, directions and roulette stay as they are.",
     ),
     (
         Preset::Fastest,
         "Fastest",
-        "MIS, Owen-scrambled Sobol points, BSDF directions, roulette by throughput, and path sharing if it pays in this scene.",
+        "MIS, Owen-scrambled Sobol points, BSDF directions, roulette by throughput. Pixels share paths or bright samples if a trial of the scene shows a gain.",
     ),
 ];
 
@@ -44,7 +44,7 @@ impl Preset {
 
 /// Shows the presets and marks the one in force.
 pub fn show(ui: &mut Ui, settings: &mut RenderSettings) {
-    row(ui, "Preset", "A set of settings to start from. The marked one is in force.", |ui, _| {
+    row(ui, "Preset", "Applies a set of settings. The marked one is in force.", |ui, _| {
         ui.horizontal(|ui| {
             let in_force = Preset::of(settings);
             for (preset, name, doc) in PRESETS {

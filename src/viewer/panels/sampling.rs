@@ -23,7 +23,7 @@ pub fn side_choice(ui: &mut Ui, edits_second: Option<&mut bool>) {
     let edits_second = edits_second.unwrap_or(&mut only_first);
     ui.add_enabled_ui(is_comparing, |ui| {
         controls(ui, "side", |ui| {
-            row(ui, "Settings of", "The side of the comparison that the rows below show and change.", |ui, _| {
+            row(ui, "Settings of", "Side of the comparison that the rows below show and change.", |ui, _| {
                 choices(ui, edits_second, &[(false, "A", "The image itself."), (true, "B", "The image it is compared with.")]);
             });
         });
@@ -53,7 +53,7 @@ pub fn show(ui: &mut Ui, settings: &mut RenderSettings, findings: &Findings<'_>)
         row(
             ui,
             &RenderSettings::ADAPTIVE.label(),
-            "Takes more samples where a pilot finds more noise. Not used if pixels share paths.",
+            "Takes more samples where a pilot finds more noise. Not used if pixels share paths or bright samples.",
             |ui, label| {
                 drop(ui.checkbox(&mut settings.adaptive, "").labelled_by(label));
             },
@@ -85,7 +85,7 @@ pub fn show(ui: &mut Ui, settings: &mut RenderSettings, findings: &Findings<'_>)
 }
 
 fn estimator_row(ui: &mut Ui, estimator: &mut Estimator, in_force: Option<&EstimatorInForce>) {
-    let doc = "How light is found. All estimators converge to the same image; they differ in noise.";
+    let doc = "How direct light is estimated. All estimators converge to the same image; they differ in noise.";
     row_with_note(ui, &RenderSettings::ESTIMATOR.label(), doc, |ui, label| {
         word_list(ui, label, estimator);
         // Always there, so that no row below moves.
@@ -99,7 +99,7 @@ fn estimator_row(ui: &mut Ui, estimator: &mut Estimator, in_force: Option<&Estim
 }
 
 fn sampler_row(ui: &mut Ui, sampler: &mut Sampler) {
-    let doc = "Points of the unit cube for the N samples of a pixel. They decide how fast the noise falls.";
+    let doc = "Points of the unit cube that the N samples of a pixel use. They determine how fast the noise falls.";
     row(ui, &RenderSettings::SAMPLER.label(), doc, |ui, label| word_list(ui, label, sampler));
 }
 
@@ -109,7 +109,7 @@ fn reuse_row(ui: &mut Ui, reuse: &mut Reuse, status: &Status) {
         word_list(ui, label, reuse);
         // Always there, so that no row below moves.
         let in_force = if status.spp > 0 { status.sharing.name() } else { "…" };
-        ui.weak(in_force).on_hover_text("What the render does now. Auto decides once for the scene.");
+        ui.weak(in_force).on_hover_text("What pixels share in this render. Auto decides once per scene.");
     });
 }
 

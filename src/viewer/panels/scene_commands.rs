@@ -27,8 +27,7 @@ pub fn show(ui: &mut Ui, opens_add: bool) -> Option<SceneCommand> {
         add.or(begin)
     });
     let file = ui.horizontal_wrapped(|ui| {
-        let doc =
-            "Makes the camera and the render settings of the window those of the scene. Ctrl+S then writes them to its file.";
+        let doc = "Stores the camera and the render settings of the window in the scene. Ctrl+S then writes them to its file.";
         let uses_view = ui.button("Save view and settings").on_hover_text(doc).clicked().then_some(SceneCommand::UseView);
         let doc = "Saves the scene to another file. Ctrl+S saves it to its own.";
         uses_view.or(ui.button("Save scene as…").on_hover_text(doc).clicked().then_some(SceneCommand::SaveAs))

@@ -1,4 +1,4 @@
-//! The line below the picture: progress, noise, bias, and the pixel under the pointer.
+//! The line below the image: progress, noise, bias, and the pixel under the pointer.
 use std::{path::PathBuf, time::Duration};
 
 use egui::{Color32, Label, RichText};
@@ -48,8 +48,7 @@ impl StatusBar<'_> {
             let (colour, state) = self.state_text(ui);
             let (dot, _) = ui.allocate_exact_size(egui::vec2(10.0, 10.0), egui::Sense::hover());
             ui.painter().circle_filled(dot.center(), 4.5, colour);
-            ui.label(RichText::new(state).strong())
-                .on_hover_text("This is what the renderer does, or the target that it has reached.");
+            ui.label(RichText::new(state).strong()).on_hover_text("State of the renderer, or the target that it has reached.");
             if self.opened.is_none() {
                 return;
             }
@@ -109,19 +108,19 @@ impl StatusBar<'_> {
         } else {
             ui.label(samples + &region).on_hover_text(SAMPLES);
             ui.separator();
-            ui.label(speed).on_hover_text("The renderer takes this many million camera samples per second.");
+            ui.label(speed).on_hover_text("Million camera samples that the renderer takes per second.");
             ui.separator();
-            ui.label(time).on_hover_text("The image has been rendered for this time.");
+            ui.label(time).on_hover_text("Rendering time of the image so far.");
         }
         ui.separator();
     }
 
-    /// The number of things that were not taken over exactly. Returns whether it was clicked.
+    /// The number of things that were not imported exactly. Returns whether it was clicked.
     fn remarks_link(&self, ui: &mut egui::Ui) -> bool {
         let Some(opened) = self.opened.filter(|opened| !opened.remarks.is_empty()) else { return false };
         ui.separator();
         ui.link(counted(opened.remarks.len(), "remark"))
-            .on_hover_text("Lists what could not be taken over exactly from the file.")
+            .on_hover_text("Lists what could not be imported exactly from the file.")
             .clicked()
     }
 

@@ -1,4 +1,4 @@
-//! The buttons above the picture.
+//! The buttons above the image.
 use egui::{Button, Ui};
 use noisefall::scene::RenderSettings;
 
@@ -43,12 +43,8 @@ pub struct Toolbar<'a> {
 }
 
 const TOOLS: [(Tool, &str, &str); 4] = [
-    (Tool::Picture, "Picture", "Drag pans and the wheel zooms the image. Does not restart the render. (P)"),
-    (
-        Tool::Camera,
-        "Camera",
-        "Drag or middle drag orbits, with Shift it pans, and the wheel dollies the camera. Restarts the render. (C)",
-    ),
+    (Tool::Picture, "Image", "Drag pans and the wheel zooms the image. Does not restart the render. (P)"),
+    (Tool::Camera, "Camera", "Drag orbits, Shift+drag pans and the wheel dollies the camera. Restarts the render. (C)"),
     (Tool::Region, "Region", "Drag marks a region that is rendered first. Does not restart the render. (B)"),
     (Tool::Inspect, "Inspect", "Click shows the samples of a pixel and their paths. (I)"),
 ];

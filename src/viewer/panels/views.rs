@@ -1,4 +1,4 @@
-//! The choice of a view, and what a picture is compared with.
+//! The choice of a view, and what a image is compared with.
 use std::sync::Arc;
 
 use egui::{ComboBox, Ui};
@@ -48,16 +48,13 @@ pub fn rows(
                 }
                 match pinned {
                     Some(pinned) => {
-                        drop(
-                            ui.weak(format!("{} spp", pinned.spp))
-                                .on_hover_text("The pinned image has this many samples per pixel."),
-                        );
+                        drop(ui.weak(format!("{} spp", pinned.spp)).on_hover_text("Samples per pixel of the pinned image."));
                     }
                     None => drop(ui.weak("none")),
                 }
             });
         });
-        row(ui, "Reference", "Image that the render must converge to, for the true error and z-scores.", |ui, _| {
+        row(ui, "Reference", "Image that the render must converge to. It gives the true error and the z-scores.", |ui, _| {
             drops = reference_row(ui, reference);
         });
     });

@@ -1,4 +1,4 @@
-//! Settings of the window and the machine; none of them changes the picture.
+//! Settings of the window and the machine; none of them changes the image.
 use egui::{ComboBox, Slider, ThemePreference, Ui};
 
 use crate::viewer::widgets::style::{controls, row};

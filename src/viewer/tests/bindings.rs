@@ -30,9 +30,9 @@ fn every_choice_of_the_estimate_sets_what_it_names() {
         ("Auto", Reuse::Auto),
         ("Bright samples", Reuse::Bright),
         ("Both", Reuse::Both),
-        ("Never", Reuse::Off),
+        ("Nothing", Reuse::Off),
     ] {
-        choose(&mut window, "Share paths", label);
+        choose(&mut window, "Sharing", label);
         expected.reuse = reuse;
         assert_eq!(window.state().session.settings, expected, "{label}");
     }

@@ -1,10 +1,10 @@
-//! The camera stays where it can see; where it sees nothing, the picture says why and offers the way back.
+//! The camera stops before it would see nothing. If it sees nothing, the image says why and offers a way back.
 use noisefall::{math::colour::luminance, scene::Camera};
 
 use super::*;
 
 const WALL: &str = "The camera is inside “left wall”.";
-const BACK: &str = "Back to the last view that showed something";
+const BACK: &str = "Back to the last view with light";
 
 /// Waits for the full picture of what the controls say, and returns its mean luminance.
 fn brightness(window: &mut Window) -> f32 {
@@ -228,7 +228,7 @@ fn the_toolbar_is_one_line_in_a_window_of_1280_with_a_region_too() {
     let mut window = window("cornell_spheres");
     window.state_mut().session.budget.region = Some(noisefall::render::Region::between([10, 10], [40, 40]));
     window.run_steps(4);
-    let labels = ["Pause", "Step", "Restart", "Picture", "Clear", "Home", "Fit", "1:1", "Compare with…", "Save…", "Help"];
+    let labels = ["Pause", "Step", "Restart", "Image", "Clear", "Home", "Fit", "1:1", "Compare with…", "Save…", "Help"];
     let rects = labels.map(|label| window.get_all_by_label(label).next().expect("it is there").rect());
     for (pair, name) in rects.windows(2).zip(labels) {
         assert!((pair[0].center().y - pair[1].center().y).abs() < 3.0, "{name}: {pair:?}");

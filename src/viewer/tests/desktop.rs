@@ -1,4 +1,4 @@
-//! What one expects of a desktop program: recent files, full screen, the clipboard, white balance with a way back.
+//! Features of a desktop program: recent files, full screen, the clipboard, and white balance that can be reset.
 use egui::{OutputCommand, ViewportCommand, ViewportId};
 use noisefall::render::WhiteBalance;
 

@@ -1,4 +1,4 @@
-//! What a user does to a window: clicks, keys, drags.
+//! User input for tests of the window: clicks, keys and drags.
 use std::{
     path::{Path, PathBuf},
     sync::Arc,

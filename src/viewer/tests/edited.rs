@@ -1,4 +1,4 @@
-//! What tests of edits do, and what they look at.
+//! Helpers for tests of edits.
 use noisefall::{
     declare::{OwnedValue, Path},
     edit::Tree,

@@ -1,4 +1,4 @@
-//! Edits of the scene: they reach the picture, keep camera and settings, and settle when the drag ends.
+//! Edits of the scene: they reach the image, keep camera and settings, and settle when the drag ends.
 use std::sync::Arc;
 
 use egui::pos2;

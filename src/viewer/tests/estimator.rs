@@ -54,6 +54,6 @@ fn instruments_say_that_they_show_paths_from_the_camera_alone() {
         window.state_mut().window.tab = Some(InstrumentTab::Path);
         window.state_mut().instruments.path.look_at([40, 30]);
         wait(&mut window, "its samples", |app| app.instruments.path.histogram().is_some());
-        assert_eq!(says(&mut window, "Samples are paths from the camera"), traces, "{estimator}");
+        assert_eq!(says(&mut window, "These samples are paths from the camera"), traces, "{estimator}");
     }
 }

@@ -1,4 +1,4 @@
-//! A scene that lies far outside the range of the display opens with an offer, and keeps the exposure that it is given.
+//! A scene far outside the range of the display offers an exposure, and keeps the one that is chosen.
 use std::path::Path as FilePath;
 
 use noisefall::scene::describe;

@@ -58,7 +58,7 @@ fn curves_are_saved_as_table_and_as_drawing() {
 #[test]
 fn tabs_say_what_they_are_about() {
     let mut window = with_tab("furnace", "Compare");
-    assert!(window.query_by_label_contains("both get the same time").is_some());
+    assert!(window.query_by_label_contains("Both then get the same time").is_some());
     window.get_by_role_and_label(Role::Button, "Convergence").click();
     wait(&mut window, "a curve", |app| app.instruments.history.curves.first().is_some_and(|curve| curve.moments.len() > 1));
     assert!(window.query_by_label_contains("Dashed: 1/√N").is_some());

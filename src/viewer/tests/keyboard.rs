@@ -170,7 +170,7 @@ fn up_is_never_zero_and_home_keeps_the_resolution() {
     assert_eq!(window.state().session.camera.up, start.up);
     // The message is measured before it is shown.
     window.run_steps(2);
-    assert!(window.query_by_label_contains("A direction needs a number").is_some());
+    assert!(window.query_by_label_contains("A direction must not be zero").is_some());
     window.state_mut().session.camera.eye.x = 0.5;
     window.run_steps(3);
     press(&mut window, Key::Home);

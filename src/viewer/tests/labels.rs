@@ -1,4 +1,4 @@
-//! What parts of the window say of given figures: each at its place, and in the unit that it names.
+//! Labels of given figures: each in its place, with its unit.
 use std::sync::Arc;
 
 use noisefall::{

@@ -1,4 +1,4 @@
-//! Manners: rest when there is nothing to do, other threads, coalesced drags, the tour, the gallery.
+//! The window rests when there is nothing to do, uses other threads, and joins moves of a drag; the tour and the gallery.
 use noisefall::{
     render::{RenderRequest, RenderTask},
     scene::RenderSettings,
@@ -122,7 +122,7 @@ fn the_tour_shows_noise_bounces_and_roulette_and_is_not_shown_again() {
         ("Light bounces", InstrumentTab::Bounces),
         ("Roulette ends paths without bias", InstrumentTab::Compare),
         ("Paths can start at both ends", InstrumentTab::Compare),
-        ("Now you", InstrumentTab::Compare),
+        ("Your turn", InstrumentTab::Compare),
     ] {
         assert!(window.query_by_label(title).is_some(), "{title}");
         assert_eq!(window.state().window.tab, Some(tab));
@@ -140,7 +140,7 @@ fn the_tour_shows_noise_bounces_and_roulette_and_is_not_shown_again() {
             let other = app.session.comparison.map(|compare| compare.other.estimator);
             assert_eq!((app.session.settings.estimator, other), (Estimator::Mis, Some(Estimator::Bidirectional)));
         }
-        let next = if title == "Now you" { "Done" } else { "Next" };
+        let next = if title == "Your turn" { "Done" } else { "Next" };
         let place = window.get_by_label(next).rect();
         assert!((place.bottom() - *bottom.get_or_insert(place.bottom())).abs() < 0.5, "{title}: {place:?}");
         click(&mut window, next);

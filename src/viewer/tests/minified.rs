@@ -1,4 +1,4 @@
-//! A picture with more pixels than the screen: every one of them counts.
+//! An image with more pixels than the screen: every pixel counts.
 use std::sync::Arc;
 
 use noisefall::render::Frame;

@@ -1,4 +1,4 @@
-//! Mouse and keys over the picture: which way things move, by how much, and with which tool.
+//! Mouse and keys over the image: which way things move, by how much, and with which tool.
 use noisefall::scene::Camera;
 
 use super::*;

@@ -1,4 +1,4 @@
-//! A bump map is seen as soon as it is ticked.
+//! A new bump map is visible at once.
 use noisefall::{
     declare::{OwnedValue, Path},
     edit::Tree,

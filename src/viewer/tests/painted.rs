@@ -1,4 +1,4 @@
-//! What is painted and has no label of its own: places, lengths and colours.
+//! Places, lengths and colours of painted parts that have no label of their own.
 use std::sync::Arc;
 
 use egui::{Color32, Rect, Shape, pos2};

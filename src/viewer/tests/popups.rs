@@ -1,4 +1,4 @@
-//! A popup over the panel takes Escape, and a tool leaves the panel as it is.
+//! Escape closes a popup over the panel, and a tool does not change the panel.
 use egui::Popup;
 
 use super::{

@@ -30,7 +30,7 @@ fn sharing_stays_as_it_is_while_other_settings_change_and_every_curve_names_it()
     restarts(&mut window, "a cap", |w| w.state_mut().session.settings.max_bounces = Some(4));
     sampled(&mut window);
     assert!(window.state().results.status.sharing == Sharing::Suffixes, "the decision is that of the scene");
-    restarts(&mut window, "no sharing", |w| choose(w, "Share paths", "Never"));
+    restarts(&mut window, "no sharing", |w| choose(w, "Sharing", "Nothing"));
     sampled(&mut window);
     window.run_steps(3);
     let names = names(&window);
@@ -77,7 +77,7 @@ fn a_preset_sets_what_it_says_and_the_panel_marks_the_one_in_force() {
 #[test]
 fn advice_tries_the_other_sharing() {
     let mut window = window("cornell_box");
-    restarts(&mut window, "no sharing", |w| choose(w, "Share paths", "Never"));
+    restarts(&mut window, "no sharing", |w| choose(w, "Sharing", "Nothing"));
     wait(&mut window, "a picture", |app| app.results.status.spp >= 1);
     click(&mut window, "What should I use here?");
     wait(&mut window, "the advice", |app| !app.is_studying());

@@ -1,4 +1,4 @@
-//! Comparisons: no winner out of noise, samples of the side that is pointed at, and a way out.
+//! Comparisons: no winner out of noise, samples of the side under the pointer, and a way to end.
 use noisefall::{integrator::pixel_samples, math::colour::luminance, render::sharing::resolved, scene::RenderSettings};
 
 use super::*;

@@ -1,4 +1,4 @@
-//! Saving pictures.
+//! Saving images.
 use super::*;
 
 #[test]

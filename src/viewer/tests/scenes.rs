@@ -1,4 +1,4 @@
-//! What the window says of scenes: the list, black pictures, pictures that cannot be.
+//! The list of scenes, black images, and images that cannot be rendered.
 use super::*;
 use crate::viewer::panels::{panel_tabs::PanelTab, subject::Subject};
 

@@ -1,4 +1,4 @@
-//! Selecting objects in the picture.
+//! Selecting objects in the image.
 use egui::Shape;
 use noisefall::render::Region;
 

@@ -1,4 +1,4 @@
-//! Settings: what starts a new picture, and what does not.
+//! Settings: the changes that start a new image, and those that do not.
 use super::*;
 
 #[test]
@@ -13,7 +13,7 @@ fn every_setting_of_the_estimate_starts_a_new_picture() {
     restarts(&mut window, "uniform directions", |w| click(w, "Uniform"));
     assert_eq!(window.state().session.settings.directions, Directions::Uniform);
     restarts(&mut window, "cosine directions", |w| click(w, "Cosine"));
-    restarts(&mut window, "shared paths", |w| choose(w, "Share paths", "Paths"));
+    restarts(&mut window, "shared paths", |w| choose(w, "Sharing", "Paths"));
     assert_eq!(window.state().session.settings.reuse, Reuse::On);
     restarts(&mut window, "adaptive samples", |w| {
         w.get_by_role_and_label(Role::CheckBox, "Adaptive").click();
@@ -51,7 +51,7 @@ fn no_row_is_wider_than_the_panel() {
         wait(&mut window, "samples", |app| app.results.status.spp >= 1);
         window.run_steps(3);
         let note = window.get_by_label(says).rect();
-        let label = window.get_by_label("Share paths").rect();
+        let label = window.get_by_label("Sharing").rect();
         let toolbar = window.get_by_label("Help").rect();
         assert!(note.right() <= 1280.0, "{scene}: {note:?}");
         assert!(label.left() > toolbar.right(), "{scene}: {label:?} is cut off at {toolbar:?}");
@@ -130,7 +130,7 @@ fn a_reached_target_is_named_and_a_higher_one_goes_on() {
 #[test]
 fn a_setting_has_one_name_on_both_pages_of_the_panel() {
     const NAMES: [&str; 9] =
-        ["Estimator", "Sampler", "Directions", "Share paths", "Adaptive", "Roulette", "Bounce cap", "Seed", "Stop at"];
+        ["Estimator", "Sampler", "Directions", "Sharing", "Adaptive", "Roulette", "Bounce cap", "Seed", "Stop at"];
     let mut window = window("cornell_spheres");
     for page in [PanelTab::Render, PanelTab::Edit] {
         window.state_mut().window.panel = page;

@@ -1,4 +1,4 @@
-//! What the window looks like in its main states, against pictures in `tests/snapshots`. `UPDATE_SNAPSHOTS=1` makes them anew.
+//! Compares the window in its main states with images in `tests/snapshots`. `UPDATE_SNAPSHOTS=1` redraws them.
 use egui_kittest::{SnapshotOptions, image_snapshot_options};
 
 use super::{rasteriser::Rasteriser, *};

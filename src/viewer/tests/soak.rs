@@ -1,4 +1,4 @@
-//! Thousands of random events: no panic, no stale frame, no memory that is lost.
+//! Thousands of random events: no panic, no stale frame, no leaked memory.
 use noisefall::render::view::DisplaySettings;
 use rand::{Rng, SeedableRng, rngs::SmallRng, seq::IndexedRandom};
 

@@ -1,4 +1,4 @@
-//! Things that must not move, and things that must not lie.
+//! Parts of the window that must not move, and figures that must not be wrong.
 use noisefall::{render::view::View as Shown, scene::RenderSettings};
 
 use super::{rasteriser::Blind, *};
@@ -16,7 +16,7 @@ fn rows(window: &Window) -> Vec<(&'static str, f32)> {
         "Settings of",
         "Preset",
         "Estimator",
-        "Share paths",
+        "Sharing",
         "Roulette",
         "Survival",
         "Bounce cap",
@@ -250,7 +250,7 @@ fn a_scene_without_a_picture_says_so_in_its_card() {
     window.key_press(Key::F6);
     wait(&mut window, "all pictures", |app| app.dialogs.gallery.is_complete());
     window.run_steps(3);
-    let says = |shape: &egui::Shape| matches!(shape, egui::Shape::Text(text) if text.galley.text() == "no picture");
+    let says = |shape: &egui::Shape| matches!(shape, egui::Shape::Text(text) if text.galley.text() == "no image");
     assert!(window.output().shapes.iter().any(|clipped| says(&clipped.shape)));
 }
 

@@ -45,7 +45,7 @@ fn what_is_shown_is_chosen_by_lists_buttons_and_keys() {
     }
     press(&mut window, Key::F5);
     let tools = [("Region", Key::B, Tool::Region), ("Inspect", Key::I, Tool::Inspect), ("Camera", Key::C, Tool::Camera)];
-    for (label, key, tool) in tools.into_iter().chain([("Picture", Key::P, Tool::Picture)]) {
+    for (label, key, tool) in tools.into_iter().chain([("Image", Key::P, Tool::Picture)]) {
         press(&mut window, key);
         assert_eq!(window.state().window.tool, tool);
         press(&mut window, if tool == Tool::Picture { Key::C } else { Key::P });

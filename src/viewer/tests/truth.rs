@@ -1,4 +1,4 @@
-//! What the picture is held against: the truth of the scene is that of its own camera, and of nothing else.
+//! The reference of an image: the truth of a scene is valid for the scene's own camera alone.
 use noisefall::{render::Budget, scene::Camera};
 
 use super::*;

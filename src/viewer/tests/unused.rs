@@ -1,4 +1,4 @@
-//! What nothing in the scene uses does not cost the samples of the image.
+//! Changes of parts that nothing in the scene uses keep the samples of the image.
 use super::{
     edited::{description, edits, select},
     selection::AMBER_BALL,

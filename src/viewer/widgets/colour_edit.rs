@@ -1,4 +1,4 @@
-//! A button of a colour, which opens a picker with linear channels, sRGB hex and, of lamps, temperature.
+//! A colour button that opens a picker: linear channels, sRGB hex and, for lamps, the colour temperature.
 use egui::{
     Color32, Id, Popup, PopupCloseBehavior, Response, Sense, Slider, Stroke, StrokeKind, Ui, WidgetInfo,
     accesskit::Role,

@@ -1,4 +1,4 @@
-//! A field of text that counts when it is left or entered; Escape gives the edit up.
+//! A text field that applies its text on Enter or when it loses the focus. Escape discards the edit.
 use egui::{Id, Key, Response, TextEdit, Ui};
 
 /// Outcome of an edit of a text field.

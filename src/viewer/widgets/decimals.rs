@@ -1,4 +1,4 @@
-//! Numbers with decimals, where what rounds to zero has no sign.
+//! Numbers with decimals. A number that rounds to zero has no sign.
 
 /// A number with this many decimals: 0.000 and never -0.000.
 pub fn fixed(x: f64, decimals: usize) -> String {

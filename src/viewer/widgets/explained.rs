@@ -1,4 +1,4 @@
-//! A number field or slider that takes arithmetic, and says below itself why it refused a text.
+//! A number field or slider that takes arithmetic. Below it stands why it refused a text.
 use std::{cell::RefCell, rc::Rc};
 
 use egui::{DragValue, Response, Slider, Ui, Widget};

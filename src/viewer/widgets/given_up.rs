@@ -1,4 +1,4 @@
-//! Escape gives the edit of a number field up.
+//! Escape discards the edit of a number field.
 use egui::{Id, Key, Ui};
 
 /// Whether Escape was pressed in this frame or the last one, because egui applies the typed text in the frame after Escape.

@@ -1,4 +1,4 @@
-//! Colours as hexadecimal sRGB, and the brightness that they cannot say.
+//! Colours as hexadecimal sRGB, and the brightness that these digits cannot express.
 use noisefall::math::colour::{linear_from_srgb, srgb_from_linear};
 
 /// The factor that brings the largest channel to 1: 1 if no channel is larger.

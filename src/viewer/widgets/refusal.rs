@@ -1,4 +1,4 @@
-//! Why a field refused the number that was typed last. The next press of a key or a button ends the message, and so does another value.
+//! The reason why a field refused the last number typed. The next key, button or other value ends the message.
 use egui::{Event, Id, Label, Response, RichText, Tooltip, Ui};
 
 /// The message of the window: there is at most one.

@@ -1,4 +1,4 @@
-//! Two areas above each other, with a handle between them that is dragged.
+//! Two areas, one above the other, with a handle between them to drag.
 use egui::{Frame, Panel, Stroke, Ui, vec2};
 
 /// Least height of either area, in points.

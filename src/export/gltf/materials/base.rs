@@ -1,4 +1,4 @@
-//! Color, opacity, metal, roughness and interface.
+//! Colour, opacity, metal, roughness and interface.
 use serde_json::json;
 
 use super::Parts;
@@ -19,7 +19,7 @@ use crate::{
 };
 
 impl Export<'_> {
-    /// Writes the base, and returns what it uses of the colors of vertices.
+    /// Writes the base, and returns what it uses of the colours of vertices.
     pub(super) fn base(
         &mut self,
         parts: &mut Parts,
@@ -53,7 +53,7 @@ impl Export<'_> {
         Ok(colors)
     }
 
-    /// A color times the weight of the base.
+    /// A colour times the weight of the base.
     fn weighted(&mut self, mut color: Part, weight: &Textured<f64>) -> Part {
         if let Textured::Texture(name) = weight {
             self.remark(format!("the texture `{name}` of `base_weight`"), "its mean", "the base is equally bright everywhere");
@@ -110,7 +110,7 @@ impl Export<'_> {
     }
 }
 
-/// The format tints what passes by the base color, unless a volume does.
+/// The format tints what passes by the base colour, unless a volume does.
 fn base_color(principled: &Principled) -> &Textured {
     const WHITE: &Textured = &Textured::grey(1.0);
     let is_clear =

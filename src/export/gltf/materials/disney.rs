@@ -71,7 +71,7 @@ fn widened(roughness: &Textured<f64>, anisotropic: f64) -> Textured<f64> {
     }
 }
 
-/// White, or as far towards the hue of a color as a tint says.
+/// White, or as far towards the hue of a colour as a tint says.
 fn toward(color: [f64; 3], tint: f64) -> Textured {
     let luminance: f64 = color.iter().zip(LUMINANCE).map(|(x, weight)| x * f64::from(weight)).sum();
     let hue = if luminance > 0.0 { color.map(|x| x / luminance) } else { [1.0; 3] };

@@ -54,7 +54,7 @@ impl Export<'_> {
                 color.clone()
             }
             Reflectance::Index { eta, k, tint } => {
-                let effect = "the color at grazing angles is slightly different";
+                let effect = "the colour at grazing angles is slightly different";
                 self.remark("a metal with `eta` and `k`", "Schlick's approximation", effect);
                 match tint {
                     Textured::Constant(tint) => Textured::Constant(std::array::from_fn(|i| tint[i] * head_on(eta[i], k[i]))),
@@ -81,7 +81,7 @@ impl Export<'_> {
         }
         let is_clear = glass.transmittance == [1.0; 3];
         if !is_clear && glass.specular_transmittance != Textured::grey(1.0) {
-            self.remark("`specular_transmittance`", "the color of the inside alone", "the interface does not tint the light");
+            self.remark("`specular_transmittance`", "the colour of the inside alone", "the interface does not tint the light");
         }
         Principled {
             specular_roughness: self.facets(&glass.roughness, glass.distribution, glass.energy_compensation),
@@ -159,7 +159,7 @@ fn diffuse_of(albedo: &Textured) -> Principled {
     }
 }
 
-/// A smooth metal by its color head-on.
+/// A smooth metal by its colour head-on.
 fn metal_of(color: &Textured) -> Principled {
     Principled {
         base_color: color.clone(),

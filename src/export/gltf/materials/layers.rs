@@ -84,7 +84,7 @@ impl Export<'_> {
         volume.insert("thicknessFactor".to_owned(), json!(THICKNESS));
         if !is_tinted {
             if let Textured::Texture(name) = &of.transmission_color {
-                self.remark(format!("the texture `{name}` of the inside"), "its mean", "the inside has one color");
+                self.remark(format!("the texture `{name}` of the inside"), "its mean", "the inside has one colour");
             }
             volume.insert("attenuationColor".to_owned(), json!(self.colors.mean(&of.transmission_color)));
             volume.insert("attenuationDistance".to_owned(), json!(of.transmission_depth));

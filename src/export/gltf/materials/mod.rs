@@ -3,7 +3,7 @@
 //! | file | holds |
 //! |---|---|
 //! | `kinds.rs`, `disney.rs` | each kind as `principled` |
-//! | `base.rs` | color, opacity, metal, roughness and interface |
+//! | `base.rs` | colour, opacity, metal, roughness and interface |
 //! | `layers.rs` | transmission, coat, sheen, thin film and anisotropy |
 //! | `light.rs` | emission, sides, bumps |
 mod base;

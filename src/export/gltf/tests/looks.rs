@@ -156,7 +156,7 @@ fn picture() -> Vec<u8> {
     pictures::png(2, 2, &[[255, 0, 10, 255], [0, 60, 70, 80], [9, 8, 7, 0], [200, 100, 50, 128]]).expect("it is encoded")
 }
 
-/// A scene with an image of the colors of a file, and others of its channels.
+/// A scene with an image of the colours of a file, and others of its channels.
 fn textured() -> (SceneDescription, Assets) {
     let mut scene = SceneDescription::default();
     let mut assets = Assets::default();

@@ -1,4 +1,4 @@
-//! A remark for each thing that glTF cannot say.
+//! A remark for each thing that glTF cannot express.
 use super::round_trip;
 use crate::{declare::Assets, scene::describe};
 

@@ -1,4 +1,4 @@
-//! A remark for each thing that Mitsuba cannot say.
+//! A remark for each thing that Mitsuba cannot express.
 use super::{round_trip, scenes};
 use crate::scene::describe;
 

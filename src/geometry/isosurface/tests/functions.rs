@@ -1,3 +1,4 @@
+//! Exponential, logarithm, sine and cosine against f64.
 use super::super::functions::{EXP_END, EXP_ERROR, LOG_ERROR, SIN_ERROR, exp, log, sin_cos};
 use crate::math::{F, One};
 

@@ -1,3 +1,4 @@
+//! Expressions: precedence, values, and messages about mistakes.
 use glam::DVec3;
 use rand::{Rng, SeedableRng, rngs::SmallRng};
 
@@ -62,9 +63,9 @@ fn errors_say_what_and_where() {
     let cases: [(&str, std::ops::Range<usize>, &str, &str); 23] = [
         ("", 0..0, "empty", "x^2"),
         ("  ", 0..2, "empty", "x^2"),
-        ("x +", 3..3, "ends too early", "should follow"),
+        ("x +", 3..3, "ends too early", "a number, a name or ("),
         ("(x + 1", 0..1, "not closed", ") is missing"),
-        ("x + 1)", 5..6, "\")\" is not expected", "no ( belongs"),
+        ("x + 1)", 5..6, "\")\" is not expected", "no matching ("),
         ("2x", 1..2, "\"x\" is not expected", "operator"),
         ("2*sni(x)", 2..5, "\"sni\" is not known", "did you mean sin?"),
         ("a + 1", 0..1, "\"a\" is not known", "known are"),
@@ -73,7 +74,7 @@ fn errors_say_what_and_where() {
         ("sin(x, y)", 5..6, "comma", "too many"),
         ("max(x)", 0..3, "two arguments", "max(a, b)"),
         ("x ^ y", 4..5, "power must be a number", "exp(b * log(a))"),
-        ("x^(2*50)", 2..8, "powers reach", "too high"),
+        ("x^(2*50)", 2..8, "must lie between", "too high"),
         ("x / (1 - 1)", 4..11, "division by zero", "0"),
         ("x * / y", 4..5, "\"/\" is not expected", "number"),
         ("x & y", 2..3, "\"&\" is not known", "not part"),

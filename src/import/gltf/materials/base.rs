@@ -1,4 +1,4 @@
-//! The base of a material: color, metal, roughness and interface.
+//! The base of a material: colour, metal, roughness and interface.
 use super::Work;
 use crate::{
     declare::Textured,
@@ -51,7 +51,7 @@ impl Work<'_, '_> {
         principled
     }
 
-    /// The color without its opacity, times that of the vertices.
+    /// The colour without its opacity, times that of the vertices.
     pub(super) fn base_colour(&mut self) -> Textured {
         let described = self.described();
         let [r, g, b, _] = described.base_color_factor;
@@ -71,7 +71,7 @@ impl Work<'_, '_> {
         }
     }
 
-    /// Strength and color of the reflection off the interface. Metals of glTF do not know them, those of OpenPBR do.
+    /// Strength and colour of the reflection off the interface. Metals of glTF do not know them, those of OpenPBR do.
     fn specular(&mut self, described: &Specular, principled: &mut Principled) {
         let strongest = described.specular_color_factor.iter().fold(0.0, |a: f64, b| a.max(*b));
         if strongest > 1.0 {
@@ -94,7 +94,7 @@ impl Work<'_, '_> {
         (principled.specular_weight, principled.specular_color) = (weight, color);
     }
 
-    /// The older model: diffuse and specular color with glossiness. The specular color is that head-on.
+    /// The older model: diffuse and specular colour with glossiness. The specular colour is that head-on.
     fn specular_glossiness(&mut self, described: &SpecularGlossiness) -> Principled {
         let [r, g, b, _] = described.diffuse_factor;
         let diffuse = self.colour([r, g, b].map(|x| x.clamp(0.0, 1.0)), described.diffuse_texture.as_ref());

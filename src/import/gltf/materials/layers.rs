@@ -16,7 +16,7 @@ impl Work<'_, '_> {
     /// Light that passes: through a thin sheet, or into a volume.
     pub(super) fn transmission(&mut self, principled: &mut Principled) {
         if self.extensions.dispersion.as_ref().is_some_and(|described| described.dispersion > 0.0) {
-            self.remark("KHR_materials_dispersion", "one index of refraction", "refracted light has no colored fringes");
+            self.remark("KHR_materials_dispersion", "one index of refraction", "refracted light has no coloured fringes");
         }
         let Some(described) = self.extensions.transmission.as_deref() else { return };
         principled.transmission_weight =
@@ -44,7 +44,11 @@ impl Work<'_, '_> {
         let colour = volume.attenuation_color.map(|x| x.clamp(0.0, 1.0));
         let Some(distance) = distance.filter(|_| colour != [1.0; 3]) else { return };
         if principled.base_color != Textured::grey(1.0) {
-            self.remark("a base color besides `attenuationColor`", "`attenuationColor`", "the interface does not tint the light");
+            self.remark(
+                "a base colour besides `attenuationColor`",
+                "`attenuationColor`",
+                "the interface does not tint the light",
+            );
         }
         principled.transmission_color = Textured::Constant(colour);
         principled.transmission_depth = distance;

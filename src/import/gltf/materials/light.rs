@@ -26,7 +26,7 @@ impl Work<'_, '_> {
         Some(self.emitting(colour, strength))
     }
 
-    /// A surface that shows its color whatever the light: it reflects nothing and emits the color.
+    /// A surface that shows its colour whatever the light: it reflects nothing and emits the color.
     pub(super) fn unlit(&mut self) -> (Material, Option<EmissionDescription>) {
         let described = self.described();
         let is_black =
@@ -37,7 +37,7 @@ impl Work<'_, '_> {
         }
         let colour = self.base_colour();
         let emission = self.emitting(colour, 1.0);
-        self.remark("KHR_materials_unlit", "emission of the color, without reflection", "the surface also lights others");
+        self.remark("KHR_materials_unlit", "emission of the colour, without reflection", "the surface also lights others");
         (black, Some(emission))
     }
 

@@ -95,7 +95,7 @@ impl<'a> Materials<'a> {
     }
 }
 
-/// The textures of a material that are read, that of its color first.
+/// The textures of a material that are read, that of its colour first.
 fn maps(material: &Material) -> impl Iterator<Item = &TextureInfo> {
     let pbr = material.pbr_metallic_roughness.as_deref();
     let specular = material.extensions.as_deref().and_then(|extensions| extensions.specular_glossiness.as_deref());
@@ -151,7 +151,7 @@ impl Work<'_, '_> {
         self.textures.number(self.to, factor.clamp(0.0, 1.0), &of, channel)
     }
 
-    /// A color times that of the vertices.
+    /// A colour times that of the vertices.
     fn with_vertices(&mut self, colour: Textured) -> Textured {
         if !self.surface.colours {
             return colour;

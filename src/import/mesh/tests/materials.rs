@@ -126,7 +126,7 @@ fn statements_are_read_in_any_notation() {
     assert_eq!((found.len(), found[1].clone(), remarks.len()), (2, ("b".to_owned(), Mtl::default()), 0));
     let material = &found[0].1;
     let near = |a: [f64; 3], b: [f64; 3]| (0..3).all(|i| (a[i] - b[i]).abs() < 1e-3);
-    assert!(near(material.colour("Kd").expect("a color"), [0.5, 0.1, 0.0]));
-    assert!(near(material.colour("Ks").expect("a color"), [1.0; 3]), "{:?}", material.colour("Ks"));
+    assert!(near(material.colour("Kd").expect("a colour"), [0.5, 0.1, 0.0]));
+    assert!(near(material.colour("Ks").expect("a colour"), [1.0; 3]), "{:?}", material.colour("Ks"));
     assert!((material.number("Ns").expect("a number") - 3.1).abs() < 1e-6 && material.map("bump").is_some());
 }

@@ -46,7 +46,7 @@ fn index(import: &mut Import, element: Element, name: &str, default: &str) -> Re
         None if value.tag() == "string" && value.value()?.trim().parse::<f64>().is_err() => {
             let names = NAMED.map(|(name, _)| name).join(", ");
             return Err(
-                value.error(format!("\"{}\" is no material with a known index", value.value()?), format!("known: {names}"))
+                value.error(format!("\"{}\" is not a material with a known index", value.value()?), format!("known: {names}"))
             );
         }
         None => element.number(name, 1.0)?,

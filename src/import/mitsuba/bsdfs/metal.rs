@@ -44,7 +44,7 @@ fn indices(import: &mut Import, element: Element) -> Result<Option<Index>, Scene
         name => match metals::named(name) {
             Some((_, eta, k)) => Ok(Some((*eta, *k))),
             None => {
-                let message = format!("\"{name}\" is no metal that Noisefall knows");
+                let message = format!("\"{name}\" is not a metal that Noisefall knows");
                 Err(element.error(message, format!("give its `eta` and `k`, or one of {}", metals::names())))
             }
         },

@@ -132,7 +132,7 @@ fn widened(roughness: Textured<f64>, anisotropic: &Textured<f64>) -> Textured<f6
     }
 }
 
-/// White, or as far towards the hue of a color as a tint says.
+/// White, or as far towards the hue of a colour as a tint says.
 fn toward(import: &mut Import, element: Element, color: &Textured, tint: Textured<f64>) -> Textured {
     match (color, tint) {
         (_, Textured::Constant(0.0)) => Textured::grey(1.0),

@@ -64,6 +64,6 @@ pub fn distribution(import: &mut Import, element: Element) -> Result<Distributio
             import.remarks.add(place.place(), what, "Beckmann of the same width", "highlights have another width");
             Ok(Distribution::Beckmann)
         }
-        other => Err(element.error(format!("`{other}` is no distribution of microfacets"), "beckmann or ggx")),
+        other => Err(element.error(format!("`{other}` is not a distribution of microfacets"), "beckmann or ggx")),
     }
 }

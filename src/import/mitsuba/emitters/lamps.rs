@@ -52,11 +52,11 @@ pub fn spot(import: &mut Import, element: Element) -> Result<(), SceneError> {
         if texture.kind() == "bitmap" && angle < 89.0 {
             let image = import.bitmap(texture)?;
             if is_placed(&image) {
-                import.remark(texture, "the image without `to_uv`", "the picture lies elsewhere");
+                import.remark(texture, "the image without `to_uv`", "the image lies elsewhere");
             }
             return add(import, element, of_picture(&map, image, intensity, [inner, angle]));
         }
-        import.remark(texture, "white", "the light has no picture");
+        import.remark(texture, "white", "the light has no image");
     }
     let [position, target] = [map.translation, map.transform_point3(DVec3::Z)];
     add(import, element, Spot { position, target, intensity, angle, inner, falloff: Falloff::Linear })
@@ -98,7 +98,7 @@ pub fn projector(import: &mut Import, element: Element) -> Result<(), SceneError
             let aspect =
                 picture::aspect(import, &image).ok_or_else(|| irradiance.error("the image cannot be read", "check the file"))?;
             if is_placed(&image) {
-                import.remark(irradiance, "the image without `to_uv`", "the picture lies elsewhere");
+                import.remark(irradiance, "the image without `to_uv`", "the image lies elsewhere");
             }
             (image.path, image.encoding, aspect)
         }

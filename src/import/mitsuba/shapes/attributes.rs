@@ -1,4 +1,4 @@
-//! Attributes of PLY files, such as `vertex_color` and `face_weight`, as colors of vertices.
+//! Attributes of PLY files, such as `vertex_color` and `face_weight`, as colours of vertices.
 //!
 //! An attribute is a group of properties `name_0`, `name_1`, `name_2` of vertices or faces; `r`, `g` and `b` are its name `color`.
 use std::{collections::HashMap, path::Path};
@@ -35,7 +35,7 @@ struct Group {
     properties: Vec<Property>,
 }
 
-/// Puts the attribute that a shape uses into the colors of its model.
+/// Puts the attribute that a shape uses into the colours of its model.
 pub fn apply(
     import: &mut Import,
     element: Element,

@@ -23,7 +23,7 @@ impl Import {
     /// The emission of a shape.
     pub fn emission(&mut self, light: &Entity, built: &Built, map: &DAffine3) -> Result<Option<EmissionDescription>, SceneError> {
         if light.kind != "diffuse" {
-            return Err(light.error(format!("`{}` is no area light of pbrt-v4", light.kind), "it must be diffuse"));
+            return Err(light.error(format!("`{}` is not an area light of pbrt-v4", light.kind), "it must be diffuse"));
         }
         let colour = self.light_colour(light, "L")?;
         let two_sided = light.flag("twosided", false)?;

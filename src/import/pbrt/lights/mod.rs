@@ -32,7 +32,9 @@ impl Import {
             "goniometric" => self.goniometric_lamp(entity, &map)?,
             "projection" => self.projection_lamp(entity, &map)?,
             "infinite" => self.infinite(entity, &map)?,
-            other => return Err(entity.error(format!("`{other}` is no light of pbrt-v4"), "such as point, distant or infinite")),
+            other => {
+                return Err(entity.error(format!("`{other}` is not a light of pbrt-v4"), "such as point, distant or infinite"));
+            }
         }
         self.remark_unused(entity);
         Ok(())

@@ -53,7 +53,7 @@ impl Import {
             MaterialRef::Default => None,
             MaterialRef::Numbered(number) => Some(*number),
             MaterialRef::Named(name) => {
-                let unknown = || place.error(format!("`{name}` is no material"), "define it by MakeNamedMaterial");
+                let unknown = || place.error(format!("`{name}` is not a material"), "define it by MakeNamedMaterial");
                 Some(*self.named_materials.get(&**name).ok_or_else(unknown)?)
             }
         };
@@ -99,7 +99,7 @@ impl Import {
             "measured" => self.measured(entity),
             other => {
                 let label = "a scene of pbrt-v3 must be converted to pbrt-v4 first";
-                return Err(entity.error(format!("`{other}` is no material of pbrt-v4"), label));
+                return Err(entity.error(format!("`{other}` is not a material of pbrt-v4"), label));
             }
         }?;
         let bump = self.bump(entity)?;

@@ -1,4 +1,4 @@
-//! Materials without counterpart, and what stands for them.
+//! Materials without counterpart, and their substitutes.
 use super::plain::grey;
 use crate::{
     import::pbrt::{import::Import, parameters::Entity, spectra::Role},

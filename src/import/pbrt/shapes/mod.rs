@@ -119,7 +119,7 @@ impl Import {
             "curve" => self.curve(entity),
             kind => {
                 let label = "sphere, disk, cylinder, trianglemesh, bilinearmesh, loopsubdiv, plymesh or curve";
-                Err(entity.error(format!("`{kind}` is no shape of pbrt-v4"), label))
+                Err(entity.error(format!("`{kind}` is not a shape of pbrt-v4"), label))
             }
         }
     }

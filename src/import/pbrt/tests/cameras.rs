@@ -1,3 +1,4 @@
+//! Cameras of pbrt, and the handedness of its world.
 use glam::DVec3;
 
 use super::{error, imported, remarks};

@@ -1,3 +1,4 @@
+//! Files that are broken, or made to do harm.
 use super::{Files, error, imported};
 use crate::model::Model;
 

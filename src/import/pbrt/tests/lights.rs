@@ -1,3 +1,4 @@
+//! Lights of pbrt.
 use glam::DVec3;
 
 use super::{error, imported, remarks, world};

@@ -1,3 +1,4 @@
+//! Materials and textures of pbrt.
 use super::{error, remarks, world};
 use crate::{
     declare::Textured,
@@ -103,7 +104,7 @@ fn substitutes_and_unknown_things_say_so() {
     );
     let lines = remarks(&found).join("\n");
     assert!(lines.contains("subsurface") && lines.contains("`shine`"), "{lines}");
-    assert!(error("WorldBegin\nMaterial \"matte\"\nShape \"sphere\"").contains("no material of pbrt-v4"));
-    assert!(error("WorldBegin\nNamedMaterial \"x\"\nShape \"sphere\"").contains("`x` is no material"));
+    assert!(error("WorldBegin\nMaterial \"matte\"\nShape \"sphere\"").contains("is not a material of pbrt-v4"));
+    assert!(error("WorldBegin\nNamedMaterial \"x\"\nShape \"sphere\"").contains("`x` is not a material"));
     assert!(error("WorldBegin\nMaterial \"diffuse\" \"texture reflectance\" \"t\"\nShape \"disk\"").contains("no texture `t`"));
 }

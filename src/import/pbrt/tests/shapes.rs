@@ -1,3 +1,4 @@
+//! Shapes, meshes and instances of pbrt.
 use super::{Files, error, remarks, world};
 use crate::{
     import::Imported,

@@ -37,7 +37,7 @@ impl Import {
         let is_numbers = match of_type {
             "float" => true,
             "spectrum" | "color" => false,
-            _ => return Err(entity.error(format!("`{of_type}` is no type of textures"), "float or spectrum")),
+            _ => return Err(entity.error(format!("`{of_type}` is not a type of textures"), "float or spectrum")),
         };
         self.textures.insert((is_numbers, name), Rc::new(entity));
         Ok(())

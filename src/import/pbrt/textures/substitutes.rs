@@ -1,4 +1,4 @@
-//! Textures without counterpart, and what stands for them.
+//! Textures without counterpart, and their substitutes.
 use super::Content;
 use crate::{
     declare::Textured,
@@ -35,10 +35,12 @@ impl Import {
             }
             "ptex" => {
                 entity.ignore(&["filename", "encoding", "scale"]);
-                self.remark(entity, "grey", "Ptex files are not read");
+                self.remark(entity, "grey", "Ptex files are not supported");
                 Ok(Textured::grey(0.5))
             }
-            other => Err(entity.error(format!("`{other}` is no texture of pbrt-v4"), "such as imagemap, scale, mix or constant")),
+            other => {
+                Err(entity.error(format!("`{other}` is not a texture of pbrt-v4"), "such as imagemap, scale, mix or constant"))
+            }
         }
     }
 

@@ -44,7 +44,7 @@ pub struct Image {
     pub rotate: f64,
     /// Factor of the radiance.
     pub scale: f64,
-    /// Whether the first and the last row of texels lie at the poles, and not half a row from them.
+    /// Whether the first and last rows of texels lie at the poles. Otherwise they lie half a row from them.
     pub pole_rows: bool,
     /// Rotations and mirrorings of the image after `rotate`, from the first to the last. Translations do not matter.
     pub transform: Vec<Transform>,
@@ -70,7 +70,7 @@ impl Declare for Image {
         const SCALE: Parameter = Parameter::new("scale", "Factor that multiplies the radiance.");
         const POLE_ROWS: Parameter = Parameter::new(
             "pole_rows",
-            "Whether the first and the last row of texels lie at the poles, and not half a row from them.",
+            "Whether the first and last rows of texels lie at the poles. Otherwise they lie half a row from them.",
         );
         const TRANSFORM: Parameter =
             Parameter::new("transform", "Rotations and mirrorings of the image, applied after `rotate`.");

@@ -48,7 +48,7 @@ impl Daylight {
 
     /// The radiance from a unit direction above the horizon, W·sr⁻¹·m⁻², linear Rec. 709. Channels outside the gamut are 0.
     pub fn radiance(&self, direction: DVec3) -> [f64; 3] {
-        /// Cosine to the zenith of the lowest direction that is told from the horizon.
+        /// Cosine to the zenith of the lowest direction that is distinguished from the horizon.
         const LOWEST: f64 = 1e-4;
         let gamma = direction.dot(self.sun).clamp(-1.0, 1.0).acos();
         let cos = direction.y.max(LOWEST);

@@ -39,9 +39,9 @@ pub struct Sky {
     pub sun: DVec3,
     /// Haze: 2 is very clear, 10 is hazy.
     pub turbidity: f64,
-    /// Factor of the radiance of the sky.
+    /// Factor that multiplies the radiance of the sky.
     pub sky_scale: f64,
-    /// Factor of the radiance of the sun; 0 shows the sky alone.
+    /// Factor that multiplies the radiance of the sun; 0 shows the sky alone.
     pub sun_scale: f64,
     /// Where its radiance is from.
     pub model: SkyModel,
@@ -93,14 +93,17 @@ impl Declare for Sky {
     fn parameters(&mut self, p: &mut dyn Parameters) {
         const SUN: Parameter = Parameter::new("sun", "Direction towards the sun, of any length.");
         const TURBIDITY: Parameter = Parameter::new("turbidity", "Haze: 2 is very clear, 10 is hazy.").symbol("T");
-        const SKY_SCALE: Parameter = Parameter::new("sky_scale", "Factor of the radiance of the sky.");
-        const MODEL: Parameter = Parameter::new("model", "Where the radiance is from.");
+        const SKY_SCALE: Parameter = Parameter::new("sky_scale", "Factor that multiplies the radiance of the sky.");
+        const MODEL: Parameter = Parameter::new("model", "Model of the radiance.");
         const ALBEDO: Parameter = Parameter::new("ground_albedo", "Albedo of the ground, which brightens the sky of `hosek`.");
-        const DIAMETER: Parameter =
-            Parameter::new("sun_diameter", "Diameter of the sun, which keeps its irradiance. Default: that of the model.")
-                .unit("degrees");
-        const ZENITH: Parameter = Parameter::new("zenith", "Direction upwards, of any length.");
-        const SUN_SCALE: Parameter = Parameter::new("sun_scale", "Factor of the radiance of the sun; 0 shows the sky alone.");
+        const DIAMETER: Parameter = Parameter::new(
+            "sun_diameter",
+            "Angular diameter of the sun. Changing it keeps the irradiance. Default: that of the model.",
+        )
+        .unit("degrees");
+        const ZENITH: Parameter = Parameter::new("zenith", "Direction of the zenith, of any length.");
+        const SUN_SCALE: Parameter =
+            Parameter::new("sun_scale", "Factor that multiplies the radiance of the sun; 0 shows the sky alone.");
         p.value(&SUN, Value::Vector(&mut self.sun));
         p.number(&TURBIDITY, &mut self.turbidity, Range::linear(1.0, 10.0));
         p.number(&SKY_SCALE, &mut self.sky_scale, Range::log(0.0, 1e12));

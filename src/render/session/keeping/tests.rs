@@ -137,7 +137,7 @@ fn a_scene_is_opened_again_from_the_file_and_what_has_changed_is_noticed() {
     let again = RenderRequest { scene: Arc::new(again), ..request.clone() };
     assert_eq!((file_differences(&header, &nf), probe_difference(&header, &again, &threads())), (vec![], None));
     let other = RenderRequest { settings: RenderSettings { seed: 9, ..settings }, ..again };
-    assert!(probe_difference(&header, &other, &threads()).is_some_and(|text| text.contains("the scene is not what it was")));
+    assert!(probe_difference(&header, &other, &threads()).is_some_and(|text| text.contains("the scene has changed")));
     paint(100);
     assert!(file_differences(&header, &nf)[0].contains("wood.png has "));
     std::fs::remove_file(&texture).expect("it is there");

@@ -1,4 +1,4 @@
-//! The latest request wins, and what is not wanted any more is forgotten.
+//! The latest request wins, and results of older requests are dropped.
 use std::time::{Duration, Instant};
 
 use noisefall::scene::built_in;

@@ -1,4 +1,4 @@
-//! Rounds what the pointer asks for to steps that nobody sees, so that the numbers of a scene file stay short.
+//! Rounds the moves of the pointer to invisible steps, so that the numbers in a scene file stay short.
 use glam::DVec3;
 use noisefall::shape::{Rotation, Transform};
 

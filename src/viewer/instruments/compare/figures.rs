@@ -44,7 +44,7 @@ pub fn show(
         let (text, more) = verdict(ratio);
         ui.label(RichText::new(text).color(ui.accent())).on_hover_text(more);
     } else {
-        ui.weak("Figures appear after two samples per pixel.");
+        ui.weak("Available after two samples per pixel.");
     }
     if began_apart(sides.each_ref().map(|side| side.seconds)) {
         let first = if sides[0].seconds > sides[1].seconds { "A" } else { "B" };

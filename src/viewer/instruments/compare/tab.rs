@@ -6,9 +6,9 @@ use super::{comparison::CompareLayout, comparison::Comparison, figures, figures:
 use crate::viewer::widgets::style::choices;
 
 const LAYOUTS: [(CompareLayout, &str, &str); 3] = [
-    (CompareLayout::Wipe, "Wipe", "A is left of a line, B is right of it. Drag the line."),
+    (CompareLayout::Wipe, "Wipe", "Shows A left of a line and B right of it. Drag the line."),
     (CompareLayout::SideBySide, "Side by side", "Shows the same part of both images."),
-    (CompareLayout::Difference, "Difference", "A − B, relative to B. If both are unbiased, it shows only their noise."),
+    (CompareLayout::Difference, "Difference", "Shows A − B relative to B. If both are unbiased, this is only their noise."),
 ];
 
 /// Shows the comparison, or the menu that starts one. Swapping or keeping a side changes both settings. Returns settings to compare
@@ -24,7 +24,7 @@ pub fn show(
 ) -> Option<RenderSettings> {
     let Some(mut compare) = *comparison else {
         let row = ui.horizontal_wrapped(|ui| {
-            ui.label("Choose settings to compare with. From then on both get the same time.");
+            ui.label("Choose settings to compare with. Both then get the same time.");
             menu::show(ui, settings)
         });
         return row.inner;

@@ -1,4 +1,4 @@
-//! Errors so far: a curve over samples and time for each setting of the same picture.
+//! Errors so far: a curve over samples and time for each setting of the same image.
 use std::sync::Arc;
 
 use noisefall::{

@@ -63,7 +63,7 @@ fn legend(ui: &mut Ui, history: &History, latest: [Option<u64>; 2]) {
         ui.indent(number, |ui| ui.weak(figures(curve, history.over)).on_hover_text(FIGURES));
     }
     if history.curves.is_empty() {
-        ui.weak("Figures appear after two samples per pixel. Curves of earlier settings stay.");
+        ui.weak("Available after two samples per pixel. Curves of earlier settings stay.");
     }
     if !history.curves.is_empty() {
         let root = if history.over == HorizontalAxis::Samples { "1/√N" } else { "1/√time" };

@@ -1,4 +1,4 @@
-//! Draws a path over the picture.
+//! Draws a path over the image.
 use egui::{Align2, Color32, FontId, Painter, Pos2, Shape, Stroke, Ui, vec2};
 use glam::Vec3;
 use noisefall::{

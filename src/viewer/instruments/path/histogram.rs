@@ -72,7 +72,7 @@ pub fn show(ui: &mut Ui, histogram: &Histogram, chosen: u32) -> Option<u32> {
     text(plot.right_bottom() + vec2(0.0, 3.0), Align2::RIGHT_TOP, format!("{:.3} and more", histogram.end));
     let count = histogram.samples.len();
     ui.weak(format!("{}, mean {:.4} (line), {:.0} % black", counted(count, "sample"), histogram.mean, 100.0 * histogram.black))
-        .on_hover_text("These are the number of samples, the mean of their luminance, and the fraction without light.");
+        .on_hover_text("Number of samples, mean of their luminance, and fraction of samples without light.");
     let under = |at: egui::Pos2| (((at.x - plot.left()) / width) as usize).min(BINS - 1);
     let clicked = response.clicked().then(|| response.interact_pointer_pos()).flatten().map(under);
     response.on_hover_text(

@@ -114,7 +114,7 @@ impl PathInspector {
         self.histogram.found.as_ref().map(|(_, (_, samples))| samples.as_slice())
     }
 
-    /// Takes in what has been found, and looks for what is not. The picture has so many samples a pixel.
+    /// Receives finished results, and starts tasks for missing ones. The image has this many samples per pixel.
     pub fn search(&mut self, request: &RenderRequest, spp: u32) {
         let [width, height] = request.camera.resolution;
         self.pixel = self.pixel.filter(|[x, y]| *x < width && *y < height);

@@ -129,7 +129,7 @@ fn estimate(ui: &mut Ui, frame: &Frame, pixel: [u32; 2]) {
         let error = Some(frame.standard_error[index]).filter(|error| error.is_finite());
         let error = error.map_or_else(String::new, |error| format!(" ± {error:.4}"));
         ui.label(format!("L = {y:.4}{error}, N = {}", frame.spp_at(index)))
-            .on_hover_text("These are the luminance of the displayed image, its standard error, and the number of samples.");
+            .on_hover_text("Luminance of the displayed image, its standard error, and the number of samples.");
     }
 }
 
@@ -168,7 +168,7 @@ fn sample_choice(ui: &mut Ui, inspector: &mut PathInspector) {
         if let Some(brightest) = brightest
             && ui
                 .button("Brightest")
-                .on_hover_text("Goes to the sample with the highest luminance, which causes most noise.")
+                .on_hover_text("Goes to the sample with the highest luminance, which causes the most noise.")
                 .clicked()
         {
             *sample = brightest;

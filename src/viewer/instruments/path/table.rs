@@ -46,7 +46,7 @@ const COLUMNS: [(&str, &str); 9] = [
 pub fn heading(ui: &mut Ui, sample: u32, replay: &Replay, channel: &mut Channel) {
     ui.horizontal_wrapped(|ui| {
         ui.label(RichText::new(format!("Sample {sample}: {}", colour(replay.radiance))).color(ui.accent()).strong())
-            .on_hover_text("This is the radiance of the sample: linear red, green and blue.");
+            .on_hover_text("Radiance of the sample: linear red, green and blue.");
         choices(ui, channel, &CHANNELS);
     });
     match &replay.both_ends {

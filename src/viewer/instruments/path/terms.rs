@@ -112,25 +112,25 @@ pub fn totals(replay: &Replay, most_vertices: usize) -> Vec<Total> {
         let terms = replay.vertices.iter().skip(most_vertices).flat_map(terms).filter(|term| !term.is_shared);
         let value = terms.fold([0.0; 3], |sum: Colour, term| [0, 1, 2].map(|c| sum[c] + term.value[c]));
         let vertices = if further == 1 { "vertex" } else { "vertices" };
-        totals.push(Total {
-            name: format!("{further} more {vertices}"),
-            doc: "The sum of the terms that are not listed.",
-            value,
-        });
+        totals.push(Total { name: format!("{further} more {vertices}"), doc: "Sum of the terms that are not listed.", value });
     }
     if let Some(shared) = &replay.shared {
         totals.push(Total {
             name: "Shared, kept".to_owned(),
-            doc: "The part of the terms in brackets that this pixel keeps, by multiple importance sampling.",
+            doc: "Part of the terms in brackets that this pixel keeps, by multiple importance sampling.",
             value: shared.kept,
         });
         totals.push(Total {
             name: "From neighbours".to_owned(),
-            doc: "The parts of the paths of the other pixels in the 4 × 4 block.",
+            doc: "Parts that this pixel gets from the paths of the other pixels in the 4 × 4 block.",
             value: shared.from_neighbours,
         });
     }
-    totals.push(Total { name: "Sample".to_owned(), doc: "The sum of the column, without brackets.", value: replay.radiance });
+    totals.push(Total {
+        name: "Sample".to_owned(),
+        doc: "Sum of the column, without the terms in brackets.",
+        value: replay.radiance,
+    });
     totals
 }
 

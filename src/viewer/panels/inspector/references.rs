@@ -92,7 +92,7 @@ pub fn textures(ui: &mut Ui, label: Id, current: &str, surroundings: &Surroundin
 /// The button behind a constant, with the menu of textures in its place.
 pub fn map_button(ui: &mut Ui, label: Id, surroundings: &Surroundings) -> Option<Source> {
     let menu = ui.menu_button("Map", |ui| entries(ui, None, surroundings));
-    menu.response.labelled_by(label).on_hover_text("Puts a texture in the place of the value.");
+    menu.response.labelled_by(label).on_hover_text("Replaces the value by a texture.");
     menu.inner.flatten()
 }
 
