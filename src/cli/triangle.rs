@@ -1,7 +1,7 @@
 //! The triangle of bidirectional path tracing: an image of every strategy (s, t).
 use noisefall::{
     report::sheet::Cell,
-    scene::{Estimator, RenderSettings, Reuse, Scene, Strategy},
+    scene::{RenderSettings, Scene, Strategy},
 };
 
 use super::messages::Failure;
@@ -14,11 +14,8 @@ pub fn strategy_bounces(text: &str) -> Result<u32, String> {
 
 /// Settings of every strategy of paths with up to `bounces` bounces, row by row.
 pub fn strategies(scene: &Scene, base: RenderSettings, bounces: u32, weighted: bool) -> Result<Vec<RenderSettings>, Failure> {
-    let base = RenderSettings { estimator: Estimator::Bidirectional, reuse: Reuse::Off, adaptive: false, ..base };
-    // A cap also bounds the number of connections, whatever the roulette.
-    let settings =
-        |strategy: Strategy| RenderSettings { strategy: Some(strategy), max_bounces: Some(strategy.bounces()), ..base };
-    let all: Vec<_> = (0..=bounces).flat_map(|bounces| Strategy::of_bounces(bounces, weighted)).map(settings).collect();
+    let all = (0..=bounces).flat_map(|bounces| Strategy::of_bounces(bounces, weighted));
+    let all: Vec<_> = all.map(|strategy| strategy.settings(base)).collect();
     match all.first().and_then(|first| scene.lacks_light_paths(first)) {
         Some(reason) => Err(format!("there are no strategies to show: {reason}")),
         None => Ok(all),

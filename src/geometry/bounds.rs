@@ -42,6 +42,11 @@ impl Bounds {
         2.0 * (x * y + y * z + z * x)
     }
 
+    /// Whether both have a point in common.
+    pub fn overlaps(&self, other: &Bounds) -> bool {
+        (0..3).all(|axis| self.min[axis] <= other.max[axis] && other.min[axis] <= self.max[axis])
+    }
+
     /// Whether `other` lies inside.
     pub fn contains(&self, other: &Bounds) -> bool {
         (0..3).all(|axis| self.min[axis] <= other.min[axis] && other.max[axis] <= self.max[axis])
@@ -59,6 +64,7 @@ mod tests {
         assert_eq!((a.surface_area(), flat.surface_area()), (22.0, 4.0));
         assert_eq!(a.union(&flat), Bounds { min: [0.0; 3], max: [4.0, 2.0, 3.0] });
         assert!(a.union(&flat).contains(&a) && !a.contains(&flat));
+        assert!(!a.overlaps(&flat) && a.overlaps(&a.union(&flat)) && a.overlaps(&Bounds::of_points([[1.0, 2.0, 3.0]])));
     }
 
     #[test]

@@ -44,7 +44,7 @@ impl Extent {
 
 impl Shape {
     /// The bounding box of the shape over its whole motion, including rounding.
-    pub(super) fn bounds(&self, motion: &Motion) -> Bounds {
+    pub fn bounds(&self, motion: &Motion) -> Bounds {
         let all = self.poses(motion).map(|pose| pose.extent()).fold(Extent::EMPTY, |all, extent| all.union(&extent));
         all.widened(self.way_between_poses(motion) + self.rounding())
     }

@@ -54,6 +54,7 @@ mod transform;
 mod turns;
 
 pub use self::{
+    bounds::Bounds,
     bvh::Visits,
     direction_sample::DirectionSample,
     identity::same_point,

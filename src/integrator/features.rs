@@ -202,8 +202,13 @@ fn shading<L: Lanes>(
     let cos = -point.n_geometric.dot(path.d);
     let [x, y, z, word] = l.rows(&scene.surfaces.rows, row);
     let n = point.n_geometric * l.f(1.0).copysign(cos);
-    let incident =
-        IncidentPaths { d: path.d, interaction: SurfaceInteraction { place, row, point, cos }, media: l.u(0), word: word.bits() };
+    let incident = IncidentPaths {
+        d: path.d,
+        interaction: SurfaceInteraction { place, row, point, cos },
+        media: l.u(0),
+        word: word.bits(),
+        keeps_hidden_normals: false,
+    };
     let (_, reflects) = incident.sides();
     let (colour, detail, _) = vary(l, scene, &incident, hit & reflects, V { x, y, z }, n);
     (detail.n, reflects.pick(colour, V::splat(l, [0.0; 3])))

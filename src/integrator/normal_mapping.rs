@@ -47,7 +47,7 @@ pub(super) fn shading_normal<L: Lanes>(
 }
 
 /// Minimum height of the viewer over a shading normal.
-const GRAZING: f32 = 1e-3;
+pub(super) const GRAZING: f32 = 1e-3;
 
 /// The normal of a smooth surface, or the plain one `n` where the viewer in the direction `wo` could not see the front of the former.
 #[inline(always)]

@@ -256,11 +256,18 @@ impl<L: Lanes> ShadingVertex<L> {
     /// Turns the frame to the tangent.
     #[inline(always)]
     fn align<K: Shade>(&mut self, l: L, work: &Work, detail: &Detail<L>, chart: &Chart<L>) {
+        self.frame = self.frame_about::<K>(l, work, detail.n, Some(chart));
+        self.wo = self.frame.local_from_world(detail.wo);
+    }
+
+    /// The frame about a normal, turned to the tangent if there is a chart.
+    #[inline(always)]
+    pub fn frame_about<K: Shade>(&self, l: L, work: &Work, n: V<L>, chart: Option<&Chart<L>>) -> Frame<L> {
+        let Some(chart) = chart else { return Frame::new(n) };
         let (cos, sin) = K::turn(l, &work.scene.surfaces.materials, &self.local);
         // The turn is about the front normal.
         let sin = self.local.front.pick(sin, -sin);
-        self.frame = Frame::along(detail.n, chart.along_u, (cos, sin));
-        self.wo = self.frame.local_from_world(detail.wo);
+        Frame::along(n, chart.along_u, (cos, sin))
     }
 
     /// The media beyond the surface in a direction of height `z`.

@@ -71,13 +71,15 @@ pub(super) struct Arrival<L: Lanes> {
     sharing: M<L>,
     /// The throughput without the albedo of a first surface that is shared.
     shared_throughput: V<L>,
+    /// See [`IncidentPaths::keeps_hidden_normals`].
+    keeps_hidden_normals: bool,
 }
 
 impl<L: Lanes> Arrival<L> {
-    /// Paths in empty space that share nothing; `start` is the index of the first in its queue.
+    /// Paths that are connected with those from the other end.
     #[inline(always)]
-    pub fn new(l: L, start: usize, path: Path<L>, nearest: Nearest<L>) -> Self {
-        Arrival { start, nearest, media: l.u(0), sharing: l.first(0), shared_throughput: path.throughput, path }
+    pub fn from_either_end(l: L, work: &Work, paths: &PathQueues, at: Register<L>, nearest: Nearest<L>) -> Self {
+        Arrival { keeps_hidden_normals: true, ..Arrival::read::<true>(l, work, paths, at, nearest) }
     }
 
     #[inline(always)]
@@ -88,7 +90,8 @@ impl<L: Lanes> Arrival<L> {
             media = paths.media(l, at);
             path.throughput = path.throughput * transmittance(l, work, media, nearest.t);
         }
-        Arrival { start: at.start, nearest, media, sharing: l.first(0), shared_throughput: path.throughput, path }
+        let (sharing, shared_throughput) = (l.first(0), path.throughput);
+        Arrival { start: at.start, nearest, media, sharing, shared_throughput, path, keeps_hidden_normals: false }
     }
 
     /// Multiplies the throughput by the albedo of first surfaces that are shared.
@@ -161,7 +164,7 @@ pub(super) fn queue_hits<L: Lanes, const VARIED: bool>(
     shared: Option<&mut Shared>,
     queues: &mut [HitQueues],
 ) {
-    let Arrival { path, media, .. } = arrival;
+    let Arrival { path, media, keeps_hidden_normals, .. } = arrival;
     let SurfaceInteraction { place, row, point, cos } = interaction;
     let [x, y, z, word] = l.rows(&work.scene.surfaces.rows, *row);
     let (colour, word) = (V { x, y, z }, word.bits());
@@ -174,7 +177,13 @@ pub(super) fn queue_hits<L: Lanes, const VARIED: bool>(
         shared.keep_second(kept, place, &mut plain);
     }
     if VARIED {
-        let incident = IncidentPaths { d: path.d, interaction: *interaction, media: *media, word };
+        let incident = IncidentPaths {
+            d: path.d,
+            interaction: *interaction,
+            media: *media,
+            word,
+            keeps_hidden_normals: *keeps_hidden_normals,
+        };
         sort(l, work, queues, &incident, [record, plain], hit);
     } else {
         plain.push(hit & colour.max_component().above(0.0), &mut queues[Stage::Plain as usize].hits);

@@ -22,6 +22,8 @@ pub(super) struct IncidentPaths<L: Lanes> {
     pub media: U<L>,
     /// See [`crate::scene::surface`].
     pub word: U<L>,
+    /// Whether smooth normals stay as they are where the viewer cannot see their front.
+    pub keeps_hidden_normals: bool,
 }
 
 impl<L: Lanes> IncidentPaths<L> {
@@ -55,14 +57,14 @@ pub(super) fn vary<L: Lanes>(
     n: V<L>,
 ) -> (V<L>, Detail<L>, V<L>) {
     let Scene { surfaces, textures, .. } = scene;
-    let IncidentPaths { d, interaction, media, word } = incident;
+    let IncidentPaths { d, interaction, media, word, keeps_hidden_normals } = incident;
     let SurfaceInteraction { place, row, point, cos } = interaction;
     let [mut alpha, colour_texture, alpha_texture, medium] = l.rows(&surfaces.varying, *row);
     let wo = -*d;
     let (mut colour, mut n) = (colour, n);
     if scene.shapes.have_elements() {
         let smooth = scene.shapes.smooth_normal(l, place, point) * l.f(1.0).copysign(*cos);
-        n = visible_smooth_normal(smooth, n, wo);
+        n = if *keeps_hidden_normals { smooth } else { visible_smooth_normal(smooth, n, wo) };
     }
     let untilted = n;
     if surfaces.textured || !surfaces.relief.is_empty() {

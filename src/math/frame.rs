@@ -8,6 +8,7 @@ use super::{
 /// An orthonormal right-handed basis (t, b, n) whose third axis is the given unit vector.
 ///
 /// Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017, listing 3: no branch, no singular direction.
+#[derive(Clone, Copy)]
 pub struct Frame<L: Lanes> {
     t: V<L>,
     b: V<L>,

@@ -7,7 +7,12 @@ use super::{
     Estimator, Object, RenderSettings, Scene,
     surface::{ONE_SIDED, SELF_LIT, STAGE_MASK, STAGE_SHIFT},
 };
-use crate::{geometry::Shape, light::LightRays, material::Stage};
+use crate::{
+    geometry::{Bounds, Shape},
+    light::LightRays,
+    material::Stage,
+    math::{F, One, U},
+};
 
 /// Space around the scene, relative to its size.
 const MARGIN: f64 = 1e-4;
@@ -97,19 +102,33 @@ impl Scene {
         let is = |holds: fn(&Object) -> bool| self.objects.iter().any(holds);
         let emits_from_isosurface =
             |object: &Object| object.emission.is_some() && matches!(object.shape, Shape::Isosurface { .. });
-        let is_smooth = |object: &Object| matches!(&object.shape, Shape::Mesh { data, .. } if !data.normals.is_empty());
         let transmits =
             |word: u32| Stage::ALL.get((word >> STAGE_SHIFT & STAGE_MASK) as usize).is_some_and(|stage| stage.transmits());
         let obstacles = [
-            (!surfaces.media.is_empty(), "tinted media"),
+            (self.has_lamps_in_media(), "lamps within tinted media"),
             (!surfaces.are_opaque(), "surfaces that are blended or let some light pass"),
             (!surfaces.relief.is_empty(), "bump or normal maps"),
-            (is(is_smooth), "meshes with normals at their vertices"),
             (is(emits_from_isosurface), "isosurfaces that emit light"),
             (surfaces.words().any(|word| word & SELF_LIT != 0) || self.lights.emitters.are_translucent(), "translucent lamps"),
             (surfaces.words().any(|word| word & ONE_SIDED != 0 && transmits(word)), "glass with one side"),
         ];
         obstacles.into_iter().find_map(|(holds, obstacle)| holds.then_some(obstacle))
+    }
+
+    /// Whether light may start within a tinted medium, where paths would not know it: the boxes of a lamp and of a tinted object overlap.
+    fn has_lamps_in_media(&self) -> bool {
+        if self.surfaces.media.is_empty() {
+            return false;
+        }
+        let bounds = |object: &Object| object.shape.bounds(&object.motion);
+        let tinted = self.objects.iter().enumerate().filter(|(id, object)| self.has_inside(object) && self.medium(*id) != 0);
+        let tinted: Vec<(bool, Bounds)> = tinted.map(|(_, object)| (object.flip, bounds(object))).collect();
+        let surfaces = self.objects.iter().filter(|object| object.emission.is_some()).map(bounds);
+        let lamps = &self.lights.lamps;
+        let rays = (0..lamps.len()).map(|lamp| lamps.emit(One, U(lamp as u32), (F(0.5), F(0.5)))).filter(|ray| !ray.far.0);
+        let mut places = surfaces.chain(rays.map(|ray| Bounds::of_points([ray.origin.lane(0)])));
+        // A flipped object has its medium outside.
+        tinted.iter().any(|(flip, _)| *flip) || places.any(|place| tinted.iter().any(|(_, bounds)| bounds.overlaps(&place)))
     }
 
     /// A sphere around all objects in all of their poses.

@@ -224,11 +224,13 @@ impl Scene {
         // The outermost first: a medium that fills all but a sphere lies around every one within a sphere.
         let reach = |object: &Object| if object.flip { f64::INFINITY } else { object.shape.bounding_sphere().1 };
         around.sort_by(|a, b| reach(b.1).total_cmp(&reach(a.1)));
-        let medium = |object: usize| {
-            let primitive = self.owners.partition_point(|owner| *owner < object as u32);
-            self.surfaces.varying[primitive][3].to_bits()
-        };
-        around.iter().fold(0, |stack, (id, _)| stack << 8 | medium(*id))
+        around.iter().fold(0, |stack, (id, _)| stack << 8 | self.medium(*id))
+    }
+
+    /// The medium inside an object; 0 if it is not tinted.
+    fn medium(&self, object: usize) -> u32 {
+        let primitive = self.owners.partition_point(|owner| *owner < object as u32);
+        self.surfaces.varying.get(primitive).map_or(0, |row| row[3].to_bits())
     }
 
     /// Largest number of media around the middle of a dielectric, including its own; 0 if none is tinted.

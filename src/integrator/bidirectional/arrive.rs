@@ -39,7 +39,7 @@ pub(super) fn arrive_from_lights<L: Lanes, O: Observer<L>>(
     let end = &mut state.ends[0];
     for at in paths.registers(l) {
         let nearest = first_hits.get(l, at.start, work.scene.shapes.have_elements());
-        let arrival = Arrival::new(l, at.start, Path::read(l, &paths.paths, at.start), nearest);
+        let arrival = Arrival::from_either_end(l, work, paths, at, nearest);
         let nearest = &arrival.nearest;
         let hit = at.live & !nearest.primitive.is(MISS);
         if !hit.any() {
@@ -76,7 +76,7 @@ pub(super) fn arrive_from_camera<L: Lanes, O: Observer<L>>(
     let end = &mut state.ends[1];
     for at in paths.registers(l) {
         let nearest = first_hits.get(l, at.start, work.scene.shapes.have_elements());
-        let arrival = Arrival::new(l, at.start, Path::read(l, &paths.paths, at.start), nearest);
+        let arrival = Arrival::from_either_end(l, work, paths, at, nearest);
         let nearest = &arrival.nearest;
         let path = &arrival.path;
         let partial = end.partial(l, path.slot);

@@ -5,7 +5,7 @@ use fearless_simd_macros::simd;
 use super::{
     connect::{Connector, finish_connections},
     observer::{Observer, PathStart},
-    scatter::{Evaluated, depth, evaluate, scatter},
+    scatter::{Evaluated, depth, evaluate, media_towards, scatter},
 };
 use crate::{
     integrator::{
@@ -19,7 +19,7 @@ use crate::{
         light_sample::call_sample_light,
         queue::{Queue, Register},
         queues::HitQueues,
-        records::Path,
+        records::{Inside, Path},
         roulette::survive,
         work::Work,
     },
@@ -73,12 +73,17 @@ pub(super) fn shade_camera_paths<L: Lanes, O: Observer<L>>(
             observer.scattered(PathStart::Camera, keep, &scattered);
             let cos = cosine(scattered.d, vertex.hit.n);
             let pdfs = [scattered.pdf, scattered.reverse];
-            let partial = vertex.partial.scatter(scattered.delta, pdfs, cos, others);
+            let mut partial = vertex.partial.scatter(scattered.delta, pdfs, cos, others);
+            let is_only_strategy = scattered.delta & !scattered.reversible;
+            partial.c = is_only_strategy.pick(l.f(0.0), partial.c);
             let slot = vertex.hit.slot;
             let end = &mut state.ends[1];
             end.put_partial(keep, slot, partial);
             end.put_before(keep, slot, vertex.hit.n, l.f(if stage.transmits() { 1.0 } else { 0.0 }));
             Path { o: scattered.o, d: scattered.d, throughput: survival.throughput, slot }.push(keep, &mut next.paths);
+            if work.has_media() {
+                Inside { media: scattered.media }.push(keep, &mut next.media);
+            }
         }
     }
     finish_connections(l, work, reflection, state, radiance, rays, observer);
@@ -108,5 +113,6 @@ fn queue_light_sample<L: Lanes>(
     let o = height.above(0.0).pick(hit.p, hit.p - hit.n * depth(l, stage, hits, at));
     let partial = if work.settings.estimator.connects() { partial.sum(height.abs(), reverse) } else { l.f(0.0) };
     let (d, target, slot, pdf) = (sample.wi, sample.target, hit.slot, sample.pdf);
-    DirectSample { o, d, radiance, target, slot, pdf, bsdf_pdf, partial }.push(keep, queue);
+    let media = media_towards(l, work, stage, hits, at, d);
+    DirectSample { o, d, radiance, target, slot, pdf, bsdf_pdf, partial, media }.push(keep, queue);
 }

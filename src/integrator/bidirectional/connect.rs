@@ -3,13 +3,14 @@ use fearless_simd_macros::simd;
 
 use super::{
     observer::{Observer, Term},
-    scatter::{Evaluated, depth, evaluate},
+    scatter::{Evaluated, depth, evaluate, media_towards},
     strategy::weight_of,
 };
 use crate::{
     integrator::{
         batch::add,
         light_paths::{partial::cosine, path_state::PathVertex, paths::LightPaths, records::Connection, vertices::LightVertex},
+        media::transmittance,
         queue::Register,
         queues::HitQueues,
         slots::SLOTS,
@@ -79,7 +80,10 @@ impl<L: Lanes> Connector<'_, '_, L> {
         let distance = square.sqrt();
         let d = way * (1.0 / distance);
         let Evaluated { f_cos, pdf, reverse } = evaluate(l, work, *stage, hits, *at, [*back, d]);
-        let contribution = hit.throughput * f_cos;
+        let mut contribution = hit.throughput * f_cos;
+        if work.has_media() {
+            contribution = contribution * transmittance(l, work, media_towards(l, work, *stage, hits, *at, d), distance);
+        }
         let keep = lanes & square.above(0.0) & contribution.max_component().above(0.0);
         if !keep.any() {
             return;

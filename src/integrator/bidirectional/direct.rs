@@ -11,6 +11,7 @@ use crate::{
         batch::{Batch, add},
         interaction::emission_texture,
         light_paths::{paths::LightPaths, records::DirectSample},
+        media::transmittance,
         work::Work,
     },
     light::LightRays,
@@ -34,6 +35,9 @@ pub(super) fn test_light_samples<L: Lanes, O: Observer<L>>(
         let (arrives, Nearest { t, primitive, element }) = lights.arrives(l, sample.target, sample.o, nearest);
         let seen = at.live & arrives;
         let mut light = sample.radiance;
+        if work.has_media() {
+            light = light * transmittance(l, work, at.live.pick(sample.media, l.u(0)), t);
+        }
         let mut density = l.f(0.0);
         let mut of_sample = sample.pdf;
         let mut by_direction = sample.bsdf_pdf / sample.pdf;

@@ -7,7 +7,7 @@ use crate::{
         batch::Batch,
         interaction::emission_texture,
         light_paths::{partial::Partial, paths::LightPaths},
-        records::Path,
+        records::{Inside, Path},
         shared::put,
         work::Work,
     },
@@ -53,5 +53,8 @@ pub(super) fn emit<L: Lanes, O: Observer<L>>(
         put(starts, slot, V { x, y, z }, l.f(0.0), &mut state.sources);
         end.put_partial(starts, slot, Partial { v: l.f(0.0), c: l.f(0.0) });
         Path { o: ray.o, d: ray.d, throughput: V::splat(l, [1.0; 3]), slot }.push(starts, &mut batch.paths[0].paths);
+        if work.has_media() {
+            Inside { media: l.u(0) }.push(starts, &mut batch.paths[0].media);
+        }
     }
 }

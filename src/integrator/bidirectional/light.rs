@@ -3,7 +3,7 @@ use fearless_simd_macros::simd;
 
 use super::{
     observer::{Observer, PathStart, Term},
-    scatter::{Evaluated, depth, evaluate, scatter},
+    scatter::{Evaluated, depth, evaluate, media_towards, scatter},
     strategy::weight_of,
 };
 use crate::{
@@ -16,9 +16,10 @@ use crate::{
             paths::LightPaths,
             records::CameraRay,
         },
+        media::transmittance,
         queue::{Queue, Register},
         queues::HitQueues,
-        records::Path,
+        records::{Inside, Path},
         roulette::survive,
         work::Work,
     },
@@ -67,6 +68,7 @@ pub(super) fn shade_light_paths<L: Lanes, O: Observer<L>>(
             let throughput = vertex.hit.throughput * scattered.adjoint_weight;
             let survival = survive(l, work.settings.roulette, *bounce + 1, scattered.roulette, throughput, l.f(1.0));
             let mut keep = at.live & survival.alive & scattered.consistent & survival.throughput.max_component().above(0.0);
+            keep = keep & (scattered.reversible | !scattered.delta);
             if only_caustics {
                 keep = keep & scattered.delta;
             }
@@ -77,6 +79,9 @@ pub(super) fn shade_light_paths<L: Lanes, O: Observer<L>>(
             let slot = vertex.hit.slot;
             state.ends[0].put_partial(keep, slot, partial);
             Path { o: scattered.o, d: scattered.d, throughput: survival.throughput, slot }.push(keep, &mut next.paths);
+            if work.has_media() {
+                Inside { media: scattered.media }.push(keep, &mut next.media);
+            }
         }
     }
 }
@@ -157,7 +162,10 @@ fn queue_join<L: Lanes, O: Observer<L>>(
     let Evaluated { f_cos, pdf, .. } = evaluate(l, work, stage, hits, at, [d, *back]);
     let (height, cos_in) = (d.dot(hit.n), cosine(*back, hit.n));
     let density = join.density * height.abs();
-    let light = light * f_cos * (density / cos_in);
+    let mut light = light * f_cos * (density / cos_in);
+    if work.has_media() {
+        light = light * transmittance(l, work, media_towards(l, work, stage, hits, at, d), distance);
+    }
     let mut weight = l.f(1.0);
     let (s, t) = (l.u(bounce + 2), 1);
     let estimator = work.settings.estimator;

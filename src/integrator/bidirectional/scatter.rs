@@ -5,6 +5,7 @@ use crate::{
     integrator::{
         coordinates::ReflectionCoordinates,
         light_paths::partial::cosine,
+        normal_mapping::GRAZING,
         queue::Register,
         queues::HitQueues,
         records::{Chart, Detail, Hit},
@@ -12,7 +13,7 @@ use crate::{
         work::Work,
     },
     material::{Bsdf, Local, Shade, Stage, in_stage},
-    math::{F, Lanes, M, Pick, V},
+    math::{F, Frame, Lanes, M, Pick, U, V},
 };
 
 /// A BSDF for two directions.
@@ -40,6 +41,10 @@ pub(in crate::integrator) struct Scattered<L: Lanes> {
     pub delta: M<L>,
     /// Lanes that leave on the side to which the BSDF sends them.
     pub consistent: M<L>,
+    /// Media around the path beyond the surface.
+    pub media: U<L>,
+    /// Lanes where a path in the other direction would have the same shading normal.
+    pub reversible: M<L>,
     /// Factor of the throughput before roulette evaluates it.
     pub judged: F<L>,
     pub roulette: F<L>,
@@ -78,6 +83,18 @@ pub(super) fn depth<L: Lanes>(l: L, stage: Stage, hits: &HitQueues, at: Register
     if stage.transmits() { Detail::read(l, &hits.details, at.start).error * 2.0 } else { l.f(0.0) }
 }
 
+/// Media around the ways from a register of hits in the directions `d`.
+#[inline(always)]
+pub(super) fn media_towards<L: Lanes>(l: L, work: &Work, stage: Stage, hits: &HitQueues, at: Register<L>, d: V<L>) -> U<L> {
+    if work.has_media() { in_stage!(stage, K => media_of_kind::<L, K>(l, work, hits, at, d)) } else { l.u(0) }
+}
+
+#[simd]
+fn media_of_kind<L: Lanes, K: Shade>(l: L, work: &Work, hits: &HitQueues, at: Register<L>, d: V<L>) -> U<L> {
+    let SurfaceHits { hit, vertex, .. } = SurfaceHits::<L, K>::read(l, work, hits, at);
+    vertex.media_towards::<K>(d.dot(hit.n))
+}
+
 #[simd]
 fn evaluate_kind<L: Lanes, K: Shade>(l: L, work: &Work, hits: &HitQueues, at: Register<L>, wo: V<L>, wi: V<L>) -> Evaluated<L> {
     if !K::SEES_LIGHTS {
@@ -99,8 +116,10 @@ fn scatter_kind<L: Lanes, K: Shade>(
     let SurfaceHits { hit, vertex, .. } = &surface;
     let coordinates = ReflectionCoordinates::call_of(l, work, hit.slot, reflection, K::LOBES);
     let bsdf = surface.bsdf(l, l.first(0));
-    let sample = bsdf.sample(vertex.frame.local_from_world(back), coordinates.direction, coordinates.lobe);
-    let d = vertex.frame.world_from_local(sample.wi);
+    let frame = surface.frame_towards(l, back);
+    let wo = frame.local_from_world(back);
+    let sample = bsdf.sample(wo, coordinates.direction, coordinates.lobe);
+    let d = frame.world_from_local(sample.wi);
     // A step of Newton's method to the length of 1, as in `shading.rs`.
     let d = d * (1.5 - d.length_squared() * 0.5);
     let (o, consistent) = vertex.leave::<K>(hit, d, sample.wi.z);
@@ -110,7 +129,15 @@ fn scatter_kind<L: Lanes, K: Shade>(
     let front = vertex.local.front;
     let judged = K::roulette_scale(&bsdf, front, sample.wi.z);
     let unscaled = judged / K::roulette_scale(&bsdf, front, l.f(1.0));
-    let adjoint_weight = sample.delta.pick(sample.weight * unscaled, f_cos * (cosines / sample.pdf));
+    // Mirrors and glass keep the angles to the shading normal, but flux is measured across the surface.
+    let (mut of_delta, mut reversible) = (unscaled, l.first(L::N));
+    if surface.is_smooth() {
+        let (there, here) = (sample.wi.z.abs(), wo.z.abs());
+        let smooth = surface.shows_smooth(l, back);
+        of_delta = smooth.pick(of_delta * (here * cosines / there), of_delta);
+        reversible = !(smooth ^ surface.shows_smooth(l, d));
+    }
+    let adjoint_weight = sample.delta.pick(sample.weight * of_delta, f_cos * (cosines / sample.pdf));
     // A direction on the wrong side of the surface has no weight, and maybe the pdf of another lobe.
     let exists = sample.weight.max_component().above(0.0);
     Scattered {
@@ -122,6 +149,8 @@ fn scatter_kind<L: Lanes, K: Shade>(
         reverse,
         delta: sample.delta,
         consistent: consistent & exists,
+        media: vertex.media_towards::<K>(sample.wi.z),
+        reversible,
         judged,
         roulette: coordinates.roulette,
     }
@@ -154,25 +183,52 @@ impl<'a, 'q, L: Lanes, K: Shade> SurfaceHits<'a, 'q, L, K> {
         read_bsdf::<L, K>(l, self.work, self.hits, self.start, &self.hit, &local, self.chart.as_ref())
     }
 
+    /// Whether shading normals may differ from those of the surface.
+    #[inline(always)]
+    fn is_smooth(&self) -> bool {
+        K::DETAILED && self.work.scene.shapes.have_elements()
+    }
+
+    /// The frame for a viewer in the direction `d`: that of the smooth normal, or of the surface where the former cannot be seen.
+    #[inline(always)]
+    fn frame_towards(&self, l: L, d: V<L>) -> Frame<L> {
+        if !self.is_smooth() {
+            return self.vertex.frame;
+        }
+        let n = self.shows_smooth(l, d).pick(self.vertex.n, self.hit.n);
+        self.vertex.frame_about::<K>(l, self.work, n, self.chart.as_ref())
+    }
+
+    /// Lanes where a viewer in the direction `d` sees the front of the smooth normal.
+    #[inline(always)]
+    fn shows_smooth(&self, l: L, d: V<L>) -> M<L> {
+        (self.vertex.n.dot(d) * l.f(1.0).copysign(d.dot(self.hit.n))).above(GRAZING)
+    }
+
+    /// The BSDF of a viewer in the direction `wo`. The pdf back is that of a viewer in the direction `wi`, whose frame may be another.
     #[inline(always)]
     fn evaluate(&self, l: L, wo: V<L>, wi: V<L>) -> Evaluated<L> {
-        let frame = &self.vertex.frame;
-        let (wo, wi) = (frame.local_from_world(wo), frame.local_from_world(wi));
-        let zero = V::splat(l, [0.0; 3]);
-        if !K::TRANSMITS {
-            let bsdf = self.bsdf(l, l.first(0));
-            let above = wo.z.above(0.0) & wi.z.above(0.0);
-            let ((f_cos, pdf), (_, reverse)) = (bsdf.eval(wo, wi), bsdf.eval(wi, wo));
-            return Evaluated {
-                f_cos: above.pick(f_cos, zero),
-                pdf: above.pick(pdf, l.f(0.0)),
-                reverse: above.pick(reverse, l.f(0.0)),
-            };
+        let frame = self.frame_towards(l, wo);
+        let (mut f_cos, pdf) = self.evaluate_in(l, &frame, wo, wi);
+        let (_, reverse) = self.evaluate_in(l, &self.frame_towards(l, wi), wi, wo);
+        if self.is_smooth() {
+            let is_on_side_of = |d: V<L>| (frame.local_from_world(d).z * d.dot(self.hit.n)).above(0.0);
+            f_cos = (is_on_side_of(wo) & is_on_side_of(wi)).pick(f_cos, V::splat(l, [0.0; 3]));
         }
-        let (below_o, below_i) = (wo.z.below(0.0), wi.z.below(0.0));
-        let (f_cos, pdf) = self.bsdf(l, below_o).eval(turned(below_o, wo), turned(below_o, wi));
-        let (_, reverse) = self.bsdf(l, below_i).eval(turned(below_i, wi), turned(below_i, wo));
         Evaluated { f_cos, pdf, reverse }
+    }
+
+    /// The BSDF times the cosine, and its pdf.
+    #[inline(always)]
+    fn evaluate_in(&self, l: L, frame: &Frame<L>, wo: V<L>, wi: V<L>) -> (V<L>, F<L>) {
+        let (wo, wi) = (frame.local_from_world(wo), frame.local_from_world(wi));
+        if K::TRANSMITS {
+            let below = wo.z.below(0.0);
+            return self.bsdf(l, below).eval(turned(below, wo), turned(below, wi));
+        }
+        let above = wo.z.above(0.0) & wi.z.above(0.0);
+        let (f_cos, pdf) = self.bsdf(l, l.first(0)).eval(wo, wi);
+        (above.pick(f_cos, V::splat(l, [0.0; 3])), above.pick(pdf, l.f(0.0)))
     }
 }
 

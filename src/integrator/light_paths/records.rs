@@ -15,6 +15,8 @@ record! {
         bsdf_pdf: F,
         /// The [`super::partial`] sum for P = cos θ: the light density is missing.
         partial: F,
+        /// Media around the way.
+        media: U,
     }
 }
 

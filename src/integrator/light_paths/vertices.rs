@@ -26,7 +26,8 @@ use crate::{
 /// | 4 | direction to the vertex before; primitive |
 /// | 5 | both partial sums, the triangle, and the word of the surface |
 /// | 6, 7, 8 | chart and diffuse transmittance |
-const ROWS: u32 = 9;
+/// | 9 | shading normal |
+const ROWS: u32 = 10;
 
 /// The vertices, each with the place of the one before it in its path.
 pub struct LightVertices {
@@ -86,10 +87,11 @@ impl LightVertices {
     ) {
         let zero = l.f(0.0);
         let (mut alpha, mut error, mut word) = (zero, zero, l.u((stage as u32) << crate::scene::surface::STAGE_SHIFT));
+        let mut shading_n = hit.n;
         // Vertices of the plain stage have no details.
         if stage != Stage::Plain {
             let detail = Detail::read(l, &hits.details, at.start);
-            (alpha, error, word) = (detail.alpha, detail.error, detail.surface);
+            (alpha, error, word, shading_n) = (detail.alpha, detail.error, detail.surface, detail.n);
         }
         let mut chart = [zero; 9];
         if work.scene.surfaces.charted && stage.reads_chart() {
@@ -113,6 +115,7 @@ impl LightVertices {
             row(a, b, c, d),
             row(e, f, g, h),
             row(i, transmitted.x, transmitted.y, transmitted.z),
+            row(shading_n.x, shading_n.y, shading_n.z, zero),
         ];
         let slot = hit.slot.to_array();
         let mut lanes = live.bits();
@@ -190,6 +193,8 @@ impl LightVertices {
             return;
         }
         let (none, wo) = (l.u(0), V { x, y, z });
+        let [x, y, z, _] = l.rows(&self.rows, row + 9);
+        let n = V { x, y, z };
         Detail { wo, n, alpha, error, surface: read.word, media: none, medium: none }.push(keep, &mut queues.details);
         let (of_chart, more, rest) = (l.rows(&self.rows, row + 6), l.rows(&self.rows, row + 7), l.rows(&self.rows, row + 8));
         if work.scene.surfaces.charted && stage.reads_chart() {

@@ -23,6 +23,9 @@ const PANELS: &str = "
     red.lambertian = { albedo = [0.8, 0.3, 0.3] }
     gloss.conductor = { reflectance = 0.9, roughness = 0.6 }
     clear.dielectric = { ior = 1.5 }
+    rough.dielectric = { ior = 1.5, roughness = 0.5 }
+    tinted.dielectric = { ior = 1.5, transmittance = [0.05, 0.3, 0.7] }
+    rough_tinted.dielectric = { ior = 1.5, roughness = 0.5, transmittance = [0.05, 0.3, 0.7] }
     lacquered.plastic = { albedo = 0.5, ior = 1.5 }
     coated.plastic = { albedo = 0.5, ior = 1.5, roughness = 0.5 }
     [[objects]]
@@ -32,15 +35,24 @@ const PANELS: &str = "
     shape.rectangle = { origin = [-1.2, 0.3, -1.3], edge_u = [2.4, 0.0, 0.0], edge_v = [0.0, 1.5, 0.0] }
     material = 'red'
     [[objects]]
-    shape.sphere = { center = [0.4, 0.8, 0.2], radius = 0.4 }
+    SHAPE
     material = 'BALL'
     [[objects]]
     shape.rectangle = { origin = [-0.9, 1.6, -0.6], edge_u = [0.6, 0.0, 0.0], edge_v = [0.0, 0.0, 0.6] }
     emission.radiance = [9.0, 8.0, 7.0]
     ";
 
-fn scene(text: &str) -> Scene {
-    parse("both ends", text.to_owned()).unwrap_or_else(|error| panic!("{}", error.report()))
+const BALL: &str = "shape.sphere = { center = [0.4, 0.8, 0.2], radius = 0.4 }";
+/// A cube whose normals are those of a ball. They differ from those of its sides by up to 55°.
+const SMOOTH_CUBE: &str = "shape.mesh = { smooth = true, \
+    vertices = [[-1, -1, -1], [1, -1, -1], [1, 1, -1], [-1, 1, -1], [-1, -1, 1], [1, -1, 1], [1, 1, 1], [-1, 1, 1]], \
+    triangles = [[0, 2, 1], [0, 3, 2], [4, 5, 6], [4, 6, 7], [0, 1, 5], [0, 5, 4], [3, 7, 6], [3, 6, 2], [0, 4, 7], [0, 7, 3], \
+    [1, 2, 6], [1, 6, 5]] }
+    transform = [{ scale = 0.3 }, { rotate = { axis = [1, 1, 0], degrees = 20 } }, { translate = [0.4, 0.8, 0.2] }]";
+
+fn scene(shape: &str, material: &str) -> Scene {
+    parse("both ends", PANELS.replace("SHAPE", shape).replace("BALL", material))
+        .unwrap_or_else(|error| panic!("{}", error.report()))
 }
 
 const SETTINGS: RenderSettings = RenderSettings {
@@ -74,8 +86,8 @@ fn mean(scene: &Scene, settings: &RenderSettings, spp: u32) -> [f64; 2] {
 #[test]
 fn every_strategy_alone_finds_the_light_of_its_number_of_reflections() {
     let mut worst: f64 = 0.0;
-    for ball in ["white", "gloss", "coated"] {
-        let scene = scene(&PANELS.replace("BALL", ball));
+    for (shape, ball) in [(BALL, "white"), (BALL, "gloss"), (BALL, "coated"), (SMOOTH_CUBE, "gloss"), (SMOOTH_CUBE, "white")] {
+        let scene = scene(shape, ball);
         for reflections in 1..=3 {
             let alone = |s: u32| {
                 let t = reflections + 2 - s;
@@ -108,8 +120,10 @@ fn every_strategy_alone_finds_the_light_of_its_number_of_reflections() {
 #[test]
 fn all_strategies_together_find_the_light_of_mis() {
     const SETTINGS: RenderSettings = RenderSettings { roulette: Roulette::BY_THROUGHPUT, ..self::SETTINGS };
-    for ball in ["white", "gloss", "lacquered", "clear"] {
-        let scene = scene(&PANELS.replace("BALL", ball));
+    let balls = ["white", "gloss", "lacquered", "clear", "tinted", "rough_tinted"].map(|ball| (BALL, ball));
+    let cubes = ["white", "gloss", "lacquered", "clear", "rough", "rough_tinted"].map(|cube| (SMOOTH_CUBE, cube));
+    for (shape, ball) in balls.into_iter().chain(cubes) {
+        let scene = scene(shape, ball);
         for cap in [Some(3), None] {
             let with = |estimator, spp| mean(&scene, &RenderSettings { estimator, max_bounces: cap, ..SETTINGS }, spp);
             let [of_mis, variance] = with(Estimator::Mis, 2000);

@@ -17,6 +17,7 @@ impl App {
         let (comparison, session) = (self.comparison(), &self.session);
         let second = self.results.second_frame.clone().filter(|_| comparison.is_some());
         let term = self.results.second_frame.clone().filter(|_| self.window.tab == Some(InstrumentTab::Bounces));
+        let strategy = self.strategy();
         let view = comparison.and_then(|comparison| comparison.view());
         let pinned = if view.is_some() { second.clone() } else { session.pinned.clone() };
         let look = DisplaySettings { view: self.shown_view(), ..session.look };
@@ -34,7 +35,7 @@ impl App {
         };
         DisplayRequest {
             reference,
-            term: term.map(|of| BounceTerm { of, k: session.bounces.k, up_to: session.bounces.up_to }),
+            term: term.map(|of| BounceTerm { of, strategy, k: session.bounces.k, up_to: session.bounces.up_to }),
             frame,
             second,
             shows_second: comparison.is_some_and(|comparison| comparison.layout.split() != Split::None),

@@ -4,14 +4,14 @@ use std::sync::Arc;
 use egui::{Align, Layout, Panel, ScrollArea, Ui};
 use noisefall::{
     render::{Frame, RenderRequest, RenderTask},
-    scene::RenderSettings,
+    scene::{RenderSettings, Strategy},
 };
 
 use super::state::App;
 use crate::viewer::dialogs::save_target::SaveTarget;
 use crate::viewer::instruments::{
     bounces, compare::comparison::CompareLayout, compare::comparison::Comparison, compare::figures::SideStatus,
-    compare::tab as compare, convergence::plot, convergence::plot::CurveFile, light_paths, path::tab as path, tabs,
+    compare::tab as compare, convergence::plot, convergence::plot::CurveFile, light_paths, path::tab as path, strategies, tabs,
     tabs::InstrumentTab,
 };
 use crate::viewer::panels::views;
@@ -56,7 +56,9 @@ impl App {
                 let opened = self.session.opened.as_ref();
                 let has_light_paths = opened.is_some_and(|opened| light_paths::are_traced(&opened.scene, &self.session.settings));
                 let (frame, view) = (self.results.second_frame.as_deref(), self.session.look.view);
-                let subject = bounces::Subject { frame, view, resolution, has_light_paths };
+                let without_strategies = self.without_strategies();
+                let without_strategies = without_strategies.as_deref();
+                let subject = bounces::Subject { frame, view, resolution, has_light_paths, without_strategies };
                 let show = |ui: &mut Ui| bounces::show(ui, &mut self.session.bounces, subject);
                 ScrollArea::vertical().auto_shrink(false).show(ui, show);
             }
@@ -115,13 +117,31 @@ impl App {
         let request = self.session.request()?;
         match self.window.tab {
             Some(InstrumentTab::Bounces) => {
-                bounces::has_room_for_series(request.camera.resolution).then_some(RenderTask::Series(request))
+                let has_room = bounces::has_room_for_series(request.camera.resolution);
+                has_room.then(|| match self.strategy() {
+                    Some(strategy) => {
+                        RenderTask::Picture(RenderRequest { settings: strategy.settings(request.settings), ..request })
+                    }
+                    None => RenderTask::Series(request),
+                })
             }
             _ => {
                 let other = self.session.comparison?.other;
                 Some(RenderTask::Picture(RenderRequest { settings: other, ..request }))
             }
         }
+    }
+
+    /// The strategy of bidirectional paths that the image shows, if the scene has any.
+    pub fn strategy(&self) -> Option<Strategy> {
+        let strategy = self.session.bounces.strategy?;
+        self.without_strategies().is_none().then_some(strategy)
+    }
+
+    /// Why there are no strategies of bidirectional paths to show, if so.
+    fn without_strategies(&self) -> Option<String> {
+        let opened = self.session.opened.as_ref()?;
+        opened.scene.lacks_light_paths(&strategies::FIRST.settings(self.session.settings))
     }
 
     /// Traces what the path inspector shows, while it is open.

@@ -7,10 +7,13 @@ use std::{
 use noisefall::{
     file::replace,
     render::{Frame, image_file::Contents, settings_text::settings_text, view::View},
+    scene::Strategy,
 };
 
 use super::state::App;
-use crate::viewer::background::{display_image::DisplayImage, display_image::render, display_request::DisplayRequest};
+use crate::viewer::background::{
+    display_image::DisplayImage, display_image::render, display_request::BounceTerm, display_request::DisplayRequest,
+};
 use crate::viewer::dialogs::{save::SaveDialog, save_target::SaveTarget};
 use crate::viewer::instruments::path::copying::{PathForm, written};
 
@@ -93,11 +96,19 @@ fn remarks(request: &DisplayRequest, path: &Path) -> Vec<(&'static str, String)>
         remarks.push(("view", view.title().to_owned()));
     }
     if let Some(term) = request.term.as_ref().filter(|_| view.shows_light()) {
-        let relation = if term.up_to { "at most" } else { "exactly" };
-        let bounces = if term.k == 1 { "bounce" } else { "bounces" };
-        remarks.push(("light", format!("{relation} {} {bounces}, {} spp", term.k, term.of.spp)));
+        remarks.push(("light", format!("{}, {} spp", part(term), term.of.spp)));
     }
     remarks
+}
+
+/// The part of the light in words.
+fn part(term: &BounceTerm) -> String {
+    if let Some(Strategy { s, t, weighted }) = term.strategy {
+        return format!("strategy s = {s}, t = {t}, {}", if weighted { "weighted" } else { "not weighted" });
+    }
+    let relation = if term.up_to { "at most" } else { "exactly" };
+    let bounces = if term.k == 1 { "bounce" } else { "bounces" };
+    format!("{relation} {} {bounces}", term.k)
 }
 
 #[cfg(test)]
@@ -105,13 +116,13 @@ mod tests {
     use noisefall::render::view::DisplaySettings;
 
     use super::*;
-    use crate::viewer::background::display_request::{BounceTerm, tests::request};
+    use crate::viewer::background::display_request::tests::request;
 
     #[test]
     fn a_png_says_what_of_the_picture_it_shows_and_an_exr_shows_all() {
         let said = |view, (k, up_to), path: &str| {
             let frame = Arc::new(Frame { spp: 9, ..Frame::default() });
-            let term = Some(BounceTerm { of: frame.clone(), k, up_to });
+            let term = Some(BounceTerm { of: frame.clone(), strategy: None, k, up_to });
             let request = DisplayRequest { term, look: DisplaySettings { view, ..DisplaySettings::default() }, ..request(frame) };
             remarks(&request, Path::new(path)).into_iter().map(|(_, text)| text).collect::<Vec<_>>()
         };
@@ -119,5 +130,8 @@ mod tests {
         assert_eq!(said(View::Radiance, (1, false), "a.png"), ["exactly 1 bounce, 9 spp"]);
         assert_eq!(said(View::Depth, (1, false), "a.png"), [View::Depth.title()], "no term is seen");
         assert!(said(View::Radiance, (3, true), "a.EXR").is_empty());
+        let strategy = Some(Strategy { s: 2, t: 3, weighted: true });
+        let term = BounceTerm { of: Arc::new(Frame::default()), strategy, k: 1, up_to: false };
+        assert_eq!(part(&term), "strategy s = 2, t = 3, weighted");
     }
 }

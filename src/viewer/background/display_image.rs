@@ -189,14 +189,14 @@ mod tests {
         let of = Arc::new(Frame { series, ..Frame::default() });
         let of = Arc::new(Frame { radiance: whole.radiance.clone(), ..Arc::into_inner(of).expect("it is the only one") });
         let seen = |k, up_to| {
-            let term = Some(BounceTerm { of: of.clone(), k, up_to });
+            let term = Some(BounceTerm { of: of.clone(), strategy: None, k, up_to });
             render(DisplayRequest { term, ..request(whole.clone()) }).values.radiance.expect("a term is seen")[1][0]
         };
         assert_eq!((seen(0, false), seen(1, false), seen(2, false)), (0.1, 0.2, 0.4));
         assert!((seen(1, true) - 0.3).abs() < 1e-6 && (seen(2, true) - 0.7).abs() < 1e-6);
         // A series of another size is not of this picture.
         let small = Arc::new(Frame { radiance: vec![[1.0; 3]], ..Frame::default() });
-        let term = Some(BounceTerm { of: small, k: 0, up_to: false });
+        let term = Some(BounceTerm { of: small, strategy: None, k: 0, up_to: false });
         assert!(render(DisplayRequest { term, ..request(whole) }).values.radiance.is_none());
     }
 

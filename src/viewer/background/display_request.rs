@@ -4,6 +4,7 @@ use std::sync::Arc;
 use noisefall::{
     integrator::Features,
     render::{Frame, truth::Reference, view::DisplaySettings},
+    scene::Strategy,
 };
 
 /// Frames and how they are displayed.
@@ -29,11 +30,12 @@ pub struct DisplayRequest {
     pub most_side: usize,
 }
 
-/// A term or a partial sum of the series over bounces.
+/// A part of the light: a term or a partial sum of the series over bounces, or the light of a strategy.
 #[derive(Clone)]
 pub struct BounceTerm {
-    /// A frame with a series.
+    /// A frame with a series, or the frame of the strategy.
     pub of: Arc<Frame>,
+    pub strategy: Option<Strategy>,
     pub k: usize,
     /// Whether to sum the terms up to this number of bounces.
     pub up_to: bool,
@@ -61,14 +63,16 @@ impl PartialEq for DisplayRequest {
 
 impl PartialEq for BounceTerm {
     fn eq(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.of, &other.of) && (self.k, self.up_to) == (other.k, other.up_to)
+        Arc::ptr_eq(&self.of, &other.of) && (self.k, self.up_to, self.strategy) == (other.k, other.up_to, other.strategy)
     }
 }
 
 impl BounceTerm {
-    /// Mean radiance of the term or sum.
+    /// Mean radiance of this part.
     pub fn radiance(&self) -> Option<Vec<[f32; 3]>> {
-        let series = self.of.series.as_ref()?;
+        let Some(series) = self.of.series.as_ref() else {
+            return self.strategy.is_some().then(|| self.of.radiance.clone());
+        };
         Some(if self.up_to { series.up_to(self.k) } else { series.terms.get(self.k)?.clone() })
     }
 }
@@ -107,7 +111,7 @@ pub mod tests {
     #[test]
     fn a_request_differs_if_anything_in_it_does() {
         let a = request(frame(&[1.0]));
-        let term = |k, up_to| Some(BounceTerm { of: a.frame.clone(), k, up_to });
+        let term = |k, up_to| Some(BounceTerm { of: a.frame.clone(), strategy: None, k, up_to });
         let (reference, other) = (Arc::new(Reference::Constant([1.0; 3])), frame(&[1.0]));
         let look = DisplaySettings { view: View::Depth, ..a.look };
         let (normal, albedo, depth, position, object) = (Vec::new(), Vec::new(), Vec::new(), Vec::new(), Vec::new());

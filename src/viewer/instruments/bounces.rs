@@ -3,7 +3,10 @@ use egui::{Color32, Label, RichText, Sense, Slider, Ui, vec2};
 use noisefall::{
     integrator::TERMS,
     render::{Frame, Series, view::View},
+    scene::Strategy,
 };
+
+use super::strategies;
 
 use crate::viewer::widgets::{counted::counted, palette::Palette};
 
@@ -13,12 +16,14 @@ pub struct Bounces {
     pub k: usize,
     /// All light of at most `k` bounces, and not of exactly `k`.
     pub up_to: bool,
+    /// The strategy of bidirectional paths to show in place of the series.
+    pub strategy: Option<Strategy>,
 }
 
 impl Default for Bounces {
     /// The first term beyond the lamps themselves.
     fn default() -> Bounces {
-        Bounces { k: 1, up_to: false }
+        Bounces { k: 1, up_to: false, strategy: None }
     }
 }
 
@@ -43,22 +48,55 @@ pub struct Subject<'a> {
     pub resolution: [u32; 2],
     /// The image beside takes paths from lights, too.
     pub has_light_paths: bool,
+    /// Why there are no strategies to show, if so.
+    pub without_strategies: Option<&'a str>,
 }
 
 /// Shows the bars and the choice of a term.
 pub fn show(ui: &mut Ui, bounces: &mut Bounces, subject: Subject<'_>) {
-    let Subject { frame, view, resolution, has_light_paths } = subject;
+    let Subject { frame, view, resolution, .. } = subject;
     if !has_room_for_series(resolution) {
         let [width, height] = resolution;
         ui.label(format!("{width} × {height} pixels are too many. Choose a resolution of at most 4 million pixels (Camera)."));
         return;
     }
+    choose_part(ui, bounces, subject.without_strategies);
+    if !view.shows_light() {
+        let view = view.title();
+        ui.label(
+            RichText::new(format!("The view {view} shows the whole image. Choose Radiance to see bounces.")).color(ui.warning()),
+        );
+    }
+    match &mut bounces.strategy {
+        Some(strategy) => strategies::show(ui, strategy, frame.map(|frame| frame.spp)),
+        None => show_series(ui, bounces, subject),
+    }
+}
+
+/// Chooses between the series and single strategies.
+fn choose_part(ui: &mut Ui, bounces: &mut Bounces, without_strategies: Option<&str>) {
     ui.horizontal(|ui| {
-        ui.selectable_value(&mut bounces.up_to, false, "Bounce k alone")
+        let mut part = (bounces.up_to, bounces.strategy.is_some());
+        ui.selectable_value(&mut part, (false, false), "Bounce k alone")
             .on_hover_text("Shows T^k L_e, the light with exactly k bounces: term k of the series that solves the equation.");
-        ui.selectable_value(&mut bounces.up_to, true, "Bounces up to k")
+        ui.selectable_value(&mut part, (true, false), "Bounces up to k")
             .on_hover_text("Shows L_e + T L_e + … + T^k L_e, the image with a cap of k bounces.");
-        ui.separator();
+        ui.add_enabled_ui(without_strategies.is_none(), |ui| {
+            let choice = ui.selectable_value(&mut part, (bounces.up_to, true), "Strategies (s, t)");
+            choice
+                .on_hover_text(
+                    "Shows the light that bidirectional paths find with s vertices from a light and t from the camera.",
+                )
+                .on_disabled_hover_text(without_strategies.unwrap_or_default());
+        });
+        bounces.up_to = part.0;
+        bounces.strategy = part.1.then(|| bounces.strategy.unwrap_or(strategies::FIRST));
+    });
+}
+
+/// Shows the bars of the series and the choice of a term.
+fn show_series(ui: &mut Ui, bounces: &mut Bounces, Subject { frame, has_light_paths, .. }: Subject<'_>) {
+    ui.horizontal(|ui| {
         let label = ui.label("k").on_hover_text("k is the number of bounces, reflections and refractions alike.");
         ui.add(Slider::new(&mut bounces.k, 0..=LAST)).labelled_by(label.id);
         ui.add(Label::new(RichText::new(meaning(*bounces)).weak()).truncate());
@@ -71,12 +109,6 @@ pub fn show(ui: &mut Ui, bounces: &mut Bounces, subject: Subject<'_>) {
     let text = known.map_or_else(|| " ".to_owned(), |(_, series)| shares(series, *bounces));
     // One line each, however narrow the window is: they must not move when the figures come.
     ui.add(Label::new(RichText::new(text).color(ui.accent())).truncate());
-    if !view.shows_light() {
-        let view = view.title();
-        ui.label(
-            RichText::new(format!("The view {view} shows the whole image. Choose Radiance to see bounces.")).color(ui.warning()),
-        );
-    }
     let remark = match known {
         Some((frame, _)) => {
             let samples = counted(frame.spp, "sample");
@@ -89,7 +121,7 @@ pub fn show(ui: &mut Ui, bounces: &mut Bounces, subject: Subject<'_>) {
 }
 
 /// The share of the chosen term, and of all light that a cap there would lose.
-fn shares(series: &Series, Bounces { k, up_to }: Bounces) -> String {
+fn shares(series: &Series, Bounces { k, up_to, .. }: Bounces) -> String {
     let lost = series.lost_by_cap(k);
     if k == LAST && up_to {
         return "This is all of the light.".to_owned();
@@ -154,7 +186,7 @@ fn number(k: usize) -> String {
 }
 
 /// The displayed part in words.
-fn meaning(Bounces { k, up_to }: Bounces) -> String {
+fn meaning(Bounces { k, up_to, .. }: Bounces) -> String {
     match (k, up_to) {
         (LAST, true) => "all of the light".to_owned(),
         (LAST, false) => format!("{LAST} bounces and more"),
@@ -184,7 +216,7 @@ mod tests {
 
     #[test]
     fn terms_are_said_in_words() {
-        let said = |k, up_to| meaning(Bounces { k, up_to });
+        let said = |k, up_to| meaning(Bounces { k, up_to, strategy: None });
         assert_eq!(said(0, false), said(0, true));
         assert!(said(1, false).contains("direct") && said(1, true).contains("lamps"));
         assert!(said(5, false).contains("5 bounces") && !said(5, false).contains("most"));

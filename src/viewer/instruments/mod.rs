@@ -4,4 +4,5 @@ pub mod compare;
 pub mod convergence;
 pub mod light_paths;
 pub mod path;
+pub mod strategies;
 pub mod tabs;

@@ -1,4 +1,6 @@
 //! Panel and status line say which estimator renders, and why.
+use noisefall::{render::RenderTask, scene::Strategy};
+
 use super::*;
 use crate::viewer::instruments::tabs::InstrumentTab;
 
@@ -32,11 +34,14 @@ fn the_choice_by_trial_says_what_it_has_chosen_and_why() {
 
 #[test]
 fn an_estimator_that_the_scene_does_not_allow_says_what_renders_instead() {
-    let mut window = window("tinted_glass");
+    let mut window = window("leaves");
     restarts(&mut window, "paths from both ends", |w| choose(w, "Estimator", "Bidirectional"));
     wait(&mut window, "samples", |app| app.results.status.spp >= 1);
     window.run_steps(3);
-    assert!(shows(&window, "MIS: the scene has tinted media") && shows(&window, "MIS, not Bidirectional"));
+    assert!(
+        shows(&window, "MIS: the scene has surfaces that are blended or let some light pass")
+            && shows(&window, "MIS, not Bidirectional")
+    );
 }
 
 #[test]
@@ -54,6 +59,56 @@ fn instruments_say_that_they_show_paths_from_the_camera_alone() {
         window.state_mut().window.tab = Some(InstrumentTab::Path);
         window.state_mut().instruments.path.look_at([40, 30]);
         wait(&mut window, "its samples", |app| app.instruments.path.histogram().is_some());
-        assert_eq!(says(&mut window, "These samples are paths from the camera"), traces, "{estimator}");
+        assert_eq!(says(&mut window, "Samples lack the light that paths from lights bring"), traces, "{estimator}");
     }
+}
+
+/// The strategy that is rendered beside the image.
+fn strategy_beside(app: &App) -> Option<Strategy> {
+    match app.second_view() {
+        Some(RenderTask::Picture(request)) => request.settings.strategy,
+        _ => None,
+    }
+}
+
+#[test]
+fn bounces_show_the_image_of_a_single_strategy() {
+    let mut window = window("cornell_box");
+    window.state_mut().window.tab = Some(InstrumentTab::Bounces);
+    let has_series = |app: &App| app.results.second_frame.as_ref().is_some_and(|frame| frame.series.is_some());
+    wait(&mut window, "the series", has_series);
+    window.get_by_label("Strategies (s, t)").click();
+    let has_frame = |app: &App| app.results.second_frame.as_ref().is_some_and(|frame| frame.series.is_none() && frame.spp >= 1);
+    wait(&mut window, "light samples", has_frame);
+    assert_eq!(strategy_beside(window.state()), Some(Strategy { s: 1, t: 2, weighted: true }));
+    window.get_by_label("2, 1").click();
+    window.run_steps(3);
+    window.get_by_label("Weighted").click();
+    window.run_steps(3);
+    assert_eq!(strategy_beside(window.state()), Some(Strategy { s: 2, t: 1, weighted: false }));
+    window.get_by_label("Bounce k alone").click();
+    wait(&mut window, "the series", has_series);
+    assert_eq!(strategy_beside(window.state()), None);
+}
+
+#[test]
+fn a_scene_without_paths_from_lights_has_no_strategies_to_show() {
+    let mut window = window("leaves");
+    window.state_mut().window.tab = Some(InstrumentTab::Bounces);
+    window.state_mut().session.bounces.strategy = Some(Strategy { s: 1, t: 2, weighted: true });
+    wait(&mut window, "the series", |app| app.results.second_frame.as_ref().is_some_and(|frame| frame.series.is_some()));
+    assert_eq!(window.state().strategy(), None);
+}
+
+#[test]
+fn the_path_inspector_lists_the_strategies_of_a_sample() {
+    let mut window = window("cornell_spheres");
+    choose(&mut window, "Estimator", "Bidirectional");
+    window.state_mut().window.tab = Some(InstrumentTab::Path);
+    window.state_mut().instruments.path.look_at([40, 30]);
+    wait(&mut window, "its sample", |app| app.instruments.path.replay().is_some_and(|(_, replay)| replay.both_ends.is_some()));
+    window.run_steps(2);
+    assert!(
+        shows(&window, "L = Σ w C over the strategies with t ≥ 2.") && shows(&window, "joined at") && shows(&window, "Sample")
+    );
 }
