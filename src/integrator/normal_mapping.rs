@@ -56,15 +56,17 @@ pub(super) fn visible_smooth_normal<L: Lanes>(smooth: V<L>, n: V<L>, wo: V<L>) -
 }
 
 /// A tilted normal that the viewer in the direction `wo` can see. One that faces away is mirrored in the normal `n` of the surface if its
-/// row in [`crate::scene::surface::Surfaces::relief`] says so (V. Schüßler et al., "Microfacet-based Normal Mapping for Robust Monte Carlo
-/// Path Tracing", SIGGRAPH Asia 2017), and is replaced by it otherwise.
+/// flags in [`crate::scene::surface::Surfaces::relief`] says so (V. Schüßler et al., "Microfacet-based Normal Mapping for Robust Monte Carlo
+/// Path Tracing", SIGGRAPH Asia 2017), and is replaced by it otherwise. Returns
+/// the number of the case, too.
 #[inline(always)]
-pub(super) fn visible_normal<L: Lanes>(l: L, scene: &Scene, row: U<L>, tilted: V<L>, n: V<L>, wo: V<L>) -> V<L> {
-    let [.., flags] = l.rows(&scene.surfaces.relief, row);
+pub(super) fn visible_normal<L: Lanes>(l: L, flags: U<L>, tilted: V<L>, n: V<L>, wo: V<L>) -> (V<L>, U<L>) {
     let mirrored = n * (n.dot(tilted) * 2.0) - tilted;
     let faces_away = !tilted.dot(wo).above(0.0);
-    let tilted = (faces_away & is_set(flags.bits(), MIRRORED)).pick(mirrored, tilted);
-    tilted.dot(wo).above(GRAZING).pick(tilted, n)
+    let is_mirrored = faces_away & is_set(flags, MIRRORED);
+    let tilted = is_mirrored.pick(mirrored, tilted);
+    let is_tilted = tilted.dot(wo).above(GRAZING);
+    (is_tilted.pick(tilted, n), is_tilted.pick(is_mirrored.pick(l.u(2), l.u(1)), l.u(0)))
 }
 
 /// ∇h along the surface, per metre, by finite differences.
@@ -124,7 +126,8 @@ mod tests {
             material = 'ball'"
         );
         let scene = parse("ball.toml", text).unwrap_or_else(|error| panic!("{}", error.report()));
-        visible_normal(One, &scene, U(0), tilted, direction([0.0, 0.0, 1.0]), wo)
+        let flags = U(scene.surfaces.relief[0][3].to_bits());
+        visible_normal(One, flags, tilted, direction([0.0, 0.0, 1.0]), wo).0
     }
 
     #[test]

@@ -5,27 +5,17 @@
 //! angle θᵢ to the surface normal is shadowed by Smith's function of one side, 2/(1 + √(1 + α² tan² θᵢ)), with α² = tan² θ/8 ≤ 1 for a
 //! shading normal that is tilted by θ (A. Conty Estevez, P. Lecocq and C. Stein, "A Microfacet-Based Shadowing Function to Solve the Bump
 //! Terminator Problem", Ray Tracing Gems 2019, chapter 12).
-use super::{interaction::SurfaceInteraction, records::NormalShadowing};
+use super::records::NormalShadowing;
 use crate::{
-    math::{F, Lanes, Pick, V},
-    scene::{
-        Scene,
-        surface::{SHADOWED, is_set},
-    },
+    math::{F, Lanes, Pick, U, V},
+    scene::surface::{SHADOWED, is_set},
 };
 
-/// The record of surfaces with the normal `n`, tilted to `tilted`.
+/// The record of surfaces with these flags of [`crate::scene::surface::Surfaces::relief`] and the normal `n`, tilted to `tilted`.
 #[inline(always)]
-pub(super) fn shadowing_of_normals<L: Lanes>(
-    l: L,
-    scene: &Scene,
-    SurfaceInteraction { row, .. }: &SurfaceInteraction<L>,
-    n: V<L>,
-    tilted: V<L>,
-) -> NormalShadowing<L> {
-    let [.., flags] = l.rows(&scene.surfaces.relief, *row);
+pub(super) fn shadowing_of_normals<L: Lanes>(l: L, flags: U<L>, n: V<L>, tilted: V<L>) -> NormalShadowing<L> {
     let alpha_squared = (tan_squared(l, n.dot(tilted)) * 0.125).min(l.f(1.0));
-    NormalShadowing { n, alpha_squared: is_set(flags.bits(), SHADOWED).pick(alpha_squared, l.f(0.0)) }
+    NormalShadowing { n, alpha_squared: is_set(flags, SHADOWED).pick(alpha_squared, l.f(0.0)) }
 }
 
 impl<L: Lanes> NormalShadowing<L> {

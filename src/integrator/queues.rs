@@ -1,7 +1,7 @@
 //! Queues that are filled and read in lockstep: the records of paths at one stage. A scene fills only those that it needs.
 use super::{
     queue::{Queue, Register, Registers},
-    records::{Chart, Detail, Hit, Inside, NormalShadowing, Path, PreviousLobe, PreviousVertex, Shadow, Transmittance},
+    records::{Chart, Detail, Hit, Inside, NormalShadowing, Path, PreviousLobe, PreviousVertex, Relief, Shadow, Transmittance},
     slots::SLOTS,
 };
 use crate::math::{Lanes, One, Pick, U};
@@ -64,6 +64,8 @@ pub(super) struct HitQueues {
     pub charts: Queue,
     /// Filled beside `details` in scenes where tilted normals darken light.
     pub normal_shadowing: Queue,
+    /// Filled beside `details` for paths from both ends, in scenes with bump or normal maps.
+    pub relief: Queue,
     /// Filled for types that have a diffuse transmittance.
     pub transmittances: Queue,
 }
@@ -75,6 +77,7 @@ impl Default for HitQueues {
             details: Detail::<One>::queue(SLOTS),
             charts: Chart::<One>::queue(SLOTS),
             normal_shadowing: NormalShadowing::<One>::queue(SLOTS),
+            relief: Relief::<One>::queue(SLOTS),
             transmittances: Transmittance::<One>::queue(SLOTS),
         }
     }
@@ -91,6 +94,7 @@ impl HitQueues {
         self.details.clear();
         self.charts.clear();
         self.normal_shadowing.clear();
+        self.relief.clear();
         self.transmittances.clear();
     }
 

@@ -101,6 +101,18 @@ record! {
 }
 
 record! {
+    /// What bump and normal maps tilt, for viewers in any direction. Stored beside [`Detail`] for paths from both ends.
+    Relief {
+        /// The smooth normal, on the side the path arrived from.
+        smooth: V,
+        /// The normal of the surface, tilted.
+        tilted_surface: V,
+        /// Flags in [`crate::scene::surface::Surfaces::relief`].
+        flags: U,
+    }
+}
+
+record! {
     /// The diffuse transmittance of a surface. Stored beside [`Hit`] for types of BSDF that have one.
     Transmittance {
         colour: V,

@@ -10,7 +10,7 @@ use super::{
     queues::{HitQueues, PathQueues},
     records::{Detail, Hit, Path, Transmittance},
     shared::Shared,
-    variation::{IncidentPaths, chart, transmittance_of_surface, vary},
+    variation::{IncidentPaths, chart, relief, transmittance_of_surface, vary},
     weight::weight_of_hit,
     work::Work,
 };
@@ -218,8 +218,11 @@ fn sort<L: Lanes>(
                 chart(l, work.scene, incident).push(here, &mut queues.charts);
             }
             if work.scene.surfaces.normal_shadowing && here.any() {
-                shadowing_of_normals(l, work.scene, &incident.interaction, untilted, detail.n)
-                    .push(here, &mut queues.normal_shadowing);
+                let [.., flags] = l.rows(&work.scene.surfaces.relief, incident.interaction.row);
+                shadowing_of_normals(l, flags.bits(), untilted, detail.n).push(here, &mut queues.normal_shadowing);
+            }
+            if incident.keeps_hidden_normals && !work.scene.surfaces.relief.is_empty() && here.any() {
+                relief(l, work.scene, incident, here, hit.n, untilted).push(here, &mut queues.relief);
             }
             if stage.has_transmittance() {
                 let colour = transmittance_of_surface(l, work.scene, incident, here);

@@ -2,7 +2,7 @@
 use super::{
     interaction::{SurfaceInteraction, vertex_colour},
     normal_mapping::{shading_normal, visible_normal, visible_smooth_normal},
-    records::{Chart, Detail},
+    records::{Chart, Detail, Relief},
 };
 use crate::{
     geometry::Coordinates,
@@ -84,11 +84,31 @@ pub(super) fn vary<L: Lanes>(
         }
         if !surfaces.relief.is_empty() {
             let side = l.f(1.0).copysign(*cos);
+            let [.., flags] = l.rows(&surfaces.relief, *row);
             let tilted = shading_normal(l, scene, interaction, mask, n * side, &at) * side;
-            n = visible_normal(l, scene, *row, tilted, n, wo);
+            n = if *keeps_hidden_normals { tilted } else { visible_normal(l, flags.bits(), tilted, n, wo).0 };
         }
     }
     (colour, Detail { wo, n, alpha, error: point.error, surface: *word, media: *media, medium: medium.bits() }, untilted)
+}
+
+/// The relief of a surface with the normal `n`, whose smooth normal is `smooth`.
+#[inline(always)]
+pub(super) fn relief<L: Lanes>(
+    l: L,
+    scene: &Scene,
+    IncidentPaths { interaction, .. }: &IncidentPaths<L>,
+    mask: M<L>,
+    n: V<L>,
+    smooth: V<L>,
+) -> Relief<L> {
+    let SurfaceInteraction { place, row, point, cos } = interaction;
+    let Coordinates { u, v } = scene.shapes.coordinates(l, place, point);
+    let vertex = vertex_colour(l, scene, *place, *point);
+    let at = TextureCoordinates { u, v, p: point.p, vertex: vertex.as_ref() };
+    let side = l.f(1.0).copysign(*cos);
+    let [.., flags] = l.rows(&scene.surfaces.relief, *row);
+    Relief { smooth, tilted_surface: shading_normal(l, scene, interaction, mask, n * side, &at) * side, flags: flags.bits() }
 }
 
 /// Diffuse transmittance in the lanes of `mask`.

@@ -107,7 +107,6 @@ impl Scene {
         let obstacles = [
             (self.has_lamps_in_media(), "lamps within tinted media"),
             (!surfaces.are_opaque(), "surfaces that are blended or let some light pass"),
-            (!surfaces.relief.is_empty(), "bump or normal maps"),
             (is(emits_from_isosurface), "isosurfaces that emit light"),
             (surfaces.words().any(|word| word & SELF_LIT != 0) || self.lights.emitters.are_translucent(), "translucent lamps"),
             (surfaces.words().any(|word| word & ONE_SIDED != 0 && transmits(word)), "glass with one side"),

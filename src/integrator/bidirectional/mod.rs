@@ -31,6 +31,7 @@ mod observer;
 mod scatter;
 mod strategy;
 mod trace;
+mod viewed_normal;
 
 pub(super) use self::{
     observer::{Observer, PathStart, Term},

@@ -1,14 +1,14 @@
 //! The functions that depend on the type of BSDF: its value for two directions, and samples of it.
 use fearless_simd_macros::simd;
 
+use super::viewed_normal::{Normals, ViewedNormal};
 use crate::{
     integrator::{
         coordinates::ReflectionCoordinates,
         light_paths::partial::cosine,
-        normal_mapping::GRAZING,
         queue::Register,
         queues::HitQueues,
-        records::{Chart, Detail, Hit},
+        records::{Chart, Detail, Hit, Relief},
         shading::{ShadingVertex, read_bsdf, read_vertex},
         work::Work,
     },
@@ -116,7 +116,8 @@ fn scatter_kind<L: Lanes, K: Shade>(
     let SurfaceHits { hit, vertex, .. } = &surface;
     let coordinates = ReflectionCoordinates::call_of(l, work, hit.slot, reflection, K::LOBES);
     let bsdf = surface.bsdf(l, l.first(0));
-    let frame = surface.frame_towards(l, back);
+    let viewed = surface.normals.towards(l, back);
+    let frame = surface.frame_about(l, &viewed);
     let wo = frame.local_from_world(back);
     let sample = bsdf.sample(wo, coordinates.direction, coordinates.lobe);
     let d = frame.world_from_local(sample.wi);
@@ -130,20 +131,22 @@ fn scatter_kind<L: Lanes, K: Shade>(
     let judged = K::roulette_scale(&bsdf, front, sample.wi.z);
     let unscaled = judged / K::roulette_scale(&bsdf, front, l.f(1.0));
     // Mirrors and glass keep the angles to the shading normal, but flux is measured across the surface.
-    let (mut of_delta, mut reversible) = (unscaled, l.first(L::N));
-    if surface.is_smooth() {
+    let (mut weight, mut of_delta, mut reversible) = (sample.weight, sample.weight * unscaled, l.first(L::N));
+    if surface.has_shading_normals() {
         let (there, here) = (sample.wi.z.abs(), wo.z.abs());
-        let smooth = surface.shows_smooth(l, back);
-        of_delta = smooth.pick(of_delta * (here * cosines / there), of_delta);
-        reversible = !(smooth ^ surface.shows_smooth(l, d));
+        of_delta = of_delta * (here * cosines / there);
+        reversible = viewed.equals(&surface.normals.towards(l, d));
+        if let Some((of_d, of_back)) = surface.normals.shadowing(l, &viewed, d).zip(surface.normals.shadowing(l, &viewed, back)) {
+            (weight, of_delta) = (weight * of_d, of_delta * of_back);
+        }
     }
-    let adjoint_weight = sample.delta.pick(sample.weight * of_delta, f_cos * (cosines / sample.pdf));
+    let adjoint_weight = sample.delta.pick(of_delta, f_cos * (cosines / sample.pdf));
     // A direction on the wrong side of the surface has no weight, and maybe the pdf of another lobe.
     let exists = sample.weight.max_component().above(0.0);
     Scattered {
         o,
         d,
-        weight: sample.weight,
+        weight,
         adjoint_weight,
         pdf: sample.pdf,
         reverse,
@@ -163,6 +166,7 @@ struct SurfaceHits<'a, 'q, L: Lanes, K: Shade> {
     start: usize,
     hit: Hit<L>,
     vertex: ShadingVertex<L>,
+    normals: Normals<L>,
     chart: Option<Chart<L>>,
     kind: std::marker::PhantomData<K>,
 }
@@ -172,7 +176,10 @@ impl<'a, 'q, L: Lanes, K: Shade> SurfaceHits<'a, 'q, L, K> {
     fn read(l: L, work: &'q Work<'a>, hits: &'q HitQueues, at: Register<L>) -> Self {
         let hit = Hit::read(l, &hits.hits, at.start);
         let (vertex, chart) = read_vertex::<L, K>(l, work, hits, at, &hit);
-        SurfaceHits { work, hits, start: at.start, hit, vertex, chart, kind: std::marker::PhantomData }
+        let has_relief = K::DETAILED && !work.scene.surfaces.relief.is_empty();
+        let relief = if has_relief { Some(Relief::read(l, &hits.relief, at.start)) } else { None };
+        let normals = Normals { surface: hit.n, shading: vertex.n, relief };
+        SurfaceHits { work, hits, start: at.start, hit, vertex, normals, chart, kind: std::marker::PhantomData }
     }
 
     /// The BSDFs, seen from the other side in the lanes of `turned`.
@@ -185,35 +192,34 @@ impl<'a, 'q, L: Lanes, K: Shade> SurfaceHits<'a, 'q, L, K> {
 
     /// Whether shading normals may differ from those of the surface.
     #[inline(always)]
-    fn is_smooth(&self) -> bool {
-        K::DETAILED && self.work.scene.shapes.have_elements()
+    fn has_shading_normals(&self) -> bool {
+        K::DETAILED && (self.work.scene.shapes.have_elements() || self.normals.relief.is_some())
     }
 
-    /// The frame for a viewer in the direction `d`: that of the smooth normal, or of the surface where the former cannot be seen.
+    /// The frame about the normal that a viewer sees.
     #[inline(always)]
-    fn frame_towards(&self, l: L, d: V<L>) -> Frame<L> {
-        if !self.is_smooth() {
-            return self.vertex.frame;
+    fn frame_about(&self, l: L, viewed: &ViewedNormal<L>) -> Frame<L> {
+        if self.has_shading_normals() {
+            self.vertex.frame_about::<K>(l, self.work, viewed.n, self.chart.as_ref())
+        } else {
+            self.vertex.frame
         }
-        let n = self.shows_smooth(l, d).pick(self.vertex.n, self.hit.n);
-        self.vertex.frame_about::<K>(l, self.work, n, self.chart.as_ref())
-    }
-
-    /// Lanes where a viewer in the direction `d` sees the front of the smooth normal.
-    #[inline(always)]
-    fn shows_smooth(&self, l: L, d: V<L>) -> M<L> {
-        (self.vertex.n.dot(d) * l.f(1.0).copysign(d.dot(self.hit.n))).above(GRAZING)
     }
 
     /// The BSDF of a viewer in the direction `wo`. The pdf back is that of a viewer in the direction `wi`, whose frame may be another.
     #[inline(always)]
     fn evaluate(&self, l: L, wo: V<L>, wi: V<L>) -> Evaluated<L> {
-        let frame = self.frame_towards(l, wo);
+        let viewed = self.normals.towards(l, wo);
+        let frame = self.frame_about(l, &viewed);
         let (mut f_cos, pdf) = self.evaluate_in(l, &frame, wo, wi);
-        let (_, reverse) = self.evaluate_in(l, &self.frame_towards(l, wi), wi, wo);
-        if self.is_smooth() {
+        let of_back = self.frame_about(l, &self.normals.towards(l, wi));
+        let (_, reverse) = self.evaluate_in(l, &of_back, wi, wo);
+        if self.has_shading_normals() {
             let is_on_side_of = |d: V<L>| (frame.local_from_world(d).z * d.dot(self.hit.n)).above(0.0);
             f_cos = (is_on_side_of(wo) & is_on_side_of(wi)).pick(f_cos, V::splat(l, [0.0; 3]));
+            if let Some(shadowing) = self.normals.shadowing(l, &viewed, wi) {
+                f_cos = f_cos * shadowing;
+            }
         }
         Evaluated { f_cos, pdf, reverse }
     }

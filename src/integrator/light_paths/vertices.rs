@@ -7,7 +7,7 @@ use crate::{
     integrator::{
         queue::Register,
         queues::HitQueues,
-        records::{Chart, Detail, Hit, Transmittance},
+        records::{Chart, Detail, Hit, Relief, Transmittance},
         slots::SLOTS,
         work::Work,
     },
@@ -26,8 +26,9 @@ use crate::{
 /// | 4 | direction to the vertex before; primitive |
 /// | 5 | both partial sums, the triangle, and the word of the surface |
 /// | 6, 7, 8 | chart and diffuse transmittance |
-/// | 9 | shading normal |
-const ROWS: u32 = 10;
+/// | 9 | shading normal; flags of the relief |
+/// | 10, 11 | normals of the relief |
+const ROWS: u32 = 12;
 
 /// The vertices, each with the place of the one before it in its path.
 pub struct LightVertices {
@@ -102,6 +103,11 @@ impl LightVertices {
         if stage.has_transmittance() {
             transmitted = Transmittance::read(l, &hits.transmittances, at.start).colour;
         }
+        let mut relief = Relief { smooth: hit.n, tilted_surface: hit.n, flags: l.u(0) };
+        if stage != Stage::Plain && !work.scene.surfaces.relief.is_empty() {
+            relief = Relief::read(l, &hits.relief, at.start);
+        }
+        let Relief { smooth, tilted_surface: tilted, flags } = relief;
         let bounce = l.u(bounce).as_real_bits();
         let [a, b, c, d, e, f, g, h, i] = chart;
         let row = |a: F<L>, b: F<L>, c: F<L>, d: F<L>| [a.to_array(), b.to_array(), c.to_array(), d.to_array()];
@@ -115,7 +121,9 @@ impl LightVertices {
             row(a, b, c, d),
             row(e, f, g, h),
             row(i, transmitted.x, transmitted.y, transmitted.z),
-            row(shading_n.x, shading_n.y, shading_n.z, zero),
+            row(shading_n.x, shading_n.y, shading_n.z, flags.as_real_bits()),
+            row(smooth.x, smooth.y, smooth.z, zero),
+            row(tilted.x, tilted.y, tilted.z, zero),
         ];
         let slot = hit.slot.to_array();
         let mut lanes = live.bits();
@@ -193,8 +201,13 @@ impl LightVertices {
             return;
         }
         let (none, wo) = (l.u(0), V { x, y, z });
-        let [x, y, z, _] = l.rows(&self.rows, row + 9);
+        let [x, y, z, flags] = l.rows(&self.rows, row + 9);
         let n = V { x, y, z };
+        if !work.scene.surfaces.relief.is_empty() {
+            let ([a, b, c, _], [d, e, f, _]) = (l.rows(&self.rows, row + 10), l.rows(&self.rows, row + 11));
+            let (smooth, tilted_surface) = (V { x: a, y: b, z: c }, V { x: d, y: e, z: f });
+            Relief { smooth, tilted_surface, flags: flags.bits() }.push(keep, &mut queues.relief);
+        }
         Detail { wo, n, alpha, error, surface: read.word, media: none, medium: none }.push(keep, &mut queues.details);
         let (of_chart, more, rest) = (l.rows(&self.rows, row + 6), l.rows(&self.rows, row + 7), l.rows(&self.rows, row + 8));
         if work.scene.surfaces.charted && stage.reads_chart() {

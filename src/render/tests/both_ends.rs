@@ -18,7 +18,17 @@ const PANELS: &str = "
     look_at = [0.0, 0.6, 0.0]
     fov = 40
     resolution = [16, 16]
+    [textures]
+    waves.noise = { scale = 3.0, octaves = 2, low = 0.0, high = 1.0 }
     [materials]
+    bumped.conductor = { reflectance = 0.9, roughness = 0.6 }
+    bumped.bump = { texture = 'waves', height = 0.3 }
+    shadowed.lambertian = { albedo = 0.8 }
+    shadowed.bump = { texture = 'waves', height = 0.3 }
+    shadowed.normal_shadowing = true
+    shadowed.mirrored_normals = true
+    bumped_glass.dielectric = { ior = 1.5 }
+    bumped_glass.bump = { texture = 'waves', height = 0.1 }
     white.lambertian = { albedo = 0.8 }
     red.lambertian = { albedo = [0.8, 0.3, 0.3] }
     gloss.conductor = { reflectance = 0.9, roughness = 0.6 }
@@ -120,8 +130,8 @@ fn every_strategy_alone_finds_the_light_of_its_number_of_reflections() {
 #[test]
 fn all_strategies_together_find_the_light_of_mis() {
     const SETTINGS: RenderSettings = RenderSettings { roulette: Roulette::BY_THROUGHPUT, ..self::SETTINGS };
-    let balls = ["white", "gloss", "lacquered", "clear", "tinted", "rough_tinted"].map(|ball| (BALL, ball));
-    let cubes = ["white", "gloss", "lacquered", "clear", "rough", "rough_tinted"].map(|cube| (SMOOTH_CUBE, cube));
+    let balls = ["white", "gloss", "lacquered", "clear", "tinted", "rough_tinted", "shadowed", "bumped_glass"].map(|ball| (BALL, ball));
+    let cubes = ["white", "gloss", "lacquered", "clear", "rough", "rough_tinted", "bumped", "shadowed", "bumped_glass"].map(|cube| (SMOOTH_CUBE, cube));
     for (shape, ball) in balls.into_iter().chain(cubes) {
         let scene = scene(shape, ball);
         for cap in [Some(3), None] {

@@ -1,0 +1,58 @@
+//! Shading normals by viewer. One that cannot see the front of a smooth or tilted normal sees another, see [`super::super::normal_mapping`].
+use crate::{
+    integrator::{
+        normal_mapping::{GRAZING, visible_normal},
+        normal_shadowing::shadowing_of_normals,
+        records::Relief,
+    },
+    math::{Lanes, M, Pick, U, V},
+};
+
+/// The normals of surface points, on the side the path arrived from.
+pub(super) struct Normals<L: Lanes> {
+    pub surface: V<L>,
+    /// The shading normal, whether or not a viewer sees its front.
+    pub shading: V<L>,
+    /// What bump and normal maps tilt, in scenes with any.
+    pub relief: Option<Relief<L>>,
+}
+
+/// The normal that a viewer sees.
+pub(super) struct ViewedNormal<L: Lanes> {
+    pub n: V<L>,
+    /// The normal without bump and normal maps.
+    untilted: V<L>,
+    /// Which of the possible normals both are.
+    choice: U<L>,
+}
+
+impl<L: Lanes> Normals<L> {
+    /// The normal for a viewer in the direction `d`. It may point to the other side.
+    #[inline(always)]
+    pub fn towards(&self, l: L, d: V<L>) -> ViewedNormal<L> {
+        let side = l.f(1.0).copysign(d.dot(self.surface));
+        let smooth = self.relief.as_ref().map_or(self.shading, |relief| relief.smooth);
+        let is_smooth = (smooth.dot(d) * side).above(GRAZING);
+        let untilted = is_smooth.pick(smooth, self.surface);
+        let choice = is_smooth.pick(l.u(1), l.u(0));
+        let Some(relief) = &self.relief else { return ViewedNormal { n: untilted, untilted, choice } };
+        let tilted = is_smooth.pick(self.shading, relief.tilted_surface);
+        let (n, form) = visible_normal(l, relief.flags, tilted * side, untilted * side, d);
+        ViewedNormal { n: n * side, untilted, choice: choice + (form << 1) }
+    }
+
+    /// The fraction of light from the direction `wi` that the relief does not shadow for a viewer.
+    #[inline(always)]
+    pub fn shadowing(&self, l: L, viewed: &ViewedNormal<L>, wi: V<L>) -> Option<crate::math::F<L>> {
+        let relief = self.relief.as_ref()?;
+        Some(shadowing_of_normals(l, relief.flags, viewed.untilted, viewed.n).towards(l, wi))
+    }
+}
+
+impl<L: Lanes> ViewedNormal<L> {
+    /// Lanes where two viewers see the same normal.
+    #[inline(always)]
+    pub fn equals(&self, other: &ViewedNormal<L>) -> M<L> {
+        self.choice.equals(other.choice)
+    }
+}
