@@ -1,4 +1,6 @@
 //! The colours of textures, for formats without such textures: the mean, or an image.
+use std::collections::BTreeSet;
+
 use crate::{
     declare::{Resources, Textured},
     import::mitsuba::pictures,
@@ -24,7 +26,8 @@ pub struct Colors<'a> {
 impl<'a> Colors<'a> {
     /// Compiles the textures. Those with an error are grey.
     pub fn new(description: &'a SceneDescription, resources: &'a Resources) -> Colors<'a> {
-        let compiler = TextureCompiler::new(resources, &description.textures, std::iter::empty(), &mut Vec::new());
+        let compiler =
+            TextureCompiler::new(resources, &description.textures, BTreeSet::new(), std::iter::empty(), &mut Vec::new());
         Colors { description, compiler }
     }
 

@@ -84,7 +84,7 @@ fn sky() -> Vec<u8> {
     file
 }
 
-/// Radiance from a unit direction, W/(m² sr): about 1 in the mean.
+/// Radiance from a unit direction, W/(m² sr): about 0.75 in the mean. No grey surface is brighter than the display can show.
 fn radiance(direction: DVec3) -> f64 {
     let room = 0.35 + 0.25 * direction.y;
     let lamp = |towards: DVec3, radius: f64, radiance: f64| {
@@ -92,7 +92,7 @@ fn radiance(direction: DVec3) -> f64 {
         let edge = radius.to_radians().cos();
         radiance * ((cos - edge) / (1.0 - edge) * 3.0).clamp(0.0, 1.0)
     };
-    room + lamp(DVec3::new(-1.0, 1.2, 0.8), 40.0, 8.0) + lamp(DVec3::new(1.0, 0.5, 0.6), 35.0, 2.0)
+    room + lamp(DVec3::new(-1.0, 1.2, 0.8), 40.0, 3.5) + lamp(DVec3::new(1.0, 0.5, 0.6), 35.0, 0.8)
 }
 
 /// A grey pixel: mantissas of 8 bits and their common exponent.
@@ -166,6 +166,19 @@ mod tests {
         let [key, fill, floor] =
             [[-1.0, 1.2, 0.8], [1.0, 0.5, 0.6], [0.0, -1.0, 0.0]].map(|d| radiance(DVec3::from(d).normalize()));
         assert!(key > 3.0 * fill && fill > 3.0 * floor && floor > 0.0, "{key} {fill} {floor}");
+        // The light that a grey surface reflects, by an integral over the sphere.
+        const ROWS: usize = 90;
+        let cell = std::f64::consts::PI / ROWS as f64;
+        let reflected = |normal: DVec3| {
+            let directions = (0..ROWS * 2 * ROWS).map(|i| [i / (2 * ROWS), i % (2 * ROWS)].map(|x| (x as f64 + 0.5) * cell));
+            let light = |[theta, phi]: [f64; 2]| {
+                let direction = DVec3::new(theta.sin() * phi.cos(), theta.cos(), theta.sin() * phi.sin());
+                radiance(direction) * direction.dot(normal).max(0.0) * theta.sin()
+            };
+            0.5 * directions.map(light).sum::<f64>() * cell * cell / std::f64::consts::PI
+        };
+        let brightest = reflected(DVec3::new(-1.0, 1.2, 0.8).normalize());
+        assert!((0.7..1.0).contains(&brightest), "{brightest}");
         for value in [0.1, 0.5, 1.0, 8.6] {
             let [mantissa, _, _, exponent] = rgbe(value);
             let read = f64::from(mantissa) / 256.0 * 2f64.powi(i32::from(exponent) - 128);

@@ -1,5 +1,8 @@
 //! The materials of a scene as tables for the kernel.
-use std::{collections::BTreeMap, time::Duration};
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    time::Duration,
+};
 
 use super::{CompiledMaterial, Material, MaterialCompiler, Stage, tables::Tables};
 use crate::{
@@ -40,7 +43,7 @@ impl Materials {
     /// Panics if a material refers to a texture.
     pub fn new(materials: &[Material]) -> Self {
         let (resources, none) = (Resources::new(""), BTreeMap::new());
-        let textures = TextureCompiler::new(&resources, &none, std::iter::empty(), &mut Vec::new());
+        let textures = TextureCompiler::new(&resources, &none, BTreeSet::new(), std::iter::empty(), &mut Vec::new());
         let mut all = Materials::default();
         for material in materials {
             let compiled = all.compile(material, &textures).expect("the material names no texture");

@@ -1,37 +1,40 @@
-//! Scenes that differ only in what no image shows: title, notes, truth, exposure, names of objects, and materials and textures that
-//! nothing uses.
+//! Scenes that differ only in what no image shows: title, notes, truth, exposure, names, and materials and textures that nothing uses.
 use std::sync::Arc;
 
 use super::{
     Scene,
-    description::{ObjectDescription, SceneDescription},
-    used::Used,
+    description::{ObjectDescription, RenderDescription, SceneDescription},
+    used::number_names,
 };
+use crate::texture::UNUSED_PICTURES;
 
-/// Parts whose compile leaves the image as it is: they are made every time, are only compared with the image, or belong to materials.
-/// Only unused materials differ here.
-const HARMLESS: [&str; 3] = ["surfaces", "references", "material tables"];
+/// Parts whose compile leaves the image as it is: they are made every time, or only compared with the image, or belong to materials and
+/// textures that nothing uses.
+const HARMLESS: [&str; 4] = ["surfaces", "references", "material tables", UNUSED_PICTURES];
 
 impl SceneDescription {
-    /// Whether texts, exposure, unused materials or unused textures differ, and nothing else does.
+    /// Whether texts, exposure, names, unused materials or unused textures differ, and nothing else does.
     pub fn differs_unseen(&self, other: &SceneDescription) -> bool {
-        let SceneDescription { camera, background, textures, materials, objects, lamps, render, .. } = self;
-        let names = |objects: &[ObjectDescription]| objects.iter().map(|object| object.name.clone()).collect::<Vec<_>>();
-        let texts = |of: &SceneDescription| (of.title.clone(), of.notes.clone(), of.truth.clone(), of.render.exposure);
-        let has_same_lists = (textures, materials) == (&other.textures, &other.materials);
-        (texts(self) != texts(other) || names(objects) != names(&other.objects) || !has_same_lists)
-            && (camera, background) == (&other.camera, &other.background)
-            && render.renders_like(&other.render)
-            && lamps == &other.lamps
-            && objects.len() == other.objects.len()
-            && objects.iter().zip(&other.objects).all(|(a, b)| a.is_same_but_for_name(b))
-            && (has_same_lists || Used::by(self).are_same(self, other))
+        self.may_show_the_same(other) && self != other && self.shown() == other.shown()
     }
-}
 
-impl ObjectDescription {
-    fn is_same_but_for_name(&self, other: &ObjectDescription) -> bool {
-        self == other || *self == ObjectDescription { name: self.name.clone(), ..other.clone() }
+    /// False if one of the parts that edits usually change is another one: a quick answer for drags.
+    fn may_show_the_same(&self, other: &SceneDescription) -> bool {
+        let same_place = |(a, b): (&ObjectDescription, &ObjectDescription)| a.transform == b.transform && a.shape == b.shape;
+        self.camera == other.camera
+            && self.lamps == other.lamps
+            && self.render.renders_like(&other.render)
+            && self.objects.len() == other.objects.len()
+            && self.objects.iter().zip(&other.objects).all(same_place)
+    }
+
+    /// The scene without what no image shows.
+    fn shown(&self) -> SceneDescription {
+        let render = RenderDescription { exposure: 0.0, ..self.render.clone() };
+        let mut shown = SceneDescription { title: String::new(), notes: String::new(), truth: None, render, ..self.clone() };
+        shown.objects.iter_mut().for_each(|object| object.name.clear());
+        number_names(&mut shown);
+        shown
     }
 }
 
@@ -61,16 +64,27 @@ impl Scene {
 
 #[cfg(test)]
 mod tests {
+    use std::collections::BTreeMap;
+
     use super::*;
     use crate::{
-        declare::Precision,
+        declare::{Precision, Textured},
         light::background::{BackgroundDescription, image::Image},
         material::{Dielectric, Lambertian},
         scene::{BUILT_IN, Sharing, built_in, describe},
+        texture::image::Image as Texels,
     };
 
     fn built_in_description() -> SceneDescription {
         describe("built-in", BUILT_IN.to_owned()).expect("it is a scene")
+    }
+
+    /// Renames the material `white`, and with it the order of the materials.
+    fn rename_white(scene: &mut SceneDescription, to: &str) {
+        let material = scene.materials.remove("white").expect("the scene has it");
+        scene.materials.insert(to.to_owned(), material);
+        let names = scene.objects.iter_mut().filter_map(|object| object.material.as_mut());
+        names.filter(|name| *name == "white").for_each(|name| to.clone_into(name));
     }
 
     #[test]
@@ -93,6 +107,11 @@ mod tests {
         assert!(!changed(|scene| _ = scene.add_material("white", Lambertian::default())));
         assert!(!changed(|scene| scene.render.settings.seed = 5));
         assert!(!changed(|scene| drop(scene.objects.pop())));
+        assert!(changed(|scene| rename_white(scene, "aaa")));
+        assert!(!changed(|scene| {
+            rename_white(scene, "aaa");
+            scene.objects[0].material = Some("aaa".to_owned());
+        }));
     }
 
     #[test]
@@ -125,6 +144,31 @@ mod tests {
         assert!(after.is_of_same_file(&before) && !built_in().is_of_same_file(&before));
         assert!(!built_in().has_same_image(&built_in()), "another compile is not compared");
     }
+
+    #[test]
+    fn an_image_that_nothing_uses_leaves_the_image_as_it_is_and_one_that_is_used_does_not() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let write = |name: &str, grey: u8| {
+            let pixels = ::image::RgbImage::from_pixel(4, 4, ::image::Rgb([grey; 3]));
+            pixels.save(folder.path().join(name)).expect("it is written");
+            BTreeMap::from([(name.to_owned(), Texels { path: name.to_owned(), ..Texels::default() }.into())])
+        };
+        let mut description = built_in_description();
+        description.textures = write("used.png", 100);
+        description.add_material("white", Lambertian { albedo: Textured::Texture("used.png".to_owned()) });
+        let before = description.build(folder.path()).expect("it is valid");
+        description.textures.extend(write("a_spare.png", 50));
+        let description = Arc::new(description);
+        let after = || {
+            let mut after = description.rebuild(folder.path(), &before, Precision::Interactive).expect("it is valid");
+            after.keep_image(&before);
+            after.has_same_image(&before)
+        };
+        assert!(after());
+        write("used.png", 200);
+        assert!(!after());
+    }
+
     #[test]
     fn a_material_that_nothing_uses_leaves_the_image_as_it_is() {
         let mut description = built_in_description();

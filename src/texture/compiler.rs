@@ -1,5 +1,5 @@
 //! The textures of a scene while it is compiled: names become ids, and what a texture refers to is compiled before it.
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::{Constant, Texture, TextureKind, Textures};
 use crate::{
@@ -9,6 +9,9 @@ use crate::{
 
 /// Textures of textures may go this deep.
 const DEEPEST: usize = 64;
+/// Names of the texels of images in the report of a compile: those that the scene uses, and the others.
+pub const PICTURES: &str = "pictures";
+pub const UNUSED_PICTURES: &str = "unused pictures";
 /// Most lookups of other textures that one lookup may make. n nested products of a texture with itself would make 2ⁿ.
 pub(super) const MOST_LOOKUPS: u32 = 64;
 
@@ -37,6 +40,8 @@ pub struct TextureCompiler<'a> {
     /// The textures so far.
     pub textures: Textures,
     described: &'a BTreeMap<String, TextureKind>,
+    /// The names of those that something in the scene uses.
+    used: BTreeSet<String>,
     ids: BTreeMap<String, u32>,
     /// The textures that are being compiled, each for the one before it.
     open: Vec<String>,
@@ -44,15 +49,16 @@ pub struct TextureCompiler<'a> {
 
 impl<'a> TextureCompiler<'a> {
     /// Compiles all textures. Problems go to `problems`, and grey replaces the texture so that references to it can still be checked.
-    /// `stand_ins` are names of textures that could not be read at all.
+    /// `used` are names of textures that something in the scene uses, and `stand_ins` of those that could not be read at all.
     pub fn new<'n>(
         resources: &'a Resources,
         described: &'a BTreeMap<String, TextureKind>,
+        used: BTreeSet<String>,
         stand_ins: impl Iterator<Item = &'n str>,
         problems: &mut Vec<Problem>,
     ) -> TextureCompiler<'a> {
         let mut compiler =
-            TextureCompiler { resources, textures: Textures::default(), described, ids: BTreeMap::new(), open: Vec::new() };
+            TextureCompiler { resources, textures: Textures::default(), described, used, ids: BTreeMap::new(), open: Vec::new() };
         stand_ins.for_each(|name| compiler.stand_in(name));
         for name in described.keys() {
             if let Err(problem) = compiler.texture(name) {
@@ -63,6 +69,12 @@ impl<'a> TextureCompiler<'a> {
             }
         }
         compiler
+    }
+
+    /// What the texels of the texture that is being compiled are called in the report.
+    pub fn pictures(&self) -> &'static str {
+        let is_unused = self.open.last().is_some_and(|name| !self.used.contains(name));
+        if is_unused { UNUSED_PICTURES } else { PICTURES }
     }
 
     fn stand_in(&mut self, name: &str) {

@@ -18,7 +18,7 @@ pub mod vertex_color;
 use fearless_simd_macros::simd;
 
 pub use self::{
-    compiler::{ColourSource, NumberSource, TextureCompiler},
+    compiler::{ColourSource, NumberSource, PICTURES, TextureCompiler, UNUSED_PICTURES},
     constant::Constant,
     image::{Edge, ImagePattern, ImageTexture},
 };

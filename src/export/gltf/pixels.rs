@@ -15,7 +15,7 @@ use crate::{
     math::colour::{linear_from_srgb, srgb_from_linear},
     scene::description::TextureKind,
     texture::{
-        ImageTexture,
+        ImageTexture, PICTURES,
         image::{Channel, Image, TexelFilter},
     },
 };
@@ -66,11 +66,7 @@ impl Export<'_> {
     fn texels(&self, name: &str) -> Result<Option<Texels>, ExportError> {
         Ok(match self.colors.kind(name) {
             Some(TextureKind::Image(image)) => {
-                let read = match image.channel {
-                    Channel::Alpha => ImageTexture::read_opacity(self.resources, "path", &image.path),
-                    _ => ImageTexture::read(self.resources, "path", &image.path, image.encoding),
-                };
-                let read = read.map_err(|problem| self.invalid(problem))?;
+                let read = ImageTexture::read_image(self.resources, PICTURES, image).map_err(|problem| self.invalid(problem))?;
                 let pick = |[r, g, b, _]: [f32; 4]| match image.channel {
                     Channel::Rgb => [r, g, b],
                     Channel::Red | Channel::Alpha => [r; 3],

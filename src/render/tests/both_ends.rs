@@ -130,8 +130,10 @@ fn every_strategy_alone_finds_the_light_of_its_number_of_reflections() {
 #[test]
 fn all_strategies_together_find_the_light_of_mis() {
     const SETTINGS: RenderSettings = RenderSettings { roulette: Roulette::BY_THROUGHPUT, ..self::SETTINGS };
-    let balls = ["white", "gloss", "lacquered", "clear", "tinted", "rough_tinted", "shadowed", "bumped_glass"].map(|ball| (BALL, ball));
-    let cubes = ["white", "gloss", "lacquered", "clear", "rough", "rough_tinted", "bumped", "shadowed", "bumped_glass"].map(|cube| (SMOOTH_CUBE, cube));
+    let balls =
+        ["white", "gloss", "lacquered", "clear", "tinted", "rough_tinted", "shadowed", "bumped_glass"].map(|ball| (BALL, ball));
+    let cubes = ["white", "gloss", "lacquered", "clear", "rough", "rough_tinted", "bumped", "shadowed", "bumped_glass"]
+        .map(|cube| (SMOOTH_CUBE, cube));
     for (shape, ball) in balls.into_iter().chain(cubes) {
         let scene = scene(shape, ball);
         for cap in [Some(3), None] {

@@ -26,6 +26,7 @@ use super::{
     damage::Damage,
     description::{RenderDescription, SceneDescription, TruthDescription},
     surface::Surfaces,
+    used::used_textures,
 };
 use crate::{
     declare::{Assets, Leftovers, Memo, Path, Problem, Resources, key_of_file},
@@ -106,7 +107,8 @@ impl Parts {
         let background =
             description.background.as_ref().map(|described| problems.keep(&at("background"), || described.compile(resources)));
         let mut wrong = Vec::new();
-        let mut textures = TextureCompiler::new(resources, &description.textures, problems.damage.names("textures"), &mut wrong);
+        let (used, stand_ins) = (used_textures(description), problems.damage.names("textures"));
+        let mut textures = TextureCompiler::new(resources, &description.textures, used, stand_ins, &mut wrong);
         wrong.retain(|problem| !problems.damage.reaches(&Path(problem.path.0.iter().take(2).cloned().collect())));
         problems.found.extend(wrong);
         let known = before.map(|before| Materials::after(&before.scene.surfaces.materials, before.precision));

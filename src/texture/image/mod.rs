@@ -116,10 +116,7 @@ impl Texturing for Image {
 
     fn compile(&self, compiler: &mut TextureCompiler) -> Result<ImagePattern, Problem> {
         let resources = compiler.resources;
-        let texels = match self.channel {
-            Channel::Alpha => ImageTexture::read_opacity(resources, "path", &self.path)?,
-            _ => ImageTexture::read(resources, "path", &self.path, self.encoding)?,
-        };
+        let texels = ImageTexture::read_image(resources, compiler.pictures(), self)?;
         if self.is_plain() {
             return Ok(ImagePattern::Plain(texels));
         }

@@ -1,11 +1,16 @@
 //! The table of an image's texels, repeated with bilinear interpolation.
 use std::sync::{Arc, OnceLock};
 
+use super::{Channel, Image};
 use crate::{
     declare::{NamedFile, Problem, Resources},
     image::{Encoding, PictureError, Texels, read_light_of, read_opacity_of},
     math::{F, Lanes, Pick, U, V, round::floor},
+    texture::PICTURES,
 };
+
+/// Tells the texels of a file's opacity from its others.
+const OPACITY: &str = "opacity";
 
 /// Wrapping of an image at its top and bottom. At left and right it always repeats.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,24 +45,33 @@ impl ImageTexture {
 
     /// Reads the file that a description names at a key. Textures of the same file and encoding share their texels.
     pub fn read(resources: &Resources, key: &str, path: &str, encoding: Encoding) -> Result<Arc<ImageTexture>, Problem> {
-        ImageTexture::decoded(resources, key, path, &format!("{encoding:?}"), |file| read_light_of(file, encoding))
+        ImageTexture::decoded(resources, PICTURES, [key, path, &format!("{encoding:?}")], |file| read_light_of(file, encoding))
     }
 
     /// Reads the opacity of the file, as grey.
     pub fn read_opacity(resources: &Resources, key: &str, path: &str) -> Result<Arc<ImageTexture>, Problem> {
-        ImageTexture::decoded(resources, key, path, "opacity", read_opacity_of)
+        ImageTexture::decoded(resources, PICTURES, [key, path, OPACITY], read_opacity_of)
+    }
+
+    /// Reads the image of a texture. `part` is the name of its texels in the report of the compile.
+    pub fn read_image(resources: &Resources, part: &'static str, image: &Image) -> Result<Arc<ImageTexture>, Problem> {
+        let decoded =
+            |what, read: &dyn Fn(&NamedFile) -> _| ImageTexture::decoded(resources, part, ["path", &image.path, what], read);
+        match image.channel {
+            Channel::Alpha => decoded(OPACITY, &read_opacity_of),
+            _ => decoded(&format!("{:?}", image.encoding), &|file| read_light_of(file, image.encoding)),
+        }
     }
 
     /// Decodes a file once; `what` tells its texels from others of the same file.
     fn decoded(
         resources: &Resources,
-        key: &str,
-        path: &str,
-        what: &str,
+        part: &'static str,
+        [key, path, what]: [&str; 3],
         read: impl FnOnce(&NamedFile) -> Result<Texels, PictureError>,
     ) -> Result<Arc<ImageTexture>, Problem> {
         let file = resources.file(path);
-        resources.once("images", format!("image {} {what}", file.key()), || {
+        resources.once(part, format!("image {} {what}", file.key()), || {
             let picture = read(&file).map_err(|error| Problem::at(key, error.to_string(), "this image cannot be used"))?;
             resources.reserve(key, "the texels of an image", size_of_val(&picture.radiance[..]) as u64)?;
             Ok(ImageTexture::new(picture))

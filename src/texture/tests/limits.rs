@@ -1,5 +1,5 @@
 //! Textures of several others as a scene describes them: what is refused.
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::{
     declare::{Problem, Resources, Textured},
@@ -24,7 +24,7 @@ fn noise(high: f64) -> TextureKind {
 fn problems(textures: impl IntoIterator<Item = (&'static str, TextureKind)>) -> Vec<Problem> {
     let described: BTreeMap<String, TextureKind> = textures.into_iter().map(|(name, kind)| (name.to_owned(), kind)).collect();
     let (resources, mut problems) = (Resources::new(""), Vec::new());
-    TextureCompiler::new(&resources, &described, std::iter::empty(), &mut problems);
+    TextureCompiler::new(&resources, &described, BTreeSet::new(), std::iter::empty(), &mut problems);
     problems
 }
 

@@ -38,6 +38,10 @@ impl App {
             }
         });
         let Some(tab) = self.window.tab else { return };
+        if self.is_menu(tab) {
+            Panel::bottom("menu of an instrument").show(ui, |ui| self.compare_tab(ui));
+            return;
+        }
         let most = (ui.available_height() - 160.0).max(120.0);
         Panel::bottom("instrument").resizable(true).default_size(HEIGHT.min(most)).max_size(most).show(ui, |ui| {
             // The contents fill the panel, whose height is the user's.
@@ -45,6 +49,11 @@ impl App {
             ui.set_min_size(room);
             self.instrument(ui, tab);
         });
+    }
+
+    /// Whether the instrument only asks what to compare with: a line, which leaves the room to the image.
+    fn is_menu(&self, tab: InstrumentTab) -> bool {
+        tab == InstrumentTab::Compare && self.session.comparison.is_none()
     }
 
     pub fn instrument(&mut self, ui: &mut Ui, tab: InstrumentTab) {

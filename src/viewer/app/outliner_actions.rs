@@ -2,6 +2,7 @@
 use noisefall::{
     declare::{Declare, OwnedValue, Path},
     edit::{Document, Edit, Placement, Tree},
+    material::Material,
     scene::description::MaterialDescription,
     texture::{TextureKind, checker::Checker},
 };
@@ -61,14 +62,18 @@ impl App {
         }
     }
 
-    /// Adds an object or a lamp where the picture was clicked last, or a material or a texture.
+    /// Adds an object or a lamp where the picture was clicked last, or a material or a texture. An object gets the material of the
+    /// surface there, if it is diffuse.
     pub fn add(&mut self, new: New) {
         let (placement, exposure) = (self.placement(), self.session.look.display.exposure.into());
         let (Some(editor), Some(opened)) = (&self.editor, &self.session.opened) else { return };
         let (scene, clearance) = (&opened.scene, placement.half());
         let document = &editor.document;
         let added = match new {
-            New::Shape(kind) => document.add_shape(kind, &placement.on_floor(scene, clearance), None),
+            New::Shape(kind) => {
+                let material = self.diffuse_material_below();
+                document.add_shape(kind, &placement.on_floor(scene, clearance), material.as_deref())
+            }
             New::Lamp(kind) => document.add_lamp(kind, &placement.hung(scene), exposure),
             New::LampWithoutSurface(kind) => {
                 let floor = placement.on_floor(scene, 2.0 * clearance);
@@ -94,6 +99,16 @@ impl App {
             Some(edit) => _ = self.edit(&edit),
             None => self.tell("The object already rests on a surface, or there is nothing below it.".to_owned(), false),
         }
+    }
+
+    /// The material of the surface where new objects are placed, if it is diffuse.
+    fn diffuse_material_below(&self) -> Option<String> {
+        let middle = self.session.camera.resolution.map(|side| side / 2);
+        let object = self.object_at(self.selection.clicked.unwrap_or(middle))?;
+        let scene = self.editor.as_ref()?.document.description();
+        let name = scene.objects.get(object)?.material.as_ref()?;
+        let is_diffuse = matches!(scene.materials.get(name)?.kind, Material::Lambertian(_));
+        is_diffuse.then(|| name.clone())
     }
 
     /// Where the picture was clicked last, or else its middle, or else the point that the camera looks at.

@@ -87,7 +87,7 @@ impl App {
         self.session.dropped_reference = Some(dropped);
     }
 
-    fn open(&mut self, opened: OpenedScene, document: Document) {
+    fn open(&mut self, mut opened: OpenedScene, document: Document) {
         let (session, results, scene) = (&mut self.session, &mut self.results, &opened.scene);
         if session.opened.as_ref().is_none_or(|before| before.path != opened.path) {
             // What suited another scene's light says nothing about this one's.
@@ -95,7 +95,7 @@ impl App {
             (display.exposure, display.white_balance) = (scene.exposure, WhiteBalance::NEUTRAL);
         }
         if let Some(path) = &opened.path {
-            catalogue::remember(&mut self.catalogue, &opened.name, path);
+            opened.name = catalogue::remember(&mut self.catalogue, &opened.name, path);
             self.preferences.change(|saved| recent::note(&mut saved.recent, path));
         }
         let kept = self.window.kept_view.take().filter(|(path, ..)| opened.path.as_ref() == Some(path));

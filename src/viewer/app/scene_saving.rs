@@ -109,8 +109,8 @@ impl App {
         editor.document.note_written(written);
         self.dialogs.conflict = None;
         if opened.path.as_deref() != Some(path) {
-            opened.name = catalogue::name(&editor.document.description().title, path);
-            catalogue::remember(&mut self.catalogue, &opened.name, path);
+            let name = catalogue::name(&editor.document.description().title, path);
+            opened.name = catalogue::remember(&mut self.catalogue, &name, path);
             opened.path = Some(path.to_owned());
             self.preferences.change(|saved| recent::note(&mut saved.recent, path));
         }

@@ -10,6 +10,7 @@ use crate::viewer::panels::{
     toolbar::Command,
     views,
 };
+use crate::viewer::widgets::refusal;
 
 const FILE_KEYS: [(KeyboardShortcut, Command); 3] = [
     (KeyboardShortcut::new(Modifiers::COMMAND, Key::O), Command::Open),
@@ -170,6 +171,9 @@ impl App {
     fn escape(&mut self) {
         // A menu, a list or a colour picker closes itself, and nothing else.
         if Popup::is_any_open(&self.ctx) {
+            return;
+        }
+        if refusal::dismiss(&self.ctx) {
             return;
         }
         // The field of a path belongs to its dialog.

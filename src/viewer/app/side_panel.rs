@@ -45,11 +45,14 @@ impl App {
         });
     }
 
-    /// Shows the scene, its notes in at most this height, and the tabs.
+    /// Shows the scene, the tabs, and the notes of the scene in at most this height.
     fn scene_and_tabs(&mut self, ui: &mut Ui, most_notes: f32) {
         ui.add_space(4.0);
         let opened = self.session.opened.as_ref();
         let request = scene::show(ui, opened, &self.catalogue);
+        ui.add_space(4.0);
+        // Above the notes, so that they stay where they are from scene to scene.
+        panel_tabs::show(ui, &mut self.window.panel);
         if most_notes.is_finite() {
             let notes = ScrollArea::vertical().id_salt("notes").max_height(most_notes).auto_shrink([false, true]);
             notes.show(ui, |ui| scene::notes(ui, opened));
@@ -57,8 +60,6 @@ impl App {
             scene::notes(ui, opened);
         }
         request.into_iter().for_each(|request| self.open_scene(request));
-        ui.add_space(4.0);
-        panel_tabs::show(ui, &mut self.window.panel);
     }
 
     pub fn open_scene(&mut self, request: SceneRequest) {

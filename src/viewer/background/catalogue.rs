@@ -19,10 +19,19 @@ pub const BUILT_IN_STEM: &str = "cornell_spheres";
 /// A scene file and its title.
 pub struct CatalogueEntry {
     pub name: String,
+    /// What there is to see in it.
+    pub notes: String,
     /// Canonical path, so each file has one; the name of a scene in the program.
     pub path: PathBuf,
     /// The chapter of the gallery.
     pub chapter: &'static str,
+}
+
+impl CatalogueEntry {
+    /// Whether it is the scene that is also built in.
+    fn is_built_in(&self) -> bool {
+        self.chapter != OTHERS && self.path.file_stem().is_some_and(|stem| stem == BUILT_IN_STEM)
+    }
 }
 
 /// The chapters of the gallery and their scenes, in an order that teaches.
@@ -77,8 +86,8 @@ pub fn find() -> Vec<CatalogueEntry> {
 fn shipped() -> Vec<CatalogueEntry> {
     let entry = |scene: ShippedScene| {
         let path = PathBuf::from(scene.name);
-        let title = title(&mut scene.text.as_bytes()).unwrap_or_default();
-        CatalogueEntry { name: name(&title, &path), chapter: chapter(&path), path }
+        let [title, notes] = texts(&mut scene.text.as_bytes());
+        CatalogueEntry { name: name(&title, &path), notes, chapter: chapter(&path), path }
     };
     ShippedScene::all().into_iter().map(entry).collect()
 }
@@ -93,13 +102,23 @@ fn chapter(path: &Path) -> &'static str {
     CHAPTERS.iter().find(|(_, names)| holds(names)).map_or(OTHERS, |(chapter, _)| chapter)
 }
 
-/// Adds a scene that was opened to the list, or updates its name.
-pub fn remember(scenes: &mut Vec<CatalogueEntry>, name: &str, path: &Path) {
+/// Adds a scene that was opened to the list, or updates its name. Returns the name, with that of the file if another scene has the same.
+pub fn remember(scenes: &mut Vec<CatalogueEntry>, name: &str, path: &Path) -> String {
     let path = in_full(path);
+    let is_taken = scenes.iter().any(|entry| entry.name == name && entry.path != path);
+    let file = path.file_name().unwrap_or_default().display();
+    let name = if is_taken { format!("{name} ({file})") } else { name.to_owned() };
     match scenes.iter_mut().find(|entry| entry.path == path) {
         Some(entry) => name.clone_into(&mut entry.name),
-        None => scenes.push(CatalogueEntry { name: name.to_owned(), path, chapter: OTHERS }),
+        None => scenes.push(CatalogueEntry { name: name.clone(), notes: String::new(), path, chapter: OTHERS }),
     }
+    name
+}
+
+/// The scene of the list that is open: that of a file, or the one that is also built in.
+pub fn open_entry<'a>(scenes: &'a [CatalogueEntry], open: Option<&Path>) -> Option<&'a CatalogueEntry> {
+    let open = open.map(in_full);
+    scenes.iter().find(|entry| open.as_ref().map_or_else(|| entry.is_built_in(), |open| *open == entry.path))
 }
 
 /// Whether a file with this text is a scene that comes with the program, as it came.
@@ -127,21 +146,20 @@ fn list(folder: &Path) -> Vec<CatalogueEntry> {
     let paths = entries.filter_map(|entry| Some(entry.ok()?.path()));
     let scenes = paths.filter(|path| path.is_file() && path.extension().is_some_and(|extension| extension == "toml"));
     let entry = |path: PathBuf| {
-        let title = File::open(&path).ok().and_then(|mut file| title(&mut file));
-        let name = name(&title.unwrap_or_default(), &path);
-        CatalogueEntry { name, path: in_full(&path), chapter: chapter(&path) }
+        let [title, notes] = File::open(&path).map_or_else(|_| Default::default(), |mut file| texts(&mut file));
+        CatalogueEntry { name: name(&title, &path), notes, path: in_full(&path), chapter: chapter(&path) }
     };
     scenes.map(entry).collect()
 }
 
-/// Reads the title of a scene file, which comes before the first table.
-fn title(file: &mut dyn Read) -> Option<String> {
+/// Reads the title and the notes of a scene file, which come before the first table. They are empty if it has none.
+fn texts(file: &mut dyn Read) -> [String; 2] {
     let mut head = Vec::new();
-    file.take(LONGEST_HEAD).read_to_end(&mut head).ok()?;
+    let read = file.take(LONGEST_HEAD).read_to_end(&mut head);
     let head = String::from_utf8_lossy(&head);
     let end = head.find("\n[").unwrap_or(head.len());
-    let table: toml::Table = head[..end].parse().ok()?;
-    Some(table.get("title")?.as_str()?.to_owned())
+    let table = read.ok().and_then(|_| head[..end].parse::<toml::Table>().ok()).unwrap_or_default();
+    ["title", "notes"].map(|key| table.get(key).and_then(toml::Value::as_str).unwrap_or_default().to_owned())
 }
 
 /// The name of a scene: its title, or else its file name (`tiny_lamp.toml` is "tiny lamp").
@@ -151,7 +169,7 @@ pub fn name(title: &str, path: &Path) -> String {
 
 /// The name of a scene with this text, in a file of this name.
 pub fn name_in(mut text: &[u8], file: &str) -> String {
-    name(&title(&mut text).unwrap_or_default(), Path::new(file))
+    name(&texts(&mut text)[0], Path::new(file))
 }
 
 /// The name of a file for a scene of this name, without extension.
@@ -211,6 +229,16 @@ mod tests {
     }
 
     #[test]
+    fn the_built_in_scene_is_listed_once_and_has_notes_like_others() {
+        let scenes = find();
+        let built_in = open_entry(&scenes, None).expect("it is listed");
+        assert!(built_in.path.ends_with("cornell_spheres.toml") && built_in.notes.starts_with("Two balls"));
+        let file = Path::new("scenes/furnace.toml");
+        assert!(open_entry(&scenes, Some(file)).is_some_and(|entry| entry.path.ends_with("furnace.toml")));
+        assert!(open_entry(&scenes, Some(Path::new("nowhere.toml"))).is_none() && open_entry(&[], None).is_none());
+    }
+
+    #[test]
     fn the_scenes_in_the_program_are_those_of_the_folder() {
         let stems = |entries: Vec<CatalogueEntry>| {
             let mut stems: Vec<_> = entries.into_iter().map(|entry| (entry.path.with_extension(""), entry.name)).collect();
@@ -233,10 +261,12 @@ mod tests {
         let mut scenes = list(folder.path());
         scenes.sort_by(|a, b| a.name.cmp(&b.name));
         assert_eq!(scenes.iter().map(|scene| scene.name.as_str()).collect::<Vec<_>>(), ["Zebra", "plain one"]);
-        remember(&mut scenes, "Another name", &folder.path().join("titled.toml"));
+        assert_eq!(remember(&mut scenes, "Another name", &folder.path().join("titled.toml")), "Another name");
         assert_eq!((scenes.len(), scenes[0].name.as_str()), (2, "Another name"));
         remember(&mut scenes, "New", &folder.path().join("new.toml"));
         assert_eq!((scenes.len(), scenes[2].name.as_str()), (3, "New"));
         assert!(scenes[2].path.ends_with("new.toml"));
+        assert_eq!(remember(&mut scenes, "New", &folder.path().join("copy.toml")), "New (copy.toml)");
+        assert_eq!(remember(&mut scenes, "New", &folder.path().join("new.toml")), "New");
     }
 }

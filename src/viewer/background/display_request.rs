@@ -57,6 +57,7 @@ impl PartialEq for DisplayRequest {
             && same(self.features.as_ref(), other.features.as_ref())
             && same(self.denoised.as_ref(), other.denoised.as_ref())
             && self.term == other.term
+            && self.materials == other.materials
             && self.on_screen == other.on_screen
     }
 }
@@ -122,6 +123,7 @@ pub mod tests {
             DisplayRequest { second: Some(other.clone()), ..a.clone() },
             DisplayRequest { shows_second: true, ..a.clone() },
             DisplayRequest { on_screen: Some([1, 1]), ..a.clone() },
+            DisplayRequest { materials: Arc::from(["white".to_owned()]), ..a.clone() },
             DisplayRequest { look, ..a.clone() },
             DisplayRequest { reference: Some(reference), ..a.clone() },
             DisplayRequest { pinned: Some(other), ..a.clone() },

@@ -7,7 +7,7 @@ use noisefall::{
     texture::{TextureKind, image::Image},
 };
 
-use super::path_form::{self, PathForm, Wanted};
+use super::path_form::{self, Asked, PathForm, Wanted};
 
 /// Purpose of the file.
 #[derive(Clone, Debug, PartialEq)]
@@ -78,12 +78,10 @@ pub fn show(ctx: &egui::Context, dialog: &mut Option<FileDialog>) -> Option<(Fil
         extensions.join(", ").to_uppercase()
     );
     let wanted = Wanted { text: &text, verb: "Use", files: "Image or mesh", extensions };
-    let (stays, answer) = path_form::window(ctx, &format!("Choose {what}"), |ui| asking.form.show(ui, &wanted));
-    if let Some(file) = answer.path.and_then(|path| asking.form.existing(path)) {
-        return Some((asking.purpose, file));
-    }
-    if stays {
-        *dialog = Some(asking);
+    match path_form::ask(ctx, &format!("Choose {what}"), &mut asking.form, &wanted, |_| None) {
+        Asked::File(file) => return Some((asking.purpose, file)),
+        Asked::GoesOn => *dialog = Some(asking),
+        Asked::GivenUp => {}
     }
     None
 }

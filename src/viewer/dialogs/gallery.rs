@@ -5,7 +5,7 @@ use std::{
 };
 
 use crossbeam_channel::{Receiver, TryRecvError, unbounded};
-use egui::{Align2, ColorImage, RichText, ScrollArea, Sense, TextureHandle, TextureOptions, Ui, Vec2, vec2};
+use egui::{Align2, ColorImage, Response, RichText, ScrollArea, Sense, TextureHandle, TextureOptions, Ui, Vec2, vec2};
 use include_dir::{Dir, include_dir};
 use noisefall::{
     render::{Display, image_file, tone::to_srgb},
@@ -13,7 +13,7 @@ use noisefall::{
 };
 
 use super::question::hold_keyboard;
-use crate::viewer::background::catalogue::{BUILT_IN_NAME, CatalogueEntry, SceneRequest, in_full};
+use crate::viewer::background::catalogue::{BUILT_IN_NAME, CatalogueEntry, SceneRequest, open_entry};
 
 /// Of a card: its picture, and below it two lines of text.
 const PICTURE: Vec2 = Vec2 { x: 164.0, y: 112.0 };
@@ -84,7 +84,7 @@ impl Gallery {
             self.takes_keyboard = true;
             return None;
         }
-        let current = current.map(in_full);
+        let current = open_entry(catalogue, current).map(|entry| &*entry.path);
         self.receive(ctx, catalogue.iter().map(|entry| entry.path.clone()));
         let (mut open, mut request) = (true, None);
         let room = ctx.content_rect().size() - vec2(80.0, 120.0);
@@ -97,7 +97,7 @@ impl Gallery {
             .show(ctx, |ui| {
                 hold_keyboard(ui);
                 // Nothing takes the keyboard while egui measures the window.
-                let focused = (self.takes_keyboard && ui.is_enabled()).then_some(current.as_deref());
+                let focused = (self.takes_keyboard && ui.is_enabled()).then_some(current);
                 self.takes_keyboard &= !ui.is_enabled();
                 // As tall at once as it will be: the window is centred by its last size.
                 ScrollArea::vertical().max_height(room.y).min_scrolled_height(room.y).show(ui, |ui| {
@@ -112,7 +112,7 @@ impl Gallery {
         request
     }
 
-    /// Returns the scene that was chosen; `Some(None)` is the built-in one. The card of `focused` is given the keyboard.
+    /// Returns the scene that was chosen; `Some(None)` is the built-in one, if no card has the same. The card of `focused` is given the keyboard.
     fn cards(
         &self,
         ui: &mut Ui,
@@ -121,17 +121,19 @@ impl Gallery {
         focused: Option<Option<&Path>>,
     ) -> Option<Option<PathBuf>> {
         let mut chosen = None;
-        if !catalogue.iter().any(is_built_in) && self.card(ui, BUILT_IN_NAME, None, focused == Some(None)) {
+        let is_listed = open_entry(catalogue, None).is_some();
+        if !is_listed && self.card(ui, BUILT_IN_NAME, None, focused == Some(None)).clicked() {
             chosen = Some(None);
         }
         for chapter in catalogue.chunk_by(|a, b| a.chapter == b.chapter) {
             let title = chapter[0].chapter;
             ui.label(RichText::new(title).strong());
             egui::Grid::new(title).spacing([GAP, 8.0]).show(ui, |ui| {
-                let cards = chapter.iter().map(|entry| (entry.name.as_str(), Some(entry.path.clone()), &entry.path));
-                for (number, (name, path, picture)) in built_in(chapter).into_iter().chain(cards).enumerate() {
-                    if self.card(ui, name, self.pictures.get(picture), focused == Some(path.as_deref())) {
-                        chosen = Some(path);
+                for (number, entry) in chapter.iter().enumerate() {
+                    let takes_keyboard = focused.is_some_and(|focused| focused == Some(&*entry.path));
+                    let card = self.card(ui, &entry.name, self.pictures.get(&entry.path), takes_keyboard);
+                    if explained(card, &entry.notes).clicked() {
+                        chosen = Some(Some(entry.path.clone()));
                     }
                     if (number + 1) % columns == 0 {
                         ui.end_row();
@@ -143,8 +145,8 @@ impl Gallery {
         chosen
     }
 
-    /// A picture with a name. Returns whether it was clicked.
-    fn card(&self, ui: &mut Ui, name: &str, picture: Option<&TextureHandle>, takes_keyboard: bool) -> bool {
+    /// A picture with a name.
+    fn card(&self, ui: &mut Ui, name: &str, picture: Option<&TextureHandle>, takes_keyboard: bool) -> Response {
         let (rect, response) = ui.allocate_exact_size(PICTURE + vec2(0.0, TEXT), Sense::click());
         if takes_keyboard {
             response.request_focus();
@@ -171,7 +173,7 @@ impl Gallery {
         let text = egui::Rect::from_min_max(frame.left_bottom() + vec2(0.0, 3.0), rect.max);
         let mut below = ui.new_child(egui::UiBuilder::new().max_rect(text));
         below.add(egui::Label::new(RichText::new(name).size(12.0)).selectable(false).wrap());
-        response.on_hover_text(name).clicked()
+        response
     }
 }
 
@@ -180,15 +182,9 @@ fn columns(width: f32) -> usize {
     ((width / (PICTURE.x + GAP)).floor() as usize).clamp(1, 6)
 }
 
-/// Whether the built-in scene is that of a file.
-fn is_built_in(entry: &CatalogueEntry) -> bool {
-    entry.path.file_stem().is_some_and(|stem| stem == "cornell_spheres")
-}
-
-/// The card of the built-in scene, which comes first in the chapter that has the same scene as a file.
-fn built_in(chapter: &[CatalogueEntry]) -> Option<(&'static str, Option<PathBuf>, &PathBuf)> {
-    let same = chapter.iter().find(|entry| is_built_in(entry))?;
-    Some((BUILT_IN_NAME, None, &same.path))
+/// A card with the notes of its scene as a tooltip.
+fn explained(card: Response, notes: &str) -> Response {
+    if notes.is_empty() { card } else { card.on_hover_text(notes) }
 }
 
 /// The images of the scenes in the program.

@@ -3,7 +3,7 @@ use std::path::{Path, PathBuf};
 
 use egui::{Button, RichText, ScrollArea, vec2};
 
-use super::path_form::{self, Answer, PathForm, Wanted};
+use super::path_form::{self, Asked, PathForm, Wanted};
 use crate::viewer::background::recent::RecentFile;
 
 /// Extensions of the files that can be opened.
@@ -37,18 +37,13 @@ pub fn show(ctx: &egui::Context, dialog: &mut Option<OpenDialog>) -> Option<Path
     };
     let mut asking = dialog.take()?;
     let OpenDialog { form, recent } = &mut asking;
-    let (stays, answer) = path_form::window(ctx, "Open a scene", |ui| {
-        let answer = form.show(ui, &WANTED);
-        Answer { path: recent_files(ui, recent).or(answer.path), ..answer }
-    });
-    match answer.path.and_then(|path| form.existing(path)) {
-        Some(path) if can_be_scene(&path) => return Some(path),
-        Some(path) => form.field.refusal = Some(foreign(&path)),
-        None => {}
+    match path_form::ask(ctx, "Open a scene", form, &WANTED, |ui| recent_files(ui, recent)) {
+        Asked::File(path) if can_be_scene(&path) => return Some(path),
+        Asked::File(path) => form.field.refusal = Some(foreign(&path)),
+        Asked::GoesOn => {}
+        Asked::GivenUp => return None,
     }
-    if stays {
-        *dialog = Some(asking);
-    }
+    *dialog = Some(asking);
     None
 }
 

@@ -29,19 +29,40 @@ pub struct Wanted<'a> {
 
 /// The answer of a frame.
 #[derive(Default)]
-pub struct Answer {
+struct Answer {
     /// The path that was chosen or typed, which need not be that of a file.
-    pub path: Option<PathBuf>,
-    pub cancels: bool,
+    path: Option<PathBuf>,
+    cancels: bool,
 }
 
-/// Shows a form in a window in the middle. Returns whether the window stays open, and the answer.
-pub fn window(ctx: &Context, title: &str, contents: impl FnOnce(&mut Ui) -> Answer) -> (bool, Answer) {
+/// What became of a dialog in a frame.
+pub enum Asked {
+    /// A file that exists was chosen.
+    File(PathBuf),
+    GoesOn,
+    GivenUp,
+}
+
+/// Shows a form in a window in the middle. What `below` shows under it may choose a path, too.
+pub fn ask(
+    ctx: &Context,
+    title: &str,
+    form: &mut PathForm,
+    wanted: &Wanted<'_>,
+    below: impl FnOnce(&mut Ui) -> Option<PathBuf>,
+) -> Asked {
     let mut open = true;
     let window = Window::new(title).open(&mut open).collapsible(false).resizable(false);
-    let shown = window.anchor(Align2::CENTER_CENTER, [0.0, 0.0]).show(ctx, contents);
+    let shown = window.anchor(Align2::CENTER_CENTER, [0.0, 0.0]).show(ctx, |ui| {
+        let answer = form.show(ui, wanted);
+        Answer { path: below(ui).or(answer.path), ..answer }
+    });
     let answer = shown.and_then(|shown| shown.inner).unwrap_or_default();
-    (open && !answer.cancels, answer)
+    match answer.path.and_then(|path| form.existing(path)) {
+        Some(file) => Asked::File(file),
+        None if open && !answer.cancels => Asked::GoesOn,
+        None => Asked::GivenUp,
+    }
 }
 
 impl PathForm {
@@ -59,7 +80,7 @@ impl PathForm {
         self.completion.matches.len() == count
     }
 
-    pub fn show(&mut self, ui: &mut Ui, wanted: &Wanted<'_>) -> Answer {
+    fn show(&mut self, ui: &mut Ui, wanted: &Wanted<'_>) -> Answer {
         ui.set_width(WIDTH);
         ui.label(wanted.text);
         ui.add_space(4.0);
@@ -103,7 +124,7 @@ impl PathForm {
     }
 
     /// The path, if there is a file. Otherwise the form says that there is none.
-    pub fn existing(&mut self, path: PathBuf) -> Option<PathBuf> {
+    fn existing(&mut self, path: PathBuf) -> Option<PathBuf> {
         let is_file = path.is_file();
         if !is_file {
             self.field.refusal = Some(format!("There is no file {}. Check the path, or choose Browse…", path.display()));

@@ -51,7 +51,7 @@ pub fn show(ui: &mut egui::Ui, camera: &mut Camera, scene: Option<&Scene>) -> bo
     // A line of its own, whether or not there is an error.
     let error = camera.check().err().map_or_else(|| " ".to_owned(), |error| with_quotation_marks(&error.to_string()));
     let width = ui.available_width();
-    elided(ui, width, RichText::new(&error).color(ui.visuals().error_fg_color)).on_hover_text(&error);
+    elided(ui, width, RichText::new(&error).color(ui.visuals().error_fg_color));
     let moved = scene.is_some_and(|scene| Camera { resolution: camera.resolution, ..scene.camera } != *camera);
     let reset = ui.add_enabled(moved, Button::new("Back to the scene's camera"));
     reset.on_hover_text("Resets the camera to that of the scene, except for the resolution. (Home)").clicked()

@@ -24,7 +24,7 @@ pub fn show(ui: &mut Ui, scene: &Scene, objects: Range<usize>) {
     let place_width = PLACE_WIDTH.max(ui.available_width() - KIND_WIDTH - GAP);
     Grid::new("objects").num_columns(2).spacing([GAP, 4.0]).show(ui, |ui| {
         for object in objects.iter().take(MOST_ROWS) {
-            elided(ui, place_width, RichText::new(place(object)).weak()).on_hover_text(place(object));
+            elided(ui, place_width, RichText::new(place(object)).weak());
             elided(ui, KIND_WIDTH, RichText::new(summary(scene, object)).weak()).on_hover_text(details(scene, object));
             ui.end_row();
         }

@@ -4,7 +4,7 @@ use noisefall::{
     declare::OneOf,
     render::Status,
     sampling::Sampler,
-    scene::{Estimator, EstimatorInForce, RenderSettings, Reuse, Roulette},
+    scene::{Estimator, EstimatorInForce, RenderSettings, Reuse, Roulette, Sharing},
 };
 
 use super::presets;
@@ -50,14 +50,8 @@ pub fn show(ui: &mut Ui, settings: &mut RenderSettings, findings: &Findings<'_>)
             words(ui, &mut settings.directions);
         });
         reuse_row(ui, &mut settings.reuse, status);
-        row(
-            ui,
-            &RenderSettings::ADAPTIVE.label(),
-            "Takes more samples where a pilot finds more noise. Not used if pixels share paths or bright samples.",
-            |ui, label| {
-                drop(ui.checkbox(&mut settings.adaptive, "").labelled_by(label));
-            },
-        );
+        let light_paths = in_force.map_or(settings.estimator, |in_force| in_force.estimator).traces_light_paths();
+        adaptive_row(ui, &mut settings.adaptive, status, light_paths);
         roulette_rows(ui, &mut settings.roulette, caution);
         row(
             ui,
@@ -110,6 +104,22 @@ fn reuse_row(ui: &mut Ui, reuse: &mut Reuse, status: &Status) {
         // Always there, so that no row below moves.
         let in_force = if status.spp > 0 { status.sharing.name() } else { "…" };
         ui.weak(in_force).on_hover_text("What pixels share in this render. Auto decides once per scene.");
+    });
+}
+
+fn adaptive_row(ui: &mut Ui, adaptive: &mut bool, status: &Status, light_paths: bool) {
+    let doc = "Takes more samples where a pilot finds more noise. Not used if pixels share anything, or with paths from lights.";
+    row(ui, &RenderSettings::ADAPTIVE.label(), doc, |ui, label| {
+        ui.horizontal(|ui| {
+            drop(ui.checkbox(adaptive, "").labelled_by(label));
+            let obstacle = match status.sharing {
+                Sharing::Nothing => light_paths.then_some("paths from lights"),
+                shared => Some(shared.name()),
+            };
+            if let Some(obstacle) = obstacle.filter(|_| *adaptive && status.spp > 0) {
+                elided(ui, ui.available_width(), RichText::new(format!("not used: {obstacle}")).color(ui.warning()));
+            }
+        });
     });
 }
 

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use egui::{Align, Button, ComboBox, Layout, RichText, vec2};
 
 use crate::viewer::background::{
-    catalogue::{BUILT_IN_NAME, CatalogueEntry, SceneRequest, in_full},
+    catalogue::{BUILT_IN_NAME, CatalogueEntry, SceneRequest, open_entry},
     opened_scene::OpenedScene,
 };
 use crate::viewer::widgets::quotation::with_quotation_marks;
@@ -55,19 +55,20 @@ fn list_height(ui: &egui::Ui, scenes: usize) -> f32 {
     ROW * fit.min(scenes as f32 + 1.0)
 }
 
-/// The scenes to choose from; `Some(None)` is the built-in one.
+/// The scenes to choose from; `Some(None)` is the built-in one, if none of the others is the same.
 fn scene_list(ui: &mut egui::Ui, opened: Option<&OpenedScene>, catalogue: &[CatalogueEntry]) -> Option<Option<PathBuf>> {
     // Rows touch: a click between two of them would close the list and choose nothing.
     ui.spacing_mut().item_spacing.y = 0.0;
     let row = |marked, name: &str| Button::selectable(marked, name.to_owned()).min_size(vec2(0.0, ROW));
-    let open = opened.map(|opened| opened.path.as_deref().map(in_full));
+    // A new scene without a file is not in the list.
+    let known = opened.filter(|opened| opened.path.is_some() || opened.name == BUILT_IN_NAME);
+    let open = known.and_then(|opened| open_entry(catalogue, opened.path.as_deref()));
     let mut chosen = None;
-    if ui.add(row(open == Some(None), BUILT_IN_NAME)).clicked() {
+    if open_entry(catalogue, None).is_none() && ui.add(row(known.is_some() && open.is_none(), BUILT_IN_NAME)).clicked() {
         chosen = Some(None);
     }
     for entry in catalogue {
-        let is_open = open.as_ref().is_some_and(|open| open.as_ref() == Some(&entry.path));
-        let label = ui.add(row(is_open, &entry.name));
+        let label = ui.add(row(open.is_some_and(|open| open.path == entry.path), &entry.name));
         if label.on_hover_text(entry.path.display().to_string()).clicked() {
             chosen = Some(Some(entry.path.clone()));
         }

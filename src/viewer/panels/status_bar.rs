@@ -48,7 +48,9 @@ impl StatusBar<'_> {
             let (colour, state) = self.state_text(ui);
             let (dot, _) = ui.allocate_exact_size(egui::vec2(10.0, 10.0), egui::Sense::hover());
             ui.painter().circle_filled(dot.center(), 4.5, colour);
-            ui.label(RichText::new(state).strong()).on_hover_text("State of the renderer, or the target that it has reached.");
+            let reached = if let State::Done(target) = self.status.state { format!(": {target}") } else { String::new() };
+            ui.label(RichText::new(state).strong())
+                .on_hover_text(format!("This is what the renderer does, or the target that it has reached{reached}."));
             if self.opened.is_none() {
                 return;
             }
@@ -60,7 +62,10 @@ impl StatusBar<'_> {
             }
             self.estimator_label(ui);
             self.progress_labels(ui);
-            self.noise_label(ui);
+            // A narrow window has room for one error, and the true one says more.
+            if !is_narrow(ui) || self.comparison.is_none() || self.why_black.is_some() {
+                self.noise_label(ui);
+            }
             self.truth_label(ui);
             ui.separator();
             self.bias_label(ui);
@@ -77,7 +82,8 @@ impl StatusBar<'_> {
         asks
     }
 
-    /// The estimator that renders. It is marked where the settings name another one that this scene does not allow.
+    /// The estimator that renders. It is marked where the settings name another one that this scene does not allow. A narrow window
+    /// leaves the word to the tooltip.
     fn estimator_label(&self, ui: &mut egui::Ui) {
         let chosen = self.settings.estimator;
         let Some(in_force) = &self.in_force else {
@@ -87,7 +93,7 @@ impl StatusBar<'_> {
         };
         let (title, doc) = (in_force.estimator.title(), in_force.estimator.word().doc);
         let text = if chosen == Estimator::Auto {
-            RichText::new(format!("{title} (Auto)"))
+            RichText::new(if is_narrow(ui) { title.to_owned() } else { format!("{title} (Auto)") })
         } else {
             RichText::new(format!("{title}, not {}", chosen.title())).color(ui.warning())
         };
@@ -103,7 +109,7 @@ impl StatusBar<'_> {
         let (samples, speed) = (format!("{}{target} spp", status.spp), status.samples_per_second() / 1e6);
         let (speed, time) = (format!("{speed:.1} M samples/s"), clock(status.elapsed));
         const SAMPLES: &str = "Samples per pixel N so far, and the target";
-        if ui.ctx().content_rect().width() < WIDE {
+        if is_narrow(ui) {
             ui.label(samples).on_hover_text(format!("{SAMPLES}{region}\n{speed}\n{time}"));
         } else {
             ui.label(samples + &region).on_hover_text(SAMPLES);
@@ -133,6 +139,7 @@ impl StatusBar<'_> {
             State::Idle => (Color32::GRAY, "No scene"),
             State::Running => (good, "Running"),
             State::Paused => (warning, "Paused"),
+            State::Done(_) if is_narrow(ui) => (good, "Done"),
             State::Done(target) => return (good, capitalised(&target.to_string())),
             State::Failed(_) => (ui.bad(), "Failed"),
         };
@@ -167,14 +174,17 @@ impl StatusBar<'_> {
             ui.label(text).on_hover_text("The view filters the image. The samples are not changed.");
             return;
         }
-        match self.status.bias(self.settings) {
-            None => ui
-                .label(RichText::new("unbiased").color(ui.good()))
-                .on_hover_text("The image converges to the solution of the light transport equation."),
-            Some(why) => ui
-                .label(RichText::new(format!("biased: {why}")).color(ui.warning()))
-                .on_hover_text("Light with more bounces is missing, for any number of samples."),
+        let (text, doc) = match self.status.bias(self.settings) {
+            None => (
+                RichText::new("unbiased").color(ui.good()),
+                "The image converges to the solution of the light transport equation.",
+            ),
+            Some(why) => (
+                RichText::new(format!("biased: {why}")).color(ui.warning()),
+                "Light with more bounces is missing, for any number of samples.",
+            ),
         };
+        ui.add(Label::new(text).truncate()).on_hover_text(doc);
     }
 
     /// Reports what must not be overlooked.
@@ -224,6 +234,10 @@ impl StatusBar<'_> {
             ui.add(text).on_hover_text(format!("{}\n{}", readout.text, readout.doc));
         }
     }
+}
+
+fn is_narrow(ui: &egui::Ui) -> bool {
+    ui.ctx().content_rect().width() < WIDE
 }
 
 fn percent(x: f64) -> String {

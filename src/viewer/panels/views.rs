@@ -65,7 +65,7 @@ fn reference_row(ui: &mut Ui, reference: &ReferenceSource) -> bool {
     let row = ui.horizontal(|ui| {
         match reference {
             ReferenceSource::Dropped(name) => {
-                elided(ui, 120.0, *name).on_hover_text(*name);
+                elided(ui, 120.0, *name);
                 return ui.small_button("Drop").on_hover_text("Returns to the reference of the scene.").clicked();
             }
             ReferenceSource::Scene => ui.weak("from the scene"),

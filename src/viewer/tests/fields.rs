@@ -81,6 +81,23 @@ fn arithmetic_counts_and_what_is_no_number_says_so_until_the_next_press() {
 }
 
 #[test]
+fn escape_ends_the_message_of_a_field_before_the_selection() {
+    let mut window = window("cornell_spheres");
+    edited::select(&mut window, Subject::Object(selection::AMBER_BALL));
+    enter(&mut window, "Radius r", 0);
+    type_text(&mut window, "3//7");
+    press(&mut window, Key::Enter);
+    window.run_steps(3);
+    const REFUSAL: &str = "expected a number, found “3//7”";
+    assert!(window.query_by_label(REFUSAL).is_some());
+    press(&mut window, Key::Escape);
+    window.run_steps(3);
+    assert!(window.query_by_label(REFUSAL).is_none() && window.state().selection.object().is_some());
+    press(&mut window, Key::Escape);
+    assert!(window.state().selection.object().is_none());
+}
+
+#[test]
 fn a_scene_can_be_opened_by_its_path() {
     let mut window = window("furnace");
     click(&mut window, "Open…");

@@ -2,11 +2,16 @@
 use std::sync::Arc;
 
 use egui::{Rect, Vec2};
-use noisefall::import::{Remark, Remarks};
+use noisefall::{
+    import::{Remark, Remarks},
+    scene::RenderSettings,
+};
 
 use super::{rasteriser::Blind, *};
+use crate::viewer::background::display_image::ReferenceComparison;
 use crate::viewer::dialogs::{save_target::SaveTarget, unsaved::Leaving};
 use crate::viewer::instruments::tabs::InstrumentTab;
+use crate::viewer::panels::presets::Preset;
 use crate::viewer::widgets::style::PANEL_WIDTH;
 
 /// Sizes in points, and pixels per point.
@@ -87,7 +92,7 @@ fn toolbar_tabs_and_instruments_fit_a_small_window() {
 fn a_comparison_and_the_samples_of_a_pixel_fit_a_small_window() {
     for (size, scale) in SIZES {
         let mut window = sized(size, scale);
-        let other = noisefall::scene::RenderSettings { seed: 3, ..window.state().session.settings };
+        let other = RenderSettings { seed: 3, ..window.state().session.settings };
         window.state_mut().start_comparison(other);
         window.run_steps(4);
         assert_whole(&window, size, "a comparison");
@@ -114,6 +119,41 @@ fn figures_of_the_line_below_end_in_the_window() {
         let line: Vec<Rect> = labels.map(|label| label.rect()).filter(|rect| rect.top() > size.y - 30.0).collect();
         assert!(line.len() >= 4 && line.iter().all(|rect| rect.right() <= size.x), "{line:?}");
     }
+}
+
+#[test]
+fn every_figure_of_the_line_below_has_room_at_scale_2_on_a_common_screen() {
+    const LONGEST: [&str; 5] = ["Done", "Bidirectional", "1024 / 4096 spp", "true error 5.00 %", "biased: at most 3 bounces"];
+    let size = vec2(960.0, 540.0);
+    let mut app = labels::app();
+    app.session.settings = RenderSettings { max_bounces: Some(3), ..Preset::Fastest.applied_to(&app.session.settings) };
+    app.session.budget.max_spp = Some(4096);
+    let scene = &app.session.opened.as_ref().expect("it is open").scene;
+    let traces = RenderSettings { estimator: Estimator::Bidirectional, ..app.session.settings };
+    assert!(scene.traces_light_paths(&traces));
+    scene.estimator_by_trial.set(Estimator::Bidirectional).expect("there was no trial");
+    let status = &mut app.results.status;
+    (status.spp, status.rel_mse_estimate, status.state) = (1024, Some(0.0016), State::Done(Target::Samples(1024)));
+    app.results.comparison = Some(ReferenceComparison { rel_mse: 0.0025, bias: None });
+    let window = Harness::builder().with_size(size).build_ui(|ui| app.status_bar(ui));
+    for text in LONGEST {
+        let label = window.query_by_label(text).unwrap_or_else(|| panic!("{text} is not there"));
+        // A cut text is as wide as its room.
+        assert!(label.rect().right() < size.x - 100.0, "{text}: {:?}", label.rect());
+    }
+}
+
+#[test]
+fn a_comparison_that_has_not_begun_leaves_the_room_to_the_image() {
+    let (size, scale) = SIZES[1];
+    let mut window = sized(size, scale);
+    let zoom = |window: &Window| window.state().window.view.drawn_zoom;
+    let alone = zoom(&window);
+    window.state_mut().window.tab = Some(InstrumentTab::Compare);
+    window.run_steps(6);
+    assert!(window.query_by_label_contains("Choose settings to compare with").is_some());
+    let beside = zoom(&window);
+    assert!(beside > 0.8 * alone && beside < alone, "{alone} {beside}");
 }
 
 type Open = (&'static str, fn(&mut App), &'static [&'static str]);

@@ -1,5 +1,5 @@
 //! Sharing and presets: experiments compare what they say they compare.
-use noisefall::scene::{RenderSettings, Sharing};
+use noisefall::scene::{Estimator, RenderSettings, Sharing};
 
 use super::*;
 use crate::viewer::{instruments::tabs::InstrumentTab, panels::presets::Preset};
@@ -8,6 +8,13 @@ use crate::viewer::{instruments::tabs::InstrumentTab, panels::presets::Preset};
 fn is_marked(window: &Window, label: &str) -> bool {
     let button = window.get_by_role_and_label(Role::Button, label);
     button.accesskit_node().toggled() == Some(egui::accesskit::Toggled::True)
+}
+
+/// The estimator that Auto has chosen.
+fn in_force(window: &Window) -> Option<Estimator> {
+    let session = &window.state().session;
+    let opened = session.opened.as_ref().expect("a scene is open");
+    opened.scene.estimator_in_force(&session.settings).map(|in_force| in_force.estimator)
 }
 
 fn names(window: &Window) -> Vec<String> {
@@ -69,9 +76,36 @@ fn a_preset_sets_what_it_says_and_the_panel_marks_the_one_in_force() {
     let settings = window.state().session.settings;
     assert_eq!((Preset::of(&settings), settings.max_bounces), (Some(Preset::Fastest), Some(6)), "a cap is no matter of speed");
     wait(&mut window, "its samples", |app| app.results.status.spp >= 1 && app.results.status.sharing == Sharing::Suffixes);
+    assert_eq!(in_force(&window), Some(Estimator::Mis), "paths from both ends cost more in this room");
     window.get_by_role_and_label(Role::CheckBox, "Adaptive").click();
     window.run_steps(3);
     assert!(window.query_by_label("Custom").is_some() && !is_marked(&window, "Fastest"));
+}
+
+#[test]
+fn fastest_takes_paths_from_both_ends_where_they_are_measured_to_be_faster() {
+    let mut window = window("glass_ball_caustic");
+    window.state_mut().session.settings.estimator = Estimator::Mis;
+    restarts(&mut window, "the fastest one", |w| click(w, "Fastest"));
+    wait(&mut window, "its samples", |app| app.results.status.spp >= 1);
+    assert_eq!(in_force(&window), Some(Estimator::Bidirectional));
+}
+
+#[test]
+fn the_panel_says_that_adaptive_sampling_is_not_used_where_pixels_share_paths() {
+    const NOTE: &str = "not used: shared paths";
+    let mut window = window("cornell_spheres");
+    let sampled = |window: &mut Window| wait(window, "samples", |app| app.results.status.spp >= 1);
+    sampled(&mut window);
+    assert!(window.query_by_label(NOTE).is_none(), "nobody asked for it");
+    restarts(&mut window, "adaptive sampling", |w| w.get_by_role_and_label(Role::CheckBox, "Adaptive").click());
+    sampled(&mut window);
+    window.run_steps(3);
+    assert!(window.query_by_label(NOTE).is_some());
+    restarts(&mut window, "no sharing", |w| choose(w, "Share paths", "Never"));
+    sampled(&mut window);
+    window.run_steps(3);
+    assert!(window.query_by_label_contains("not used").is_none());
 }
 
 #[test]

@@ -43,6 +43,19 @@ fn parts_are_added_duplicated_renamed_assigned_and_deleted() {
 }
 
 #[test]
+fn a_shape_gets_the_diffuse_material_of_the_surface_where_it_is_added() {
+    let mut window = window("cornell_spheres");
+    for (clicked, material) in [(DVec3::new(0.0, 0.0, 0.9), "white"), (selection::ball(), "amber")] {
+        let at = seen(&mut window, clicked);
+        click_at(&mut window, at);
+        window.state_mut().add(New::Shape("cuboid"));
+        let added = description(&window).objects.last().expect("it is there");
+        assert_eq!(added.material.as_deref(), Some(material));
+        undo(&mut window);
+    }
+}
+
+#[test]
 fn lamps_without_surface_are_parts_like_others() {
     let mut window = window("cornell_spheres");
     let start = bits(&window);

@@ -226,7 +226,7 @@ fn the_gallery_is_in_an_order_that_teaches_and_its_pictures_cover_their_cards() 
     };
     for (name, chapter) in [
         ("Cornell box", 0),
-        ("Five-sphere Cornell box (built-in)", 0),
+        ("Five-sphere Cornell box", 0),
         ("Tiny lamp: slow to converge", 1),
         ("Veach's plates: why to combine", 2),
         ("From mirror to matt", 3),
@@ -235,6 +235,7 @@ fn the_gallery_is_in_an_order_that_teaches_and_its_pictures_cover_their_cards() 
     ] {
         assert!(is_under(name, chapter), "{name} is not under {}", chapters[chapter]);
     }
+    assert_eq!(window.query_all_by_label_contains("Five-sphere").count(), 1, "the built-in scene is there once");
     // Each picture is as large as its card, so that no ground of another brightness shows beside it.
     let size = vec2(164.0, 112.0);
     let pictures = window.output().shapes.iter().filter(|clipped| {

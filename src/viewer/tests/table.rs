@@ -32,10 +32,12 @@ fn labels(window: &Window) -> Vec<(String, egui::Rect)> {
 
 #[test]
 fn the_table_fits_a_window_of_1280_points() {
-    let mut window = inspecting("cornell_spheres", Reuse::On, [30, 40]);
-    for sample in 0..6 {
-        show_sample(&mut window, sample);
-        let labels = labels(&window);
+    let mut windows =
+        [("cornell_spheres", [30, 40]), ("cornell_box", [36, 20])].map(|(scene, at)| inspecting(scene, Reuse::On, at));
+    for (place, sample) in (0..12).map(|number| (number / 6, number as u32 % 6)) {
+        let window = &mut windows[place];
+        show_sample(window, sample);
+        let labels = labels(window);
         let heading = labels.iter().find(|(text, _)| text == "term").expect("the last column").1;
         assert!(heading.right() < 1280.0 - 336.0, "{heading:?}");
         // Beside the numbers lies the scroll bar.

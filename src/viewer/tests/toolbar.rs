@@ -118,7 +118,8 @@ fn threads_and_tour_do_what_they_say() {
     assert!(window.state().dialogs.tour.is_none() && window.state().preferences.now.toured);
     press(&mut window, Key::F6);
     window.run_steps(3);
-    window.get_by_role_and_label(Role::Button, "Five-sphere Cornell box (built-in)").click();
+    window.get_by_role_and_label(Role::Button, "Five-sphere Cornell box").click();
     window.run_steps(2);
-    wait(&mut window, "the built-in scene", |app| app.session.opened.as_ref().is_some_and(|opened| opened.path.is_none()));
+    let is_open = |app: &App| app.session.path().is_some_and(|path| path.ends_with("cornell_spheres.toml"));
+    wait(&mut window, "the scene of the card", is_open);
 }

@@ -1,4 +1,10 @@
-//! Changes of parts that nothing in the scene uses keep the samples of the image.
+//! Changes of names, and of parts that nothing in the scene uses, keep the samples of the image.
+use noisefall::{
+    declare::Path,
+    edit::{Edit, Tree},
+    texture::{TextureKind, image::Image as TextureImage},
+};
+
 use super::{
     edited::{description, edits, select},
     selection::AMBER_BALL,
@@ -36,6 +42,25 @@ fn a_material_that_nothing_uses_is_added_edited_and_deleted_without_a_restart() 
     // The scene that renders is the edited one all the same.
     let opened = window.state().session.opened.as_ref().expect("it is open");
     assert!(opened.scene.source.contains("checker"));
+}
+
+#[test]
+fn an_image_for_a_texture_that_nothing_uses_and_another_name_of_a_material_keep_the_samples() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = window("cornell_spheres");
+    keeps_samples(&mut window, |w| {
+        w.state_mut().act_on(Subject::Material("white".to_owned()), Action::Rename("a plaster".to_owned()));
+    });
+    assert!(description(&window).materials.contains_key("a plaster"));
+    keeps_samples(&mut window, |w| w.state_mut().add(New::Texture));
+    for name in ["first.png", "second.png"] {
+        let file = folder.path().join(name);
+        image::RgbImage::new(4, 4).save(&file).expect("it is written");
+        let image = TextureImage { path: file.display().to_string(), ..TextureImage::default() };
+        let put = Edit::insert_tree(Path::of("textures.spare"), Tree::of(&mut TextureKind::from(image)));
+        keeps_samples(&mut window, |w| _ = w.state_mut().edit(&put));
+        keeps_samples(&mut window, |w| w.state_mut().act_on(Subject::Texture("spare".to_owned()), Action::Delete));
+    }
 }
 
 #[test]

@@ -1,5 +1,5 @@
 //! The reason why a field refused the last number typed. The next key, button or other value ends the message.
-use egui::{Event, Id, Label, Response, RichText, Tooltip, Ui};
+use egui::{Context, Event, Id, Label, Response, RichText, Tooltip, Ui};
 
 /// The message of the window: there is at most one.
 #[derive(Clone)]
@@ -30,6 +30,13 @@ pub fn of(ui: &Ui, field: Id, value: f64) -> Option<String> {
         return None;
     }
     (last.field == field).then_some(last.message)
+}
+
+/// Ends the message. Returns whether there was one.
+pub fn dismiss(ctx: &Context) -> bool {
+    let is_shown = ctx.data(|data| data.get_temp::<Refusal>(place()).is_some());
+    ctx.data_mut(|data| data.remove::<Refusal>(place()));
+    is_shown
 }
 
 fn is_press(event: &Event) -> bool {

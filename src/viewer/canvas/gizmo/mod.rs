@@ -108,7 +108,11 @@ impl Gizmo {
         // What is typed is meant as it is.
         let is_typed = operation.number().is_some();
         let change = if is_typed { change } else { rounding::rounded(change, pixel_width(camera, pivot)) };
-        drawing::handles(&painter, &handles, self.mode, Some(operation.lock));
+        let moved = match change {
+            Transform::Translate(by) => handles::handles(self.mode, pivot + by, camera, area),
+            _ => handles,
+        };
+        drawing::handles(&painter, &moved, self.mode, Some(operation.lock));
         drawing::status(&painter, operation, &change);
         if ended.is_some() {
             (self.operation, self.is_by_key) = (None, false);

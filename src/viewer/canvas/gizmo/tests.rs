@@ -162,3 +162,25 @@ fn escape_and_the_right_button_cancel() {
     }
     assert!(last(&canvas).0 == Phase::Cancelled && !canvas.state().gizmo.is_active());
 }
+
+/// The middles of the circles that are drawn.
+fn circles(canvas: &Canvas) -> Vec<Pos2> {
+    let circle = |shape: &egui::epaint::ClippedShape| match &shape.shape {
+        egui::Shape::Circle(circle) => Some(circle.center),
+        _ => None,
+    };
+    canvas.output().shapes.iter().filter_map(circle).collect()
+}
+
+#[test]
+fn the_handles_go_with_the_object_that_is_moved() {
+    let mut canvas = canvas();
+    point_at(&mut canvas, seen(DVec3::ZERO));
+    assert!(circles(&canvas).contains(&seen(DVec3::ZERO)));
+    for key in [Key::G, Key::X, Key::Num2] {
+        press(&mut canvas, key);
+    }
+    let drawn = circles(&canvas);
+    let to = seen(DVec3::new(2.0, 0.0, 0.0));
+    assert!(!drawn.is_empty() && drawn.iter().all(|at| at.distance(to) < 0.1), "{drawn:?}");
+}

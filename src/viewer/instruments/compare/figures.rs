@@ -105,7 +105,7 @@ impl Side {
     fn row(&self, ui: &mut Ui) {
         let percent = |x: Option<f64>| x.map_or_else(|| "–".to_owned(), |x| format!("{:.2} %", 100.0 * x));
         ui.strong(self.letter);
-        style::elided(ui, 330.0, self.name.as_str()).on_hover_text(self.name.as_str());
+        style::elided(ui, 330.0, self.name.as_str());
         let figures = [
             self.spp.to_string(),
             format!("{:.1} s", self.seconds),

@@ -57,8 +57,7 @@ fn legend(ui: &mut Ui, history: &History, latest: [Option<u64>; 2]) {
         ui.horizontal(|ui| {
             style::swatch(ui, COLOURS[number % COLOURS.len()]);
             let text = RichText::new(&name);
-            style::elided(ui, 236.0, if latest.contains(&Some(curve.generation)) { text.strong() } else { text })
-                .on_hover_text(&name);
+            style::elided(ui, 236.0, if latest.contains(&Some(curve.generation)) { text.strong() } else { text });
         });
         ui.indent(number, |ui| ui.weak(figures(curve, history.over)).on_hover_text(FIGURES));
     }

@@ -14,7 +14,7 @@ use crate::viewer::{
 };
 
 /// Width of the column of samples, points.
-const SAMPLES: f32 = 380.0;
+const SAMPLES: f32 = 352.0;
 /// Below this width the path stands under the samples, and not beside them.
 const NARROW: f32 = 640.0;
 

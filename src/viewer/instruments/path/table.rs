@@ -85,7 +85,7 @@ fn show_row(ui: &mut Ui, row: &Row, objects: &[Object], channel: usize) {
         return;
     };
     let source = source(term, objects);
-    elided(ui, TERM_WIDTH, RichText::new(&source).size(TEXT)).on_hover_text(&source);
+    elided(ui, TERM_WIDTH, RichText::new(&source).size(TEXT));
     let factors = [Some(term.throughput), term.f_cos, Some(term.radiance), term.passed];
     factors.into_iter().for_each(|factor| factor_cell(ui, factor, channel));
     cell(ui, format!("{:.3}", term.weight), false);
