@@ -40,3 +40,4 @@ mod validate;
 mod warnings;
 mod worker;
 mod worker_edits;
+mod writers;
