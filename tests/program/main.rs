@@ -22,6 +22,7 @@ mod meanings;
 mod output;
 mod partitions;
 mod pictures;
+mod python_types;
 mod ranges;
 mod replay;
 mod reused_parts;
