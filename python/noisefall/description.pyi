@@ -11,14 +11,22 @@ def to_dict(value: Any) -> Any:
 class Sky:
     """A clear sky with a sun; black below the horizon."""
 
+    ground_albedo: Sequence[float] | float | None = None
+    """Albedo of the ground, which brightens the sky of `hosek`."""
+    model: Literal['preetham', 'hosek'] | None = None
+    """Where the radiance is from."""
     sky_scale: float | None = None
     """Factor that multiplies the radiance of the sky."""
     sun: Sequence[float] | None = None
     """Direction towards the sun, of any length."""
+    sun_diameter: float | None = None
+    """Diameter of the sun, which keeps its irradiance. Default: that of the model. (degrees)"""
     sun_scale: float | None = None
     """Factor that multiplies the radiance of the sun; 0 shows the sky alone."""
     turbidity: float | None = None
     """Haze: 2 is very clear, 10 is hazy."""
+    zenith: Sequence[float] | None = None
+    """Direction upwards, of any length."""
 
 @dataclass(kw_only=True)
 class Rotate:
@@ -48,6 +56,8 @@ class Background:
 
     image: str | None = None
     """Equirectangular image, such as EXR or HDR; its centre is towards −z."""
+    pole_rows: bool | None = None
+    """Whether the first and the last row of texels lie at the poles, and not half a row from them."""
     radiance: Sequence[float] | float | None = None
     """Radiance of each channel. (W·sr⁻¹·m⁻²)"""
     rotate: float | None = None
@@ -230,6 +240,8 @@ class Lamp:
 class Blend:
     """A mixture of two materials, each of which may be a blend or `null`."""
 
+    by_side: bool | None = None
+    """Whether the front is of the first material alone, and the back of the second, whatever the weight."""
     first: str
     """Name of the first material."""
     second: str
@@ -270,6 +282,8 @@ class Conductor:
     """Square root of α; 0 is smooth."""
     tangent_rotation: float | None = None
     """Rotation of the tangent about the normal. (°)"""
+    tint: Sequence[float] | float | Mapping[str, str] | None = None
+    """Multiplies the reflectance at every angle."""
 
 @dataclass(kw_only=True)
 class Dielectric:
@@ -479,8 +493,12 @@ class Material:
     """Ideal diffuse reflection: the same radiance in all directions."""
     mirror: Mirror | Mapping[str, Any] | None = None
     """A smooth mirror."""
+    mirrored_normals: bool | None = None
+    """Whether normals of bump and normal maps that face away from the viewer are mirrored in the normal of the surface, which replaces them otherwise. Default: false."""
     normal_map: str | None = None
     """A linear image of shading normals."""
+    normal_shadowing: bool | None = None
+    """Whether bump and normal maps darken light at grazing angles, as microfacets do, which softens hard edges of shading. Such a surface is not reciprocal. Default: false."""
     null: Null | Mapping[str, Any] | None = None
     """A surface that light passes unchanged."""
     opacity: float | Mapping[str, str] | None = None
@@ -699,9 +717,11 @@ class Render:
 
     adaptive: bool | None = None
     """Whether noisier pixels get more samples."""
+    count_crossings: bool | None = None
+    """Whether passing a surface that is not opaque counts as a bounce for `max_bounces`."""
     directions: Literal['uniform', 'cosine', 'bsdf'] | None = None
     """How directions are sampled at diffuse surfaces."""
-    estimator: Literal['path', 'light', 'mis'] | None = None
+    estimator: Literal['path', 'light', 'mis', 'caustics', 'forward', 'bidirectional', 'auto'] | None = None
     """How direct light is estimated. All estimators converge to the same image."""
     exposure: float | None = None
     """Exposure of the displayed image. One stop doubles the brightness; samples do not change. (stops)"""
@@ -744,9 +764,11 @@ class Image:
     path: str
     """PNG, JPEG, TGA, WebP, EXR or HDR file."""
     rotate: float | None = None
-    """Rotation of u towards v, applied second. (°)"""
+    """Rotation of u towards v, applied after that. (°)"""
     scale: Sequence[float] | None = None
     """Factors that multiply u and v, applied first. v points downwards."""
+    shear: float | None = None
+    """What v adds to u, applied after the scale."""
     wrap_u: Literal['repeat', 'mirror', 'clamp', 'black'] | None = None
     """How the image continues beyond 0 and 1 in u."""
     wrap_v: Literal['repeat', 'mirror', 'clamp', 'black'] | None = None

@@ -17,7 +17,7 @@ from .path import Path
 Estimator = Literal["path", "light", "mis", "caustics", "forward", "bidirectional", "auto"]
 Directions = Literal["uniform", "cosine", "bsdf"]
 Sampler = Literal["independent", "stratified", "sobol", "bluenoise"]
-Reuse = Literal["auto", "on", "off"]
+Reuse = Literal["auto", "on", "bright", "both", "off"]
 
 #: Called with the image so far. Returning `False` stops the render.
 Callback = Callable[[Image], "bool | None"]

@@ -6,7 +6,7 @@ use std::{
 
 use crossbeam_channel::{Receiver, unbounded};
 use noisefall::{
-    file,
+    file::{self, numbered},
     import::Opened,
     progress::Progress,
     quote,
@@ -34,8 +34,9 @@ const EVERY: Duration = Duration::from_secs(60);
 
 #[derive(clap::Args)]
 pub struct KeepOptions {
-    /// Keep the render in a file (.nf) from which --resume continues it to the same bits
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["sequence", "pixel"], requires = "output")]
+    /// Keep the render in a file (.nf) from which --resume continues it to the same bits. Of a sequence: keep the frame in progress in
+    /// a file such as frame-####.nf, which is removed when the frame is finished
+    #[arg(long, value_name = "FILE", conflicts_with = "pixel", requires = "output")]
     checkpoint: Option<PathBuf>,
     /// Time between two checkpoints [default: 60]. Slow checkpoints are written less often, so that they take at most 1 % of the
     /// time
@@ -55,6 +56,23 @@ pub struct Resumed {
     differences: Vec<String>,
 }
 
+/// An image that is kept, the description of its scene if that is of another program, and the file of its scene.
+#[derive(Clone, Copy)]
+pub struct KeptImage<'a> {
+    pub request: &'a RenderRequest,
+    pub description: Option<&'a SceneDescription>,
+    pub path: &'a Path,
+}
+
+impl KeptImage<'_> {
+    /// What the file of a render says about its image. Reads the files that the scene names.
+    pub fn header(&self, options: &SceneOptions, budget: &Budget, threads: &Threads) -> Result<Header, Failure> {
+        let scene = keep_scene(&self.request.scene, self.path, &options.import_options());
+        let header = kept_header(self.request, scene, self.description, target(budget), threads);
+        header.map_err(|error| error.report())
+    }
+}
+
 /// What keeps a render, and what it continues from.
 #[derive(Default)]
 pub struct Keeping {
@@ -71,8 +89,23 @@ impl KeepOptions {
         self.checkpoint.is_some()
     }
 
+    pub fn checkpoint(&self) -> Option<&Path> {
+        self.checkpoint.as_deref()
+    }
+
+    /// Time between two checkpoints.
+    pub fn every(&self) -> Duration {
+        self.every.unwrap_or(EVERY)
+    }
+
     /// The mistake in the options, if there is one.
-    pub fn mistake(&self, resumed: Option<&Path>) -> Option<String> {
+    pub fn mistake(&self, resumed: Option<&Path>, is_sequence: bool) -> Option<String> {
+        if let Some(path) = self.checkpoint.as_ref().filter(|path| is_sequence && numbered(path, 1).is_none()) {
+            let path = path.display();
+            return Some(format!(
+                "{path}: the frames of a sequence need checkpoints with a number, such as --checkpoint frame-####.nf"
+            ));
+        }
         let is_other = |path: &PathBuf| !is_kept_file(path);
         if let Some(other) = self.checkpoint.as_ref().filter(|path| is_other(path)) {
             return Some(format!("{}: the name of a checkpoint must end in .{EXTENSION}", other.display()));
@@ -97,20 +130,19 @@ impl KeepOptions {
     /// How a render is kept. `options` are those of its scene.
     pub fn keeping(
         &self,
-        (request, description, path): (&RenderRequest, Option<&SceneDescription>, &Path),
+        image: KeptImage<'_>,
         options: &SceneOptions,
         budget: &Budget,
         resumed: Option<Resumed>,
         threads: &Threads,
     ) -> Result<Keeping, Failure> {
-        let target = target(budget);
         let Some(resumed) = resumed else {
             let Some(checkpoint) = &self.checkpoint else { return Ok(Keeping::default()) };
-            check_new(checkpoint)?;
-            let scene = keep_scene(&request.scene, path, &options.import_options());
-            let header = kept_header(request, scene, description, target, threads).map_err(|error| error.report())?;
-            return Ok(self.kept_in(checkpoint, header, None));
+            check_new(checkpoint, &continuation(checkpoint))?;
+            return Ok(Keeping::new(checkpoint, self.every(), image.header(options, budget, threads)?, None));
         };
+        let KeptImage { request, description, .. } = image;
+        let target = target(budget);
         let before = resumed.file.header().clone();
         let other_samples = probe_difference(&before, request, threads);
         let differences: Vec<String> = resumed.differences.iter().cloned().chain(other_samples).collect();
@@ -128,17 +160,20 @@ impl KeepOptions {
         }
         let checkpoint = self.checkpoint.as_ref().unwrap_or(&resumed.path);
         if *checkpoint != resumed.path {
-            check_new(checkpoint)?;
+            check_new(checkpoint, &continuation(checkpoint))?;
         }
         file::check(checkpoint).map_err(|error| error.to_string())?;
         let kept = resumed.file.read().map_err(|error| error.to_string())?;
-        Ok(self.kept_in(checkpoint, header, Some(kept)))
+        Ok(Keeping::new(checkpoint, self.every(), header, Some(kept)))
     }
+}
 
-    fn kept_in(&self, checkpoint: &Path, header: Header, kept: Option<KeptRender>) -> Keeping {
+impl Keeping {
+    /// Keeps a render in a file with this header.
+    pub fn new(checkpoint: &Path, every: Duration, header: Header, kept: Option<KeptRender>) -> Keeping {
         let (events, received) = unbounded();
         let remarks = header.remarks.clone();
-        let plan = KeepPlan { path: checkpoint.to_owned(), header, every: Some(self.every.unwrap_or(EVERY)), events };
+        let plan = KeepPlan { path: checkpoint.to_owned(), header, every: Some(every), events };
         Keeping { plan: Some(plan), events: Some(received), kept, remarks }
     }
 }
@@ -174,13 +209,14 @@ impl Resumed {
     }
 }
 
-/// Checks that a new checkpoint can be written, and replaces no other render.
-fn check_new(path: &Path) -> Result<(), Failure> {
+fn continuation(checkpoint: &Path) -> String {
+    format!("`render --resume {}` continues it", quote::path(checkpoint))
+}
+
+/// Checks that a new checkpoint can be written, and replaces no other render. `remedy` says how that is continued.
+pub fn check_new(path: &Path, remedy: &str) -> Result<(), Failure> {
     if path.exists() {
-        let shown = quote::path(path);
-        return Err(format!(
-            "{shown}: there is a render already. `render --resume {shown}` continues it; remove the file to start again"
-        ));
+        return Err(format!("{}: there is a render already. {remedy}; remove the file to start again", quote::path(path)));
     }
     file::check(path).map_err(|error| error.to_string())
 }

@@ -10,6 +10,7 @@ mod evidence;
 mod figures;
 mod flip;
 mod folder;
+mod frame_keeping;
 mod keeping;
 mod layers;
 #[cfg(feature = "reports")]

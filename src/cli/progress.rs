@@ -1,5 +1,6 @@
 //! Rendering until a target is reached, with a progress bar.
 use std::{
+    fs,
     ops::ControlFlow,
     path::PathBuf,
     sync::{
@@ -12,11 +13,14 @@ use std::{
 use crossbeam_channel::Receiver;
 
 use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
-use noisefall::render::{
-    Budget, Published, RenderRequest, Status,
-    checkpoint::{KeepEvent, KeptRender},
-    still::StillRenderer,
-    threads::Threads,
+use noisefall::{
+    quote,
+    render::{
+        Budget, Published, RenderRequest, Status,
+        checkpoint::{KeepEvent, KeptRender},
+        still::StillRenderer,
+        threads::Threads,
+    },
 };
 
 use super::{
@@ -25,6 +29,7 @@ use super::{
     messages::{Failure, tell},
     output::Output,
     scene_file::quoted,
+    sequence::DROPPED,
     stop::stop_signal,
     summary::noise_text,
 };
@@ -36,6 +41,8 @@ pub struct Plan {
     /// Whether each image is rendered a second time, by number of bounces.
     pub has_bounces: bool,
     pub is_sequence: bool,
+    /// Whether there are checkpoints.
+    pub is_kept: bool,
 }
 
 impl Plan {
@@ -46,10 +53,10 @@ impl Plan {
 
     /// What happens at an interruption.
     fn interruption(&self) -> &'static str {
-        if self.is_sequence {
-            "interrupted: the unfinished frame is dropped (interrupt again to stop at once)"
-        } else {
-            "interrupted: saving the unfinished image (interrupt again to stop at once)"
+        match (self.is_sequence, self.is_kept) {
+            (true, true) => "interrupted: keeping the unfinished frame (interrupt again to stop at once)",
+            (true, false) => DROPPED,
+            (false, _) => "interrupted: saving the unfinished image (interrupt again to stop at once)",
         }
     }
 }
@@ -72,6 +79,8 @@ struct Checkpoints {
     kept: Option<KeptRender>,
     /// Render time before this run.
     earlier: Duration,
+    /// How the image differs from one that was rendered in one go.
+    remarks: Vec<String>,
     /// Why the last one was not written.
     failure: Option<String>,
 }
@@ -98,11 +107,28 @@ impl Rendering {
     }
 
     /// Keeps the image, and continues from what was kept of it.
-    pub fn keep(&mut self, Keeping { plan, events, kept, .. }: Keeping) {
+    pub fn keep(&mut self, Keeping { plan, events, kept, remarks }: Keeping) {
         let path = plan.as_ref().map(|plan| plan.path.clone());
         let earlier = kept.as_ref().map_or(Duration::ZERO, KeptRender::elapsed);
         plan.into_iter().for_each(|plan| self.stills.set_plan(plan));
-        self.checkpoints = Checkpoints { path, events, kept, earlier, failure: None };
+        self.checkpoints = Checkpoints { path, events, kept, earlier, remarks, failure: None };
+    }
+
+    /// Removes the checkpoint of an image that is finished.
+    pub fn discard_checkpoint(&mut self) -> Result<(), Failure> {
+        self.stills.stop_keeping().map_err(|error| error.to_string())?;
+        let path = std::mem::take(&mut self.checkpoints).path;
+        if let Some(path) = path.filter(|path| path.exists())
+            && let Err(error) = fs::remove_file(&path)
+        {
+            self.suspend(|| tell(&format!("warning: {}: cannot be removed: {error}", quote::path(&path))));
+        }
+        Ok(())
+    }
+
+    /// How the image differs from one that was rendered in one go.
+    pub fn remarks(&self) -> &[String] {
+        &self.checkpoints.remarks
     }
 
     /// Render time of the image before this run.
@@ -142,7 +168,8 @@ impl Rendering {
             None => stills.picture(request, &mut watch),
         };
         let published = published.map_err(|error| error.to_string())?;
-        if checkpoints.path.is_some() {
+        // A frame that is finished needs none.
+        if checkpoints.path.is_some() && (!progress.plan.is_sequence || stop.load(Ordering::Relaxed)) {
             stills.keep_now().map_err(|error| error.to_string())?;
             checkpoints.report(&progress.bar);
         }
@@ -237,7 +264,7 @@ mod tests {
     #[test]
     fn the_bar_is_as_far_as_the_render() {
         let status = Status { spp: 7, elapsed: Duration::from_millis(2500), rel_mse_estimate: Some(0.04), ..Status::default() };
-        let one = Plan { images: 1, has_bounces: false, is_sequence: false };
+        let one = Plan { images: 1, has_bounces: false, is_sequence: false, is_kept: false };
         let by = |budget: Budget, status: &Status| (position(&budget, status), progress_bar(&budget, &one).length());
         assert_eq!(by(Budget { max_spp: Some(20), ..Budget::default() }, &status), (7, Some(20)));
         assert_eq!(by(Budget { max_time: Some(Duration::from_secs(10)), ..Budget::default() }, &status), (2500, Some(10_000)));
@@ -250,13 +277,18 @@ mod tests {
     #[test]
     fn the_bar_counts_the_renders_of_bounces() {
         let budget = Budget { max_spp: Some(20), ..Budget::default() };
-        let length = |images, has_bounces| progress_bar(&budget, &Plan { images, has_bounces, is_sequence: true }).length();
+        let length = |images, has_bounces| {
+            progress_bar(&budget, &Plan { images, has_bounces, is_sequence: true, is_kept: false }).length()
+        };
         assert_eq!([length(1, false), length(1, true), length(3, false), length(3, true)], [20, 40, 60, 120].map(Some));
     }
 
     #[test]
     fn a_sequence_of_one_frame_says_what_becomes_of_the_frame() {
-        let said = |is_sequence| Plan { images: 1, has_bounces: false, is_sequence }.interruption();
-        assert!(said(true).contains("the unfinished frame is dropped") && said(false).contains("saving the unfinished image"));
+        let said = |is_sequence, is_kept| Plan { images: 1, has_bounces: false, is_sequence, is_kept }.interruption();
+        assert!(
+            said(true, false).contains("the unfinished frame is dropped") && said(true, true).contains("keeping the unfinished")
+        );
+        assert!(said(false, false).contains("saving the unfinished image") && said(false, true) == said(false, false));
     }
 }

@@ -28,7 +28,7 @@ use noisefall::{
 use super::{
     messages::{Failure, tell},
     output::Output,
-    sequence::Shot,
+    sequence::{DROPPED, Shot, UNFINISHED},
     split_image::{SplitImage, is_sample_file, without_samples},
     stop::{INTERRUPTED, stop_signal},
 };
@@ -67,6 +67,7 @@ pub struct SampleJob {
     pub display: Display,
     pub range: Range<u32>,
     pub threads: Threads,
+    pub is_sequence: bool,
     pub json: bool,
 }
 
@@ -77,7 +78,8 @@ impl SampleJob {
         let missing = self.scene.lacks_light_paths(&self.settings);
         let warnings = self.scene.warnings().iter().chain(&infinite).chain(&missing);
         warnings.for_each(|warning| tell(&format!("note: {warning}")));
-        let stop = stop_signal("interrupted: writing the samples so far (interrupt again to stop at once)")?;
+        let written = "interrupted: writing the samples so far (interrupt again to stop at once)";
+        let stop = stop_signal(if self.is_sequence { DROPPED } else { written })?;
         for shot in shots {
             let check = |path: &Path| match is_sample_file(&shot.output) {
                 true => file::check(path).map_err(|error| error.to_string()),
@@ -109,6 +111,12 @@ impl SampleJob {
             return Err(self.failure(failure, shot));
         }
         let samples = film.samples();
+        let is_whole = samples.total() == self.range.end - self.range.start;
+        // A file of the frame would stand for a frame that is finished.
+        if self.is_sequence && !is_whole {
+            tell(UNFINISHED);
+            return Ok(ExitCode::from(INTERRUPTED));
+        }
         let image = ImageFacts {
             title: self.scene.title.clone(),
             exposure: self.scene.exposure,
@@ -122,7 +130,7 @@ impl SampleJob {
             ..header
         };
         self.deliver(shot, &header, film, &samples)?;
-        if samples.total() < self.range.end - self.range.start {
+        if !is_whole {
             let rest = samples.list().last().map_or(self.range.start, |last| last[1])..self.range.end;
             tell(&format!("interrupted: `--samples {}..{}` renders the rest, into another file", rest.start, rest.end));
             return Ok(ExitCode::from(INTERRUPTED));

@@ -15,6 +15,10 @@ use super::{
     output::Output,
 };
 
+/// What becomes of a frame at an interruption.
+pub const DROPPED: &str = "interrupted: the unfinished frame is dropped (interrupt again to stop at once)";
+pub const UNFINISHED: &str = "the sequence is not finished; the same command with --resume continues it";
+
 #[derive(clap::Args)]
 pub struct SequenceOptions {
     /// Render N frames of a full turn around the camera's look-at point; -o is then a name such as frame-####.png
@@ -27,15 +31,17 @@ pub struct SequenceOptions {
     #[arg(long, value_name = "A..B", value_parser = parse::frame_range, requires = "sequence")]
     frames: Option<Range<u32>>,
     /// Continue the render that --checkpoint kept in FILE; give no scene, because the file has it. Without FILE: skip frames of a
-    /// sequence whose file exists
+    /// sequence whose file exists, and continue those that have a checkpoint
     #[arg(long, value_name = "FILE", num_args = 0..=1)]
     resume: Option<Option<PathBuf>>,
 }
 
-/// A camera and the file of its image.
+/// A camera and the files of its image.
 pub struct Shot {
     pub camera: Camera,
     pub output: Output,
+    /// Where the render is kept.
+    pub checkpoint: Option<PathBuf>,
 }
 
 impl SequenceOptions {
@@ -48,17 +54,27 @@ impl SequenceOptions {
         path.or(self.turntable.map(CameraSequence::Turntable))
     }
 
+    /// Whether the frames of a sequence that are missing are rendered.
+    pub fn is_continued(&self) -> bool {
+        self.is_asked() && self.resume.is_some()
+    }
+
     /// The images to render: one, or the frames of the sequence that are left.
-    pub fn shots(&self, camera: Camera, output: &Output) -> Result<Vec<Shot>, Failure> {
-        let Some(sequence) = self.sequence() else { return Ok(vec![Shot { camera, output: output.clone() }]) };
+    pub fn shots(&self, camera: Camera, output: &Output, checkpoint: Option<&Path>) -> Result<Vec<Shot>, Failure> {
+        let Some(sequence) = self.sequence() else {
+            return Ok(vec![Shot { camera, output: output.clone(), checkpoint: checkpoint.map(Path::to_owned) }]);
+        };
         let cameras = sequence.cameras(&camera)?;
         let frames = self.frames.clone().unwrap_or(1..cameras.len() as u32 + 1);
         if frames.end as usize > cameras.len() + 1 {
             return Err(format!("--frames {}..{}: the sequence has the frames 1 to {}", frames.start, frames.end, cameras.len()));
         }
         let all = frames.len();
-        let shot = |(camera, number)| Some(Shot { camera, output: Output::File(numbered(output.file()?, number)?) });
-        let is_left = |shot: &Shot| !(self.resume.is_some() && shot.output.file().is_some_and(Path::is_file));
+        let shot = |(camera, number)| {
+            let checkpoint = checkpoint.and_then(|path| numbered(path, number));
+            Some(Shot { camera, output: Output::File(numbered(output.file()?, number)?), checkpoint })
+        };
+        let is_left = |shot: &Shot| !(self.is_continued() && shot.output.file().is_some_and(Path::is_file));
         let left: Vec<Shot> =
             cameras.into_iter().zip(1..).filter(|(_, number)| frames.contains(number)).filter_map(shot).filter(is_left).collect();
         if left.len() < all {

@@ -14,7 +14,7 @@ use super::{
     layers::Layers,
     messages::{Failure, tell},
     progress::Rendering,
-    sequence::Shot,
+    sequence::{Shot, UNFINISHED},
     stop::INTERRUPTED,
     summary::Done,
 };
@@ -27,8 +27,6 @@ pub struct Job<'a> {
     pub display: Display,
     pub layers: &'a Layers,
     pub denoises: bool,
-    /// How the images differ from ones that were rendered in one go.
-    pub mixed: Vec<String>,
     pub reference: Option<Reference>,
     /// Threads for layers and denoising, as many as the worker has.
     pub threads: Threads,
@@ -42,28 +40,40 @@ pub struct Job<'a> {
 }
 
 impl Job<'_> {
+    /// What is rendered for an image.
+    pub fn request(&self, shot: &Shot) -> RenderRequest {
+        RenderRequest { scene: self.scene.clone(), camera: shot.camera, settings: self.settings }
+    }
+
     /// Renders an image, writes it, and prints its line. A frame of a sequence is written only when it is finished.
     pub fn render(&self, rendering: &mut Rendering, shot: &Shot) -> Result<ExitCode, Failure> {
         let start = Instant::now();
-        let request = RenderRequest { scene: self.scene.clone(), camera: shot.camera, settings: self.settings };
+        let request = self.request(shot);
         let picture = rendering.picture(request.clone())?;
-        rendering.suspend(|| rendering.tell_how_to_go_on(&shot.output));
+        if !self.is_sequence {
+            rendering.suspend(|| rendering.tell_how_to_go_on(&shot.output));
+        }
         let render_seconds = (rendering.earlier() + start.elapsed()).as_secs_f64();
         self.failure(&picture.status, &shot.camera).map_or(Ok(()), Err)?;
         let has_bounces = self.layers.has_bounces() && !rendering.is_interrupted();
         let bounces = if has_bounces { Some(rendering.series(request)?) } else { None };
         let failure = bounces.as_ref().and_then(|bounces| self.failure(&bounces.status, &shot.camera));
         if self.is_sequence && rendering.is_interrupted() {
-            rendering.suspend(|| tell("the sequence is not finished; the same command with --resume continues it"));
+            rendering.suspend(|| tell(UNFINISHED));
             return Ok(ExitCode::from(INTERRUPTED));
         }
         match failure {
             Some(failure) if self.is_sequence => Err(failure),
             // The image itself is finished: only its layer is lost.
-            Some(failure) => rendering.suspend(|| self.deliver(shot, &picture, None, render_seconds)).and(Err(failure)),
+            Some(failure) => {
+                rendering.suspend(|| self.deliver(shot, rendering.remarks(), &picture, None, render_seconds)).and(Err(failure))
+            }
             None => {
                 let bounces = bounces.map(|bounces| bounces.frame);
-                rendering.suspend(|| self.deliver(shot, &picture, bounces.as_deref(), render_seconds))
+                let delivered = rendering
+                    .suspend(|| self.deliver(shot, rendering.remarks(), &picture, bounces.as_deref(), render_seconds))?;
+                let is_cut = delivered == ExitCode::SUCCESS && rendering.is_interrupted();
+                Ok(if is_cut { ExitCode::from(INTERRUPTED) } else { delivered })
             }
         }
     }
@@ -80,10 +90,12 @@ impl Job<'_> {
         replay_command(self.scene_path, &self.scene, camera.resolution, &self.settings, at) + &self.scene_options
     }
 
-    /// Writes a rendered image, and prints its line. `bounces` is a frame with its series.
+    /// Writes a rendered image, and prints its line. `mixed` says how it differs from one that was rendered in one go, and `bounces` is a
+    /// frame with its series.
     fn deliver(
         &self,
-        Shot { camera, output }: &Shot,
+        Shot { camera, output, .. }: &Shot,
+        mixed: &[String],
         Published { frame, status }: &Published,
         bounces: Option<&Frame>,
         render_seconds: f64,
@@ -92,7 +104,7 @@ impl Job<'_> {
         let (frame, is_denoised) = (denoised.as_ref().unwrap_or(frame), denoised.is_some());
         let channels = self.layers.channels(&self.scene, camera, frame, bounces, &self.threads)?;
         let denoised = is_denoised.then(|| (denoise::LABEL_KEY, denoise::LABEL.to_owned()));
-        let mixed = (!self.mixed.is_empty()).then(|| (MIXED_KEY, self.mixed.join("; ")));
+        let mixed = (!mixed.is_empty()).then(|| (MIXED_KEY, mixed.join("; ")));
         let remarks: Vec<_> = denoised.into_iter().chain(mixed).collect();
         let text = settings_text(&self.scene, camera, &self.settings, self.display, frame, &remarks);
         let delivered = output.write(frame, &channels, self.display, &text)?;

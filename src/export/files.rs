@@ -126,7 +126,8 @@ mod tests {
     use super::*;
     use crate::{
         declare::Assets,
-        export::{check, write},
+        export::{check, prepare, write},
+        file::faults::lose_nothing,
         scene::{describe, description::SceneDescription},
         shape::mesh::{Mesh, MeshSource},
         texture::kinds::Image,
@@ -188,6 +189,22 @@ mod tests {
         let text = fs::read_to_string(folder.path().join("room.toml")).expect("it is there");
         assert_eq!((done.written, done.copied, done.folder, named(&text)), (0, 0, None, vec!["textures/wood.png".to_owned()]));
         assert!(!folder.path().join("room.files").exists());
+    }
+
+    #[test]
+    fn a_disk_that_fails_at_any_moment_leaves_the_scene_before() {
+        let [from, to] = [(); 2].map(|()| tempfile::tempdir().expect("a folder"));
+        fs::write(from.path().join("wood.png"), "wood").expect("it is written");
+        let mut assets = Assets::default();
+        assets.insert("a.ply", triangle());
+        let description = scene(&["a.ply"], "wood.png");
+        let source = Source { description: &description, assets: &assets, folder: from.path() };
+        for name in ["room.toml", "room.xml"] {
+            let path = to.path().join(name);
+            fs::write(&path, "old").expect("it is written");
+            let prepared = prepare(source, &path).expect("it can be written");
+            lose_nothing(&path, &mut || prepared.write().map(drop).map_err(|error| error.to_string()));
+        }
     }
 
     #[test]

@@ -1,4 +1,6 @@
 //! File access: opens files that a user names, and replaces files atomically.
+#[cfg(test)]
+pub mod faults;
 mod numbered;
 mod target;
 

@@ -153,3 +153,21 @@ fn write_exr(&Contents { frame, channels, settings }: &Contents, to: &mut Vec<u8
 pub fn read(path: &Path) -> Result<Picture, ImageError> {
     Ok(crate::image::read(path, Encoding::Srgb)?)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::file::faults::lose_nothing;
+
+    #[test]
+    fn a_disk_that_fails_at_any_moment_leaves_the_image_before() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let frame = Frame { width: 2, height: 1, full_resolution: [2, 1], radiance: vec![[0.5; 3]; 2], ..Frame::default() };
+        for name in ["a.png", "a.exr"] {
+            let path = folder.path().join(name);
+            std::fs::write(&path, "an earlier image").expect("it is written");
+            let write = || save(&frame, Display::default(), "settings", &path).map_err(|error| error.to_string());
+            lose_nothing(&path, &mut { write });
+        }
+    }
+}

@@ -26,6 +26,8 @@ pub struct StillRenderer {
     renderer: Renderer,
     woken: Receiver<()>,
     budget: Budget,
+    /// How the next image is kept.
+    plan: Option<KeepPlan>,
     /// Number of the last image.
     image: u64,
 }
@@ -37,28 +39,39 @@ impl StillRenderer {
         let renderer = Renderer::new(threads, Publish::Sparse, move || {
             let _ = wake.try_send(());
         });
-        StillRenderer { renderer, woken, budget, image: 0 }
+        StillRenderer { renderer, woken, budget, plan: None, image: 0 }
     }
 
     /// Renders the next image up to the budget, or until `watch` stops it.
     pub fn picture(&mut self, request: RenderRequest, watch: Watch) -> Result<Published, RendererEnded> {
-        self.image += 1;
-        self.renderer.set_budget(self.budget);
-        self.renderer.submit(self.image, request);
+        self.begin(|renderer, image| renderer.submit(image, request));
         self.finished(Renderer::latest, watch)
     }
 
     /// Continues an image from its checkpoint.
     pub fn continued(&mut self, request: RenderRequest, kept: KeptRender, watch: Watch) -> Result<Published, RendererEnded> {
-        self.image += 1;
-        self.renderer.set_budget(self.budget);
-        self.renderer.submit_kept(self.image, request, kept);
+        self.begin(|renderer, image| renderer.submit_kept(image, request, kept));
         self.finished(Renderer::latest, watch)
     }
 
+    fn begin(&mut self, submit: impl FnOnce(&Renderer, u64)) {
+        self.image += 1;
+        self.renderer.set_budget(self.budget);
+        // While the image changes there is no plan: by neither one may the other image be kept.
+        self.renderer.set_plan(None);
+        submit(&self.renderer, self.image);
+        self.renderer.set_plan(self.plan.take());
+    }
+
     /// Keeps the next image by this plan.
-    pub fn set_plan(&self, plan: KeepPlan) {
-        self.renderer.set_plan(Some(plan));
+    pub fn set_plan(&mut self, plan: KeepPlan) {
+        self.plan = Some(plan);
+    }
+
+    /// Keeps the image no longer. Waits for a checkpoint that is being written.
+    pub fn stop_keeping(&self) -> Result<(), RendererEnded> {
+        self.renderer.set_plan(None);
+        self.keep_now()
     }
 
     /// Keeps the image as it is, and waits until it is on the disk or has failed.

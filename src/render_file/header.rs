@@ -1,8 +1,13 @@
 //! The header of a render file.
+use std::path::Path;
+
 use serde::{Deserialize, Serialize};
 
 use super::NamedFile;
-use crate::scene::{Camera, RenderSettings};
+use crate::{
+    quote,
+    scene::{Camera, RenderSettings},
+};
 
 /// Everything that the image of a file depends on, and how far it is rendered. JSON in the file; later programs may add keys.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -112,4 +117,36 @@ pub struct Counters {
 impl Header {
     /// Name, version and commit of this program.
     pub const PROGRAM: &str = concat!("Noisefall ", env!("CARGO_PKG_VERSION"), " (", env!("NOISEFALL_COMMIT"), ")");
+
+    /// Says in what the image of this file differs from that of another one: the first thing found; `None` if they are the same.
+    pub fn difference(&self, other: &Header) -> Option<String> {
+        if self.program != other.program {
+            return Some(format!("it was rendered by {}, and not by {}", self.program, other.program));
+        }
+        if (&self.scene.text, &self.scene.choices) != (&other.scene.text, &other.scene.choices) {
+            return Some("it is of another scene".to_owned());
+        }
+        if self.camera.resolution != other.camera.resolution {
+            let [size, of_other] = [self, other].map(|header| header.camera.resolution.map(|side| side.to_string()).join(" × "));
+            return Some(format!("it has {size} pixels, and not {of_other}"));
+        }
+        if self.camera != other.camera {
+            return Some("it has another camera".to_owned());
+        }
+        let has_other_bits = self.probe != other.probe || self.image != other.image;
+        let bits = || "its samples differ: the scene or the program is not the same".to_owned();
+        self.other_setting(other).or_else(|| self.other_file(other)).or_else(|| has_other_bits.then(bits))
+    }
+
+    fn other_setting(&self, other: &Header) -> Option<String> {
+        let [settings, of_other] = [self, other].map(|header| serde_json::to_value(header.settings).unwrap_or_default());
+        let name = settings.as_object()?.keys().find(|name| settings[*name] != of_other[*name])?;
+        Some(format!("its setting `{name}` is {}, and not {}", settings[name], of_other[name]))
+    }
+
+    fn other_file(&self, other: &Header) -> Option<String> {
+        let differs = |file: &&NamedFile| !(self.files.contains(file) && other.files.contains(file));
+        let file = self.files.iter().chain(&other.files).find(differs)?;
+        Some(format!("the scene's file {} has other contents", quote::path(Path::new(&file.path))))
+    }
 }

@@ -21,6 +21,24 @@ const MOST_BOUNCES: u32 = 64;
 const MOST_SURVIVORS: f32 = 0.98;
 const ENDLESS: &str = "with so little roulette and no low bounce cap, there would be too many connections between paths";
 
+/// The rays with which paths start at the lights of a scene.
+pub struct LightStarts {
+    rays: LightRays,
+    has_shading_normals: bool,
+}
+
+impl LightStarts {
+    /// The rays for an estimator, or what it cannot have in the scene. From some sides a shading normal is another one than from the light,
+    /// so paths from lights alone do not find all that a surface reflects.
+    fn rays_for(&self, estimator: Estimator) -> Result<&LightRays, &'static str> {
+        let is_alone = !estimator.connects() && !estimator.traces_only_caustics();
+        if is_alone && self.has_shading_normals {
+            return Err("smooth meshes, bump or normal maps");
+        }
+        Ok(&self.rays)
+    }
+}
+
 /// The estimator that renders, and why it is not the one of the settings.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct EstimatorInForce {
@@ -45,7 +63,7 @@ impl Scene {
     /// The rays with which paths from lights start, if the estimator traces any and the scene allows it.
     pub fn light_rays(&self, settings: &RenderSettings) -> Option<&LightRays> {
         let traces = settings.estimator.traces_light_paths() && !goes_on_for_ever(settings);
-        if traces { self.rays_or_obstacle().ok() } else { None }
+        if traces { self.rays_or_obstacle(settings.estimator).ok() } else { None }
     }
 
     /// Whether paths start at lights, too.
@@ -62,19 +80,26 @@ impl Scene {
         if goes_on_for_ever(settings) {
             return Some(format!("the estimator `{name}` works like `mis`: {ENDLESS}"));
         }
-        let reason = self.rays_or_obstacle().err()?;
+        let reason = self.rays_or_obstacle(settings.estimator).err()?;
         Some(format!("the estimator `{name}` works like `mis` in this scene, which has {reason}"))
     }
 
-    fn rays_or_obstacle(&self) -> Result<&LightRays, &'static str> {
+    fn rays_or_obstacle(&self, estimator: Estimator) -> Result<&LightRays, &'static str> {
         let made = self.light_paths.get_or_init(|| {
             if let Some(obstacle) = self.obstacle_to_light_paths() {
                 return Err(obstacle);
             }
             let (center, radius) = self.bounding_sphere();
-            LightRays::new(&self.lights, center, radius).ok_or("no light from which paths could start")
+            let rays = LightRays::new(&self.lights, center, radius).ok_or("no light from which paths could start")?;
+            Ok(LightStarts { rays, has_shading_normals: self.has_shading_normals() })
         });
-        made.as_ref().map_err(|reason| *reason)
+        made.as_ref().map_err(|reason| *reason)?.rays_for(estimator)
+    }
+
+    /// Whether there are shading normals besides those of the surfaces.
+    fn has_shading_normals(&self) -> bool {
+        let is_smooth = |object: &Object| matches!(&object.shape, Shape::Mesh { data, .. } if !data.normals.is_empty());
+        !self.surfaces.relief.is_empty() || self.objects.iter().any(is_smooth)
     }
 
     /// What is known of the estimator in force, where it is not the one of the settings.
@@ -89,7 +114,8 @@ impl Scene {
         if goes_on_for_ever(&RenderSettings { estimator: wanted, ..*settings }) {
             return mis(ENDLESS.to_owned());
         }
-        if let Err(obstacle) = self.light_paths.get()? {
+        let starts = self.light_paths.get()?.as_ref().map_err(|reason| *reason);
+        if let Err(obstacle) = starts.and_then(|starts| starts.rays_for(wanted)) {
             return mis(format!("the scene has {obstacle}"));
         }
         let best = self.estimator_by_trial.get().filter(|_| is_auto)?;

@@ -60,7 +60,7 @@ pub use self::{
     estimator::{Estimator, power_heuristic},
     lamp::LampInstance,
     legend::Legend,
-    light_paths::EstimatorInForce,
+    light_paths::{EstimatorInForce, LightStarts},
     load::{LARGEST_FILE, load, load_watched, read_text},
     material_instance::{BY_SIDE, BlendParts, MaterialInstance, Properties},
     object::Object,
@@ -78,7 +78,7 @@ use crate::{
     declare::{Assets, Memo},
     geometry::{Motion, Shapes},
     image::Picture,
-    light::{LightRays, Lights},
+    light::Lights,
     material::Stage,
     memory::Reservation,
     sampling::Directions,
@@ -128,7 +128,7 @@ pub struct Scene {
     /// What it pays to share between pixels, once it has been tried.
     pub sharing_by_trial: OnceLock<Sharing>,
     /// The rays with which paths from lights start, or what keeps them from it: see [`Scene::light_rays`].
-    pub light_paths: OnceLock<Result<LightRays, &'static str>>,
+    pub light_paths: OnceLock<Result<LightStarts, &'static str>>,
     /// The estimator that [`Estimator::Auto`] stands for, once it has been tried.
     pub estimator_by_trial: OnceLock<Estimator>,
     /// Samples per pixel to stop at.

@@ -5,14 +5,14 @@ use rand::{Rng, rngs::SmallRng};
 
 use super::{
     bases::{File, Structure, glb},
-    json,
+    checksums, json, packed, table,
 };
 
 /// Stands for the folder above the scenes in paths.
 pub const ROOT: &str = "@ROOT@";
 /// A mutation that repeats parts does not make a file longer than this, bytes.
 const LONGEST: usize = 1 << 18;
-const NUMBERS: [&str; 14] = [
+pub const NUMBERS: [&str; 14] = [
     "0",
     "-1",
     "1",
@@ -77,17 +77,19 @@ pub fn mutate((_, structure, bytes): &mut File, random: &mut SmallRng) -> bool {
         Structure::Json => json::mutate(bytes, random),
         Structure::Glb => container(bytes, random),
         Structure::Bytes => raw(bytes, random),
+        Structure::Table => table::mutate(bytes, random),
+        Structure::Serialized => packed::mutate(bytes, random),
         Structure::Sections => {
             raw(bytes, random);
             if random.random_bool(0.8) {
-                section_checksums(bytes);
+                checksums::of_sections(bytes);
             }
             false
         }
         Structure::Png => {
             raw(bytes, random);
             if random.random_bool(0.8) {
-                checksums(bytes);
+                checksums::of_chunks(bytes);
             }
             false
         }
@@ -104,7 +106,7 @@ fn range(length: usize, most: usize, random: &mut SmallRng) -> Range<usize> {
     start..(start + random.random_range(0..=most)).min(length)
 }
 
-fn raw(bytes: &mut Vec<u8>, random: &mut SmallRng) -> bool {
+pub fn raw(bytes: &mut Vec<u8>, random: &mut SmallRng) -> bool {
     let some = range(bytes.len(), 32, random);
     match random.random_range(0..7) {
         0 => bytes.truncate(some.start),
@@ -236,32 +238,4 @@ fn container(file: &mut Vec<u8>, random: &mut SmallRng) -> bool {
     let leaves = if random.random_bool(0.7) { json::mutate(&mut json, random) } else { raw(&mut bytes, random) };
     *file = glb(&json, &bytes);
     leaves
-}
-
-/// Corrects the checksums of the sections of a render file.
-fn section_checksums(file: &mut [u8]) {
-    let mut at = 12;
-    while let Some(length) = file.get(at + 4..at + 12).and_then(|eight| Some(u64::from_le_bytes(eight.try_into().ok()?))) {
-        let Some(end) = usize::try_from(length).ok().and_then(|length| length.checked_add(at + 12)) else { return };
-        let Some(content) = file.get(at..end) else { return };
-        let mut sum = flate2::Crc::new();
-        sum.update(content);
-        let Some(place) = file.get_mut(end..end.saturating_add(4)) else { return };
-        place.copy_from_slice(&sum.sum().to_le_bytes());
-        at = end + 4;
-    }
-}
-
-/// Corrects the checksums of the chunks of a PNG.
-fn checksums(file: &mut [u8]) {
-    let mut at = 8;
-    while let Some(length) = file.get(at..at + 4).map(|four| u32::from_be_bytes([four[0], four[1], four[2], four[3]]) as usize) {
-        let end = at + 8 + length;
-        let Some(content) = file.get(at + 4..end) else { return };
-        let mut sum = flate2::Crc::new();
-        sum.update(content);
-        let Some(place) = file.get_mut(end..end + 4) else { return };
-        place.copy_from_slice(&sum.sum().to_be_bytes());
-        at = end + 4;
-    }
 }

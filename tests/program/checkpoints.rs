@@ -91,7 +91,7 @@ fn what_would_change_the_image_or_lose_a_render_is_refused_by_name() {
         (&["render", "--resume", "-o", "b.exr"], "--resume needs the file of a render"),
         (&["render", "a.nf", "-o", "b.exr"], "`render --resume a.nf` continues it"),
         (&["render", "--resume", "a.exr", "-o", "b.exr"], "this is not a render file"),
-        (&["render", &spheres, "-o", "b-#.png", "--turntable", "2", "--checkpoint", "b.nf"], "cannot be used with"),
+        (&["render", &spheres, "-o", "b-#.png", "--turntable", "2", "--checkpoint", "b.nf"], "need checkpoints with a number"),
     ] {
         let told = refused(&shell, words);
         assert!(told.contains(expected), "{told}");
@@ -159,6 +159,19 @@ fn a_file_that_a_scene_of_another_program_includes_counts_too() {
     lamp("2");
     let message = refused(&shell, &["render", "--resume", "a.nf", "-o", "b.exr"]);
     assert!(message.contains("lamp.xml has other contents"), "{message}");
+}
+
+#[test]
+fn a_buffer_of_a_gltf_counts_too() {
+    let shell = Shell::new();
+    done(&shell, &["convert", &scene("cornell_box"), "-o", "box.gltf"]);
+    begin(&shell, "box.gltf", &[]);
+    done(&shell, &["render", "--resume", "a.nf", "-o", "b.exr"]);
+    let mut buffer = bytes(&shell, "box.files/meshes/box.bin");
+    *buffer.last_mut().expect("it has bytes") ^= 1;
+    fs::write(shell.path("box.files/meshes/box.bin"), buffer).expect("it is written");
+    let message = refused(&shell, &["render", "--resume", "a.nf", "-o", "b.exr"]);
+    assert!(message.contains("box.bin has other contents"), "{message}");
 }
 
 #[test]

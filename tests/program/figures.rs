@@ -1,5 +1,5 @@
 //! The machine-readable output of commands follows `docs/figures.schema.json`.
-use std::{collections::BTreeSet, fs};
+use std::{collections::BTreeSet, fs, process::Stdio};
 
 use noisefall::math::colour::linear_from_srgb;
 use serde_json::{Value, json};
@@ -108,30 +108,30 @@ fn what_the_schema_does_not_describe_is_refused() {
 }
 
 #[test]
-fn the_columns_of_a_study_are_described_in_their_order() {
+fn the_columns_of_studies_in_one_folder_are_described_in_their_order() {
     let shell = Shell::new();
     let schema: Value = serde_json::from_str(SCHEMA).expect("the schema is JSON");
-    let few = [
-        "--estimators",
-        "mis",
-        "--directions",
-        "bsdf",
-        "--samplers",
-        "sobol",
-        "--roulette",
-        "off,0.8",
-        "--max-bounces",
-        "none,2",
-    ];
-    let done = shell
-        .run(&[&["study", &scene("furnace"), "-o", "out", "--spp", "2", "--size", "8x8", "--repeats", "1"], &few[..]].concat());
-    assert!(done.status.success(), "{}", text(&done.stderr));
+    let few = ["--estimators", "mis", "--directions", "bsdf", "--samplers", "sobol", "--max-bounces", "none,2"];
+    let small = ["--spp", "2", "--size", "8x8", "--repeats", "1"];
+    let both = ["off", "0.8"].map(|roulette| {
+        let mut study = shell.command(&["study", &scene("furnace"), "-o", "out", "--roulette", roulette]);
+        study.args(few).args(small).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().expect("the program starts")
+    });
+    for study in both {
+        let done = study.wait_with_output().expect("it ends");
+        assert!(done.status.success(), "{}", text(&done.stderr));
+    }
     let csv = fs::read(shell.path("out/study.csv")).expect("measurements");
     let mut table = csv::Reader::from_reader(&csv[..]);
     let columns: Vec<String> = table.headers().expect("names").iter().map(str::to_owned).collect();
     assert_eq!(columns, required(&schema, "study"));
-    for row in table.records() {
-        for (name, cell) in columns.iter().zip(row.expect("a line").iter()) {
+    let rows: Vec<_> = table.records().map(|row| row.expect("a line")).collect();
+    // Two caps of both, at 1 and 2 samples.
+    assert_eq!(rows.len(), 2 * 2 * 2);
+    let keys = |rows: &[csv::StringRecord]| rows.iter().map(|row| row[row.len() - 1].to_owned()).collect::<BTreeSet<_>>();
+    assert!(keys(&rows).len() == 4 && rows.chunks(2).all(|run| keys(run).len() == 1), "the lines of a run follow each other");
+    for row in &rows {
+        for (name, cell) in columns.iter().zip(row) {
             let types = schema["$defs"]["figures"]["properties"][name]["type"].to_string();
             let value = match cell {
                 "" | "none" if types.contains("null") => Value::Null,

@@ -49,7 +49,7 @@ fn module(source: &Path, file: &Path) -> Module {
 }
 
 /// The text without comments and without the tests at its end.
-fn code(text: &str) -> String {
+pub fn code(text: &str) -> String {
     let end = text.match_indices("#[cfg(test)]").map(|(at, _)| at).find(|at| text[*at..].lines().nth(1).is_some_and(is_tests));
     let lines = text[..end.unwrap_or(text.len())].lines().filter(|line| !line.trim_start().starts_with("//"));
     lines.collect::<Vec<_>>().join("\n")

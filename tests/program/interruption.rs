@@ -9,7 +9,7 @@ use std::{
 
 use noisefall::render::image_file::{SETTINGS_KEY, read};
 
-use crate::command_line::{Shell, json, scene, text};
+use crate::command_line::{Shell, scene, text};
 
 /// Starts the program, and waits until it handles interruptions. Before that, an interruption would end it at once.
 fn start(shell: &Shell, arguments: &[&str]) -> Child {
@@ -45,7 +45,8 @@ fn an_interrupted_render_saves_what_it_has_and_says_how_much_that_is() {
     interrupt(&child);
     let output = child.wait_with_output().expect("it ends");
     assert!(text(&output.stderr).starts_with("interrupted: saving the unfinished image"), "{}", text(&output.stderr));
-    let line = json(&output);
+    assert_eq!(output.status.code(), Some(130));
+    let line: serde_json::Value = serde_json::from_str(text(&output.stdout).trim()).expect("a line of JSON");
     let number = |line: &serde_json::Value, key: &str| line[key].as_f64().unwrap_or_else(|| panic!("{key} in {line}"));
     assert_eq!(line["stopped_by"], "interruption");
     assert_eq!((number(&line, "mean_spp") * 200.0 * 150.0).round(), number(&line, "paths"));
@@ -71,6 +72,43 @@ fn an_interrupted_sequence_drops_its_unfinished_frame_even_if_it_is_the_only_one
     assert!(told.starts_with("interrupted: the unfinished frame is dropped"), "{told}");
     assert!(told.contains("the same command with --resume continues it"), "{told}");
     assert_eq!(output.status.code(), Some(130));
+    assert_eq!(fs::read_dir(shell.path("")).expect("it is there").count(), 0, "no frame");
+}
+
+#[test]
+fn an_interrupted_sequence_keeps_its_unfinished_frame_in_its_checkpoint() {
+    let shell = Shell::new();
+    let spheres = scene("cornell_spheres");
+    let turn = ["render", &spheres, "--turntable", "1", "--size", "60x40", "-o", "out-#.exr", "--checkpoint", "out-#.nf"];
+    let child = start(&shell, &[&turn[..], &["--spp", "100000000"]].concat());
+    interrupt(&child);
+    let output = child.wait_with_output().expect("it ends");
+    let told = text(&output.stderr);
+    assert!(
+        told.starts_with("interrupted: keeping the unfinished frame") && told.contains("with --resume continues it"),
+        "{told}"
+    );
+    assert!(output.status.code() == Some(130) && !shell.path("out-1.exr").exists());
+    // The checkpoint is that of a render, and both go on from the same samples.
+    let alone = shell.run(&["render", "--resume", "out-1.nf", "-o", "alone.exr", "--spp", "1", "--checkpoint", "alone.nf"]);
+    let resumed = shell.run(&[&turn[..], &["--spp", "1", "--resume"]].concat());
+    for output in [&alone, &resumed] {
+        assert!(output.status.success(), "{}", text(&output.stderr));
+    }
+    let bytes = |name: &str| fs::read(shell.path(name)).expect("it is there");
+    assert!(bytes("out-1.exr") == bytes("alone.exr") && !shell.path("out-1.nf").exists());
+}
+
+#[test]
+fn an_interrupted_sequence_of_samples_leaves_no_part_of_a_frame() {
+    let shell = Shell::new();
+    let endless = ["--turntable", "2", "--samples", "0..8000000", "--size", "40x30"];
+    let child = start(&shell, &[&["render", &scene("cornell_spheres"), "-o", "out-#.nf"], &endless[..]].concat());
+    interrupt(&child);
+    let output = child.wait_with_output().expect("it ends");
+    let told = text(&output.stderr);
+    assert!(told.starts_with("interrupted: the unfinished frame is dropped"), "{told}");
+    assert!(told.contains("the same command with --resume continues it") && output.status.code() == Some(130), "{told}");
     assert_eq!(fs::read_dir(shell.path("")).expect("it is there").count(), 0, "no frame");
 }
 
@@ -115,6 +153,7 @@ fn an_interrupted_render_that_is_kept_says_how_it_is_continued() {
     let output = child.wait_with_output().expect("it ends");
     let told = text(&output.stderr);
     assert!(told.contains("'a b.nf' keeps the render: `noisefall render --resume 'a b.nf' -o out.exr` continues it"), "{told}");
+    assert_eq!(output.status.code(), Some(130));
     // The samples of the image are those of the checkpoint, also if it has a row of tiles more here than there.
     let again = shell.run(&["render", "--resume", "a b.nf", "-o", "again.exr", "--spp", "1"]);
     assert!(again.status.success(), "{}", text(&again.stderr));

@@ -71,6 +71,49 @@ fn every_frame_of_a_turntable_is_the_image_of_its_camera() {
 }
 
 #[test]
+fn a_frame_that_was_kept_continues_in_its_sequence() {
+    let shell = Shell::new();
+    let spheres = scene("cornell_spheres");
+    let turn = |rest: &[&str]| {
+        let command = ["render", &spheres, "--turntable", "3", "--frames", "2..4", "--size", "24x16", "--adaptive", "on"];
+        shell.run(&[&command[..], rest].concat())
+    };
+    let kept = ["-o", "turn-##.exr", "--checkpoint", "turn-##.nf"];
+    let at_once = turn(&["-o", "whole-##.exr", "--spp", "20"]);
+    assert!(at_once.status.success(), "{}", text(&at_once.stderr));
+    // The image of a frame carries its scene, camera and settings.
+    let begun = shell.run(&["render", "whole-02.exr", "-o", "begun.exr", "--spp", "5", "--checkpoint", "turn-02.nf"]);
+    assert!(begun.status.success(), "{}", text(&begun.stderr));
+    let checkpoint = fs::read(shell.path("turn-02.nf")).expect("it is there");
+    for (rest, expected) in [
+        (&["--spp", "20"][..], "turn-02.nf: there is a render already. The same command with --resume continues it"),
+        (
+            &["--spp", "20", "--seed", "7", "--resume"],
+            "turn-02.nf: the frame cannot be continued: its setting `seed` is 0, and not 7",
+        ),
+    ] {
+        let refused = turn(&[&kept[..], rest].concat());
+        assert!(!refused.status.success() && text(&refused.stderr).contains(expected), "{}", text(&refused.stderr));
+    }
+    fs::copy(shell.path("turn-02.nf"), shell.path("turn-03.nf")).expect("it is copied");
+    let refused = turn(&[&kept[..], &["--spp", "20", "--resume"]].concat());
+    let expected = "turn-03.nf: the frame cannot be continued: it has another camera";
+    assert!(!refused.status.success() && text(&refused.stderr).contains(expected), "{}", text(&refused.stderr));
+    fs::remove_file(shell.path("turn-03.nf")).expect("it is there");
+    assert!(fs::read(shell.path("turn-02.nf")).expect("it is there") == checkpoint && !shell.path("turn-03.exr").exists());
+    let resumed = turn(&[&kept[..], &["--spp", "20", "--resume"]].concat());
+    assert!(resumed.status.success(), "{}", text(&resumed.stderr));
+    for frame in ["02.exr", "03.exr"] {
+        let [resumed, whole] = ["turn", "whole"].map(|name| fs::read(shell.path(&format!("{name}-{frame}"))).expect("a frame"));
+        assert!(resumed == whole, "{frame}");
+    }
+    // A frame that is finished needs no checkpoint.
+    assert!(!shell.path("turn-02.nf").exists() && !shell.path("turn-03.nf").exists());
+    let again = turn(&[&kept[..], &["--spp", "20", "--resume"]].concat());
+    assert!(again.status.success() && text(&again.stderr).contains("2 of 2 frames exist and are left out"));
+}
+
+#[test]
 fn every_file_of_a_sequence_is_checked_before_the_first_frame() {
     let shell = Shell::new();
     fs::create_dir(shell.path("turn-3.png")).expect("a folder");
@@ -104,6 +147,8 @@ fn a_camera_path_is_rendered_from_its_file() {
         &["--turntable", "3", "--cameras", "path.toml", "-o", "#.png"],
         &["--resume", "-o", "#.png"],
         &["--turntable", "3", "-o", "-", "--format", "png"],
+        &["--turntable", "3", "-o", "#.png", "--checkpoint", "a.nf"],
+        &["--turntable", "3", "-o", "#.png", "--checkpoint", "#.txt"],
     ] {
         assert_eq!(render(wrong).status.code(), Some(2), "{wrong:?}");
     }

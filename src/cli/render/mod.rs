@@ -21,6 +21,8 @@ use noisefall::{
 pub use self::arguments::Arguments;
 use self::begin::Begun;
 use super::{
+    frame_keeping::FrameKeeping,
+    keeping::{Keeping, KeptImage},
     layers::Layers,
     live::LiveView,
     messages::{Failure, tell, wrong_usage},
@@ -29,6 +31,7 @@ use super::{
     render_memory,
     replay::{self, Form, Which},
     samples::{self, SampleJob},
+    sequence::Shot,
     shot::Job,
 };
 
@@ -47,7 +50,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let begun = arguments.begin()?;
     begun.camera.check().map_err(|error| error.to_string())?;
     if let (Some(range), Some(output)) = (&arguments.samples, &output) {
-        let shots = arguments.sequence.shots(begun.camera, output)?;
+        let shots = arguments.sequence.shots(begun.camera, output, None)?;
         return arguments.sample_job(begun, range.clone())?.run(&shots);
     }
     let Begun { scene, path, description, remarks, camera, settings, resumed } = begun;
@@ -56,7 +59,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
         return replay::run(&scene, &camera, &settings, pixel, which, arguments.form()).map(|()| ExitCode::SUCCESS);
     }
     let Some(output) = output else { return Err("no output file".to_owned()) };
-    let shots = arguments.sequence.shots(camera, &output)?;
+    let shots = arguments.sequence.shots(camera, &output, arguments.keep.checkpoint())?;
     if shots.is_empty() {
         return Ok(ExitCode::SUCCESS);
     }
@@ -75,8 +78,12 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
         scene.estimator_in_force(&settings).iter().for_each(|chosen| tell(&format!("note: estimator `auto` is {chosen}")));
     }
     let request = RenderRequest { scene: scene.clone(), camera, settings };
-    let keeping =
-        arguments.keep.keeping((&request, description.as_deref(), &path), &arguments.options, &budget, resumed, &of_images)?;
+    let image = KeptImage { request: &request, description: description.as_deref(), path: &path };
+    let frames = arguments.frame_keeping(image, &budget, &shots, &of_images)?;
+    let mut keeping = match frames {
+        Some(_) => Keeping::default(),
+        None => arguments.keep.keeping(image, &arguments.options, &budget, resumed, &of_images)?,
+    };
     let job = Job {
         scene_path: &path,
         settings,
@@ -85,7 +92,6 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
         denoises: arguments.denoise,
         reference,
         threads: of_images,
-        mixed: keeping.remarks.clone(),
         build_seconds: start.elapsed().as_secs_f64(),
         is_sequence: arguments.sequence.is_asked(),
         scene_options: arguments.options.words(),
@@ -93,17 +99,30 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
         json: arguments.json,
         scene,
     };
-    let plan = Plan { images: shots.len() as u64, has_bounces: layers.has_bounces(), is_sequence: job.is_sequence };
+    let images = shots.len() as u64;
+    let plan = Plan {
+        images,
+        has_bounces: layers.has_bounces(),
+        is_sequence: job.is_sequence,
+        is_kept: keeping.plan.is_some() || frames.is_some(),
+    };
     let live = LiveView::connect(arguments.tev.as_deref(), name(&job.scene, &path))?;
     let mut rendering = Rendering::new(threads()?, budget, plan, job.json, live)?;
-    rendering.keep(keeping);
+    let mut done = ExitCode::SUCCESS;
     for shot in &shots {
-        let done = job.render(&mut rendering, shot)?;
+        if let (Some(frames), Some(checkpoint)) = (&frames, &shot.checkpoint) {
+            keeping = frames.keeping(&job.request(shot), checkpoint, &job.threads)?;
+        }
+        rendering.keep(std::mem::take(&mut keeping));
+        done = job.render(&mut rendering, shot)?;
         if done != ExitCode::SUCCESS {
-            return Ok(done);
+            break;
+        }
+        if frames.is_some() {
+            rendering.discard_checkpoint()?;
         }
     }
-    rendering.finish().map(|()| ExitCode::SUCCESS)
+    rendering.finish().map(|()| done)
 }
 
 /// Prints what is legal but probably not meant.
@@ -132,7 +151,10 @@ impl Arguments {
         };
         let of_sequence = self.sequence.mistake(output);
         let of_samples = || samples::mistake(output, self.samples.is_some(), &self.excluded_by_samples());
-        of_sequence.or_else(|| count.map(str::to_owned)).or_else(|| self.keep.mistake(resumed)).or_else(of_samples)
+        of_sequence
+            .or_else(|| count.map(str::to_owned))
+            .or_else(|| self.keep.mistake(resumed, self.sequence.is_asked()))
+            .or_else(of_samples)
     }
 
     /// The layers of the image, which only an EXR can have. Tells which options have no effect.
@@ -174,9 +196,30 @@ impl Arguments {
             display: self.display.display(scene.exposure),
             range,
             threads: Threads::new(self.threads.into(), SimdLevel::best()).map_err(|error| error.to_string())?,
+            is_sequence: self.sequence.is_asked(),
             json: self.json,
             scene,
         })
+    }
+
+    /// How the frames of a sequence are kept, if they are.
+    fn frame_keeping(
+        &self,
+        image: KeptImage<'_>,
+        budget: &Budget,
+        shots: &[Shot],
+        threads: &Threads,
+    ) -> Result<Option<FrameKeeping>, Failure> {
+        if !(self.sequence.is_asked() && self.keep.is_asked()) {
+            return Ok(None);
+        }
+        let header = image.header(&self.options, budget, threads)?;
+        let frames = FrameKeeping { header, every: self.keep.every(), continues: self.sequence.is_continued() };
+        for Shot { camera, checkpoint, .. } in shots {
+            let frame = RenderRequest { camera: *camera, ..image.request.clone() };
+            checkpoint.as_ref().map_or(Ok(()), |path| frames.check(&frame, path, threads))?;
+        }
+        Ok(Some(frames))
     }
 
     fn form(&self) -> Form<'_> {

@@ -1,6 +1,6 @@
 //! Saving writes only what changed, in the style of the file.
 use super::*;
-use crate::{declare::Textured, scene::describe, shape::Transform};
+use crate::{declare::Textured, edit::Recovery, file::faults::lose_nothing, scene::describe, shape::Transform};
 
 /// The lines that only one of two texts has, with a sign each; empty lines do not count.
 fn difference(before: &str, after: &str) -> Vec<String> {
@@ -244,4 +244,16 @@ fn line_ends_and_the_byte_order_mark_are_kept() {
     assert_eq!(document.text(), windows.replace("fov = 40", "fov = 41"));
     does(&mut document, &inverse);
     assert_eq!(document.text(), windows);
+}
+
+#[test]
+fn a_disk_that_fails_at_any_moment_leaves_the_scene_and_its_recovery_file_before() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let [scene, recovery] = ["room.toml", "room.recovery"].map(|name| folder.path().join(name));
+    for path in [&scene, &recovery] {
+        std::fs::write(path, "old").expect("it is written");
+    }
+    let mut document = Document::open(&scene, ROOM).unwrap_or_else(|error| panic!("{}", error.report()));
+    lose_nothing(&recovery, &mut || Recovery::of(&document).write(&recovery).map_err(|error| error.to_string()));
+    lose_nothing(&scene, &mut || document.save(&scene).map_err(|error| error.to_string()));
 }

@@ -62,6 +62,10 @@ pub fn replace_by(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<
     let target = Target::of(path)?;
     let write = || {
         let mut file = target.temporary()?;
+        #[cfg(test)]
+        if let Some(disk) = super::faults::disk(&target.path) {
+            return disk.put(file, &target.path, write);
+        }
         fill(file.as_file_mut(), write)?;
         file.persist(&target.path)?;
         Ok(())
@@ -82,7 +86,7 @@ fn failed(path: &Path, error: &io::Error) -> WriteError {
 }
 
 /// A writer whose bytes survive a loss of power after a sync.
-trait Durable: Write {
+pub(super) trait Durable: Write {
     fn sync(&self) -> io::Result<()>;
 }
 
@@ -93,7 +97,7 @@ impl Durable for File {
 }
 
 /// Writes and syncs the bytes, so that a rename cannot reach the disk before them.
-fn fill(file: &mut impl Durable, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
+pub(super) fn fill(file: &mut impl Durable, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
     let mut buffered = BufWriter::new(&mut *file);
     write(&mut buffered)?;
     buffered.flush()?;

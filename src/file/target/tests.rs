@@ -1,5 +1,6 @@
 //! After any failure, either the old file or the new one exists, and no other file beside it.
 use super::*;
+use crate::file::faults::lose_nothing;
 
 fn folder() -> tempfile::TempDir {
     tempfile::tempdir().expect("a folder")
@@ -176,55 +177,17 @@ fn writers_of_the_same_name_at_once_all_end_well() {
     assert_eq!(names(folder.path()), ["a.txt"]);
 }
 
-/// A disk with room for some bytes, which writes a few at a time and is interrupted.
-struct FullDisk {
-    room: usize,
-    written: Vec<u8>,
-    calls: usize,
-    is_synced: std::cell::Cell<bool>,
-}
-
-impl FullDisk {
-    fn new(room: usize) -> FullDisk {
-        FullDisk { room, written: Vec::new(), calls: 0, is_synced: std::cell::Cell::new(false) }
-    }
-}
-
-impl Write for FullDisk {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.calls += 1;
-        if self.calls.is_multiple_of(3) {
-            return Err(ErrorKind::Interrupted.into());
-        }
-        let count = bytes.len().min(7).min(self.room - self.written.len());
-        self.written.extend_from_slice(&bytes[..count]);
-        if count == 0 && !bytes.is_empty() { Err(ErrorKind::StorageFull.into()) } else { Ok(count) }
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        Ok(())
-    }
-}
-
-impl Durable for FullDisk {
-    fn sync(&self) -> io::Result<()> {
-        self.is_synced.set(true);
-        Ok(())
-    }
-}
-
 #[test]
-fn a_disk_that_is_full_at_any_byte_fails_the_write_before_the_rename() {
-    let bytes: Vec<u8> = (0..300u32).map(|i| i as u8).collect();
-    let write = |to: &mut dyn Write| bytes.chunks(50).try_for_each(|piece| to.write_all(piece));
-    for room in 0..bytes.len() {
-        let mut disk = FullDisk::new(room);
-        let error = fill(&mut disk, write).expect_err("it does not fit");
-        assert_eq!((error.kind(), disk.is_synced.get()), (ErrorKind::StorageFull, false), "{room}");
-    }
-    let mut disk = FullDisk::new(bytes.len());
-    fill(&mut disk, write).expect("it fits");
-    assert!(disk.written == bytes && disk.is_synced.get());
+fn a_disk_that_fails_at_any_moment_loses_nothing() {
+    let folder = folder();
+    let path = folder.path().join("a.txt");
+    fs::write(&path, "old").expect("it is written");
+    let bytes: Vec<u8> = (0..3000u32).map(|i| i as u8).collect();
+    lose_nothing(&path, &mut || {
+        let written = replace_by(&path, |to| bytes.chunks(50).try_for_each(|piece| to.write_all(piece)));
+        written.map_err(|error| error.to_string())
+    });
+    assert!(fs::read(&path).is_ok_and(|there| there == b"old"));
 }
 
 #[test]

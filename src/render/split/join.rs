@@ -77,7 +77,7 @@ impl Join {
     pub fn enter(&mut self, file: &SampleFile) -> Result<(), JoinError> {
         let path = || file.path().to_owned();
         if let Some((first, _)) = self.sources.first()
-            && let Some(difference) = difference(file.header(), &self.header)
+            && let Some(difference) = file.header().difference(&self.header)
         {
             return Err(JoinError::Foreign { path: path(), first: first.clone(), difference });
         }
@@ -140,33 +140,4 @@ fn sum(a: &Counters, b: &Counters) -> Counters {
         cut_paths: a.cut_paths.saturating_add(b.cut_paths),
         first_invalid: [a.first_invalid, b.first_invalid].into_iter().flatten().min(),
     }
-}
-
-/// The first thing on which the images of two files depend, and which differs.
-fn difference(a: &Header, b: &Header) -> Option<String> {
-    let [of_a, of_b] = [a, b].map(|header| serde_json::to_value(header.settings).unwrap_or_default());
-    let setting = || {
-        let names = of_a.as_object()?.keys().find(|name| of_a[*name] != of_b[*name])?;
-        Some(format!("its setting `{names}` is {}, and not {}", of_a[names], of_b[names]))
-    };
-    let file = || {
-        let other = a.files.iter().chain(&b.files).find(|file| !(a.files.contains(file) && b.files.contains(file)))?;
-        Some(format!("the scene's file {} has other contents", quote::path(Path::new(&other.path))))
-    };
-    if a.program != b.program {
-        return Some(format!("it was rendered by {}, and not by {}", a.program, b.program));
-    }
-    if (&a.scene.text, &a.scene.choices) != (&b.scene.text, &b.scene.choices) {
-        return Some("it is of another scene".to_owned());
-    }
-    if a.camera.resolution != b.camera.resolution {
-        let size = |header: &Header| header.camera.resolution.map(|side| side.to_string()).join(" × ");
-        return Some(format!("it has {} pixels, and not {}", size(a), size(b)));
-    }
-    if a.camera != b.camera {
-        return Some("it has another camera".to_owned());
-    }
-    let other = setting().or_else(file);
-    let has_other_bits = a.probe != b.probe || a.image != b.image;
-    other.or_else(|| has_other_bits.then(|| "its samples differ: the scene or the program is not the same".to_owned()))
 }

@@ -140,6 +140,9 @@ fn all_strategies_together_find_the_light_of_mis() {
             let with = |estimator, spp| mean(&scene, &RenderSettings { estimator, max_bounces: cap, ..SETTINGS }, spp);
             let [of_mis, variance] = with(Estimator::Mis, 2000);
             for estimator in [Estimator::Caustics, Estimator::Forward, Estimator::Bidirectional] {
+                let is_allowed = scene.traces_light_paths(&RenderSettings { estimator, ..SETTINGS });
+                let has_own_normals = shape == BALL && !ball.starts_with("bumped") && ball != "shadowed";
+                assert_eq!(is_allowed, estimator != Estimator::Forward || has_own_normals, "{shape} {ball}");
                 let [found, of_found] = with(estimator, 1000);
                 let z = (found - of_mis) / (variance + of_found).sqrt();
                 println!("{ball}, {}, cap {cap:?}: {found} and {of_mis}, {z} σ", estimator.name());

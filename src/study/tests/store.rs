@@ -1,5 +1,8 @@
 //! Files of measurements, complete and truncated.
-use crate::study::{CSV, Store, key, row};
+use crate::{
+    file::faults::lose_nothing,
+    study::{CSV, Store, key, row},
+};
 
 /// The lines of a run of `checkpoints`, as the store keeps them.
 fn rows(key: &str, checkpoints: usize) -> Vec<row::Row> {
@@ -89,4 +92,17 @@ fn keys_tell_parts_apart() {
     assert_ne!(key::hash(&[b"ab", b"c"]), key::hash(&[b"a", b"bc"]));
     assert_ne!(key::hash_of_picture(&[[0.0; 3]]), key::hash_of_picture(&[[0.0, -0.0, 0.0]]));
     assert!(key::is_key(&key::text(7)) && !key::is_key("7") && !key::is_key("000000000000000g"));
+}
+
+#[test]
+fn a_disk_that_fails_at_any_moment_leaves_the_measurements_before() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut store = Store::open(folder.path()).expect("an empty store");
+    store.add(rows(KEYS[0], 1)).expect("it can be written");
+    lose_nothing(&folder.path().join(CSV), &mut || store.add(rows(KEYS[1], 2)).map_err(|error| error.to_string()));
+    let before = Store::open(folder.path()).expect("a store");
+    assert_eq!((before.len(), before.dropped), (1, 0));
+    // What could not be written is measured again.
+    store.add(rows(KEYS[1], 2)).expect("it can be written");
+    assert_eq!(Store::open(folder.path()).expect("a store").len(), 2);
 }

@@ -1,21 +1,10 @@
 //! Small files of each format, with as many kinds of parts as fit.
-use std::{io::Cursor, ops::ControlFlow, sync::Arc};
+use std::io::Cursor;
 
-use crossbeam_channel::unbounded;
 use exr::prelude::{Image, SpecificChannels, Vec2, WritableImage};
 use image::{ExtendedColorType, ImageFormat};
-use noisefall::{
-    import::ImportOptions,
-    math::SimdLevel,
-    render::{
-        Budget, RenderRequest,
-        checkpoint::{KeepPlan, keep_scene, kept_header},
-        still::StillRenderer,
-        threads::Threads,
-    },
-    render_file::Target,
-    scene::{Camera, RenderSettings, Reuse},
-};
+
+use super::{packed, renders};
 
 /// The structure that mutations keep in mind.
 #[derive(Clone, Copy, PartialEq)]
@@ -29,6 +18,10 @@ pub enum Structure {
     Bytes,
     /// Sections with checksums.
     Sections,
+    /// Lines of cells.
+    Table,
+    /// Meshes of Mitsuba, packed.
+    Serialized,
 }
 
 /// What reads the first file.
@@ -41,6 +34,14 @@ pub enum Reader {
     Picture,
     /// The file of a render.
     Kept,
+    /// A file of samples.
+    Samples,
+    /// An image that carries its scene.
+    Carried,
+    /// A camera path.
+    Cameras,
+    /// The measurements of a study.
+    Study,
 }
 
 /// A file with its name and structure.
@@ -48,8 +49,18 @@ pub type File = (&'static str, Structure, Vec<u8>);
 
 /// The files of a scene, in a folder of their own. The first one is read.
 pub struct Base {
+    /// The name by which the format is chosen.
+    pub name: &'static str,
     pub reader: Reader,
     pub files: Vec<File>,
+    /// The file that is changed most often.
+    pub focus: usize,
+}
+
+impl Base {
+    pub fn new(name: &'static str, reader: Reader, files: Vec<File>) -> Base {
+        Base { name, reader, files, focus: 0 }
+    }
 }
 
 fn text(name: &'static str, text: &str) -> File {
@@ -58,59 +69,59 @@ fn text(name: &'static str, text: &str) -> File {
 
 /// All bases.
 pub fn bases() -> Vec<Base> {
-    let foreign = |files: Vec<File>| Base { reader: Reader::Foreign, files };
-    let picture = |name, format, bytes| Base { reader: Reader::Picture, files: vec![(name, format, bytes)] };
+    [foreign(), pictures(), ours()].into_iter().flatten().collect()
+}
+
+/// Scenes and meshes of other programs.
+fn foreign() -> Vec<Base> {
+    let base = |name, files: Vec<File>| Base::new(name, Reader::Foreign, files);
+    let bytes = |name, bytes| vec![(name, Structure::Bytes, bytes)];
+    let xml = vec![text("scene.xml", XML), text("part.xml", PART), text("a.ply", PLY), png_file(), text("a.spd", SPECTRUM)];
+    let pbrt =
+        vec![text("scene.pbrt", PBRT), text("part.pbrt", INCLUDED), text("a.ply", PLY), png_file(), text("a.spd", SPECTRUM)];
+    let json = ("scene.gltf", Structure::Json, gltf(true).into_bytes());
+    let chunks = ("scene.glb", Structure::Glb, glb(gltf(false).as_bytes(), &buffer()));
     vec![
-        foreign(vec![text("scene.xml", XML), text("part.xml", PART), text("a.ply", PLY), png_file(), text("a.spd", SPECTRUM)]),
-        foreign(vec![
-            text("scene.pbrt", PBRT),
-            text("part.pbrt", INCLUDED),
-            text("a.ply", PLY),
-            png_file(),
-            text("a.spd", SPECTRUM),
-        ]),
-        foreign(vec![
-            ("scene.gltf", Structure::Json, gltf(true).into_bytes()),
-            ("a.bin", Structure::Bytes, buffer()),
-            png_file(),
-        ]),
-        foreign(vec![("scene.glb", Structure::Glb, glb(gltf(false).as_bytes(), &buffer())), png_file()]),
-        foreign(vec![text("scene.obj", OBJ), text("a.mtl", MTL), png_file()]),
-        foreign(vec![text("scene.ply", PLY)]),
-        foreign(vec![("scene.ply", Structure::Bytes, binary_ply(false))]),
-        foreign(vec![("scene.ply", Structure::Bytes, binary_ply(true))]),
-        foreign(vec![text("scene.stl", STL)]),
-        foreign(vec![("scene.stl", Structure::Bytes, binary_stl())]),
-        Base { reader: Reader::Own, files: vec![text("scene.toml", TOML), text("a.ply", PLY), png_file()] },
-        picture("a.png", Structure::Png, png()),
-        picture("a.jpg", Structure::Bytes, encoded(ImageFormat::Jpeg)),
-        picture("a.bmp", Structure::Bytes, encoded(ImageFormat::Bmp)),
-        picture("a.tga", Structure::Bytes, encoded(ImageFormat::Tga)),
-        picture("a.hdr", Structure::Bytes, hdr()),
-        picture("a.exr", Structure::Bytes, exr()),
-        kept(),
+        base("xml", xml),
+        base("pbrt", pbrt),
+        base("gltf", vec![json, ("a.bin", Structure::Bytes, buffer()), png_file()]),
+        base("glb", vec![chunks, png_file()]),
+        packed::draco("draco-sequential", 0),
+        packed::draco("draco-edgebreaker", 1),
+        packed::serialized(),
+        base("obj", vec![text("scene.obj", OBJ), text("a.mtl", MTL), png_file()]),
+        base("ply", vec![text("scene.ply", PLY)]),
+        base("ply-little", bytes("scene.ply", binary_ply(false))),
+        base("ply-big", bytes("scene.ply", binary_ply(true))),
+        base("stl", vec![text("scene.stl", STL)]),
+        base("stl-binary", bytes("scene.stl", binary_stl())),
     ]
 }
 
-/// The file of a render of two tiles, with all that such a file can hold.
-pub fn kept() -> Base {
-    let scene = Arc::new(noisefall::scene::built_in());
-    let camera = Camera { resolution: [40, 9], ..scene.camera };
-    let settings = RenderSettings { adaptive: true, reuse: Reuse::Off, ..scene.settings };
-    let request = RenderRequest { scene, camera, settings };
-    let threads = || Threads::new(1, SimdLevel::best()).expect("a thread can be had");
-    let folder = tempfile::tempdir().expect("a folder");
-    let path = folder.path().join("a.nf");
-    let target = Target { spp: Some(9), ..Target::default() };
-    let kept = keep_scene(&request.scene, &folder.path().join("a.toml"), &ImportOptions::default());
-    let header = kept_header(&request, kept, None, target, &threads()).expect("it names no files");
-    let (events, _) = unbounded();
-    let mut still = StillRenderer::new(threads(), Budget { max_spp: Some(9), ..Budget::default() });
-    still.set_plan(KeepPlan { path: path.clone(), header, every: None, events });
-    still.picture(request, &mut |_| ControlFlow::Continue(())).expect("it renders");
-    still.keep_now().expect("it renders");
-    let bytes = std::fs::read(path).expect("it was written");
-    Base { reader: Reader::Kept, files: vec![("a.nf", Structure::Sections, bytes)] }
+fn pictures() -> Vec<Base> {
+    let base = |name, file| Base::new(name, Reader::Picture, vec![file]);
+    vec![
+        base("png", png_file()),
+        base("jpg", ("a.jpg", Structure::Bytes, encoded(ImageFormat::Jpeg))),
+        base("bmp", ("a.bmp", Structure::Bytes, encoded(ImageFormat::Bmp))),
+        base("tga", ("a.tga", Structure::Bytes, encoded(ImageFormat::Tga))),
+        base("webp", ("a.webp", Structure::Bytes, encoded(ImageFormat::WebP))),
+        base("hdr", ("a.hdr", Structure::Bytes, hdr())),
+        base("exr", ("a.exr", Structure::Bytes, exr())),
+    ]
+}
+
+/// Files that Noisefall writes, or that users write for it.
+fn ours() -> Vec<Base> {
+    let study = ("study.csv", Structure::Table, STUDY.as_bytes().to_vec());
+    vec![
+        Base::new("toml", Reader::Own, vec![text("scene.toml", TOML), text("a.ply", PLY), png_file()]),
+        Base::new("cameras", Reader::Cameras, vec![text("cameras.toml", CAMERAS)]),
+        Base::new("study", Reader::Study, vec![study]),
+        renders::carried(),
+        renders::kept(),
+        renders::samples(),
+    ]
 }
 
 fn png_file() -> File {
@@ -193,6 +204,8 @@ const PBRT: &str = include_str!("scene.pbrt");
 const INCLUDED: &str = "Material \"conductor\" \"spectrum eta\" \"metal-Cu-eta\" \"float roughness\" 0.1\nShape \"disk\"\n";
 const SPECTRUM: &str = "400 0.5\n550 0.7\n700 0.2\n";
 const GLTF: &str = include_str!("scene.gltf");
+const CAMERAS: &str = include_str!("cameras.toml");
+const STUDY: &str = include_str!("study.csv");
 const TOML: &str = include_str!("scene.toml");
 const OBJ: &str = "mtllib a.mtl\nusemtl red\nv 0 0 0\nv 1 0 0 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 1\nvn 0 0 1\n\
     f 1/1/1 2/2/1 3/1/1 \\\n 4/2/1\nusemtl glass\nf -1//-1 -2//-1 -3//-1\nf 1 2 3\n";

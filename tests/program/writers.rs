@@ -1,0 +1,27 @@
+//! All files are written by the module whose tests make the disk fail.
+use std::{fs, path::Path};
+
+use crate::imports::{code, source, source_files};
+
+/// What creates, changes or renames a file.
+const WRITES: [&str; 8] =
+    ["fs::write(", "fs::rename(", "fs::copy(", "File::create", "File::options", "OpenOptions", ".persist(", "NamedTempFile"];
+/// The module that replaces files, its faults for tests, and the store of a study, which opens an empty file to lock it.
+const WRITERS: [&str; 3] = ["file/target.rs", "file/faults.rs", "study/store.rs"];
+
+#[test]
+fn every_file_is_replaced_whole_by_the_same_module() {
+    let source = source();
+    let is_test = |path: &Path| path.iter().any(|part| part == "tests" || part == "tests.rs");
+    let mut found = Vec::new();
+    for path in source_files(&source).into_iter().filter(|path| !is_test(path)) {
+        let text = code(&fs::read_to_string(&path).expect("source is text"));
+        if WRITES.iter().any(|write| text.contains(write)) {
+            found.push(path.strip_prefix(&source).expect("it lies in the source").display().to_string());
+        }
+    }
+    found.sort();
+    let mut writers = WRITERS;
+    writers.sort_unstable();
+    assert_eq!(found, writers, "other code writes files, or these no longer do");
+}
