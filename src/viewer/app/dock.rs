@@ -16,7 +16,9 @@ use crate::viewer::instruments::{
 };
 use crate::viewer::panels::views;
 
+/// Height of an instrument at first, points: the image has more than half of a low window.
 const HEIGHT: f32 = 250.0;
+const PART: f32 = 0.45;
 /// Width that the tabs and the choice of a view need beside each other, points.
 const TABS: f32 = 500.0;
 
@@ -43,12 +45,16 @@ impl App {
             return;
         }
         let most = (ui.available_height() - 160.0).max(120.0);
-        Panel::bottom("instrument").resizable(true).default_size(HEIGHT.min(most)).max_size(most).show(ui, |ui| {
-            // The contents fill the panel, whose height is the user's.
-            let room = ui.available_size();
-            ui.set_min_size(room);
-            self.instrument(ui, tab);
-        });
+        Panel::bottom("instrument")
+            .resizable(true)
+            .default_size(HEIGHT.min(PART * ui.available_height()).min(most))
+            .max_size(most)
+            .show(ui, |ui| {
+                // The contents fill the panel, whose height is the user's.
+                let room = ui.available_size();
+                ui.set_min_size(room);
+                self.instrument(ui, tab);
+            });
     }
 
     /// Whether the instrument only asks what to compare with: a line, which leaves the room to the image.
