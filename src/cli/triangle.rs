@@ -15,7 +15,7 @@ pub fn strategy_bounces(text: &str) -> Result<u32, String> {
 /// Settings of every strategy of paths with up to `bounces` bounces, row by row.
 pub fn strategies(scene: &Scene, base: RenderSettings, bounces: u32, weighted: bool) -> Result<Vec<RenderSettings>, Failure> {
     let all = (0..=bounces).flat_map(|bounces| Strategy::of_bounces(bounces, weighted));
-    let all: Vec<_> = all.map(|strategy| strategy.settings(base)).collect();
+    let all: Vec<_> = all.map(|strategy| base.of_strategy(strategy)).collect();
     match all.first().and_then(|first| scene.lacks_light_paths(first)) {
         Some(reason) => Err(format!("there are no strategies to show: {reason}")),
         None => Ok(all),

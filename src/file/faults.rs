@@ -13,7 +13,7 @@ use std::{
 
 use tempfile::NamedTempFile;
 
-use super::target::{Durable, fill};
+use super::durable::{Durable, fill};
 
 /// Most bytes that a faulty disk takes at once.
 const SHORT: usize = 1021;

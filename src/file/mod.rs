@@ -1,4 +1,5 @@
 //! File access: opens files that a user names, and replaces files atomically.
+mod durable;
 #[cfg(test)]
 pub mod faults;
 mod numbered;

@@ -32,6 +32,7 @@ pub mod path_formula;
 pub mod path_samples;
 mod path_strategies;
 pub mod path_text;
+mod path_words;
 pub mod profile;
 mod protocol;
 pub mod region;

@@ -1,5 +1,5 @@
 //! The paths from both ends of a sample as text, with what each strategy finds.
-use super::path_text::{number, place, three};
+use super::path_words::{number, place, three};
 use crate::{
     integrator::{BothEnds, PathPoint, StrategyTerm},
     scene::Scene,

@@ -1,5 +1,8 @@
 //! A path as text: the settings, the nested sum, the reason of its end, and every vertex.
-use super::{path_formula, path_strategies};
+use super::{
+    path_formula, path_strategies,
+    path_words::{number, place, three},
+};
 use crate::{
     integrator::{EmitterHit, Outcome, Reflection, Replay, SampledLight, Surface, Vertex},
     render::settings_text::on_or_off,
@@ -159,20 +162,6 @@ fn name(scene: &Scene, object: u32) -> &str {
         "" => "(unnamed)",
         name => name,
     }
-}
-
-pub(super) fn three(values: [f32; 3]) -> String {
-    values.map(number).join(" ")
-}
-
-/// A point or a direction.
-pub(super) fn place([x, y, z]: [f32; 3]) -> String {
-    format!("{x:.5} {y:.5} {z:.5}")
-}
-
-/// Five decimals, or five significant digits if the number is very small or large.
-pub(super) fn number(x: f32) -> String {
-    if x == 0.0 || (1e-3..1e4).contains(&x.abs()) { format!("{x:.5}") } else { format!("{x:.4e}") }
 }
 
 #[cfg(test)]

@@ -80,6 +80,18 @@ crate::declare::words! {
 }
 
 impl RenderSettings {
+    /// The settings that render the light of a strategy alone. The cap also bounds the number of connections, whatever the roulette.
+    pub fn of_strategy(self, strategy: Strategy) -> RenderSettings {
+        RenderSettings {
+            estimator: Estimator::Bidirectional,
+            reuse: Reuse::Off,
+            adaptive: false,
+            strategy: Some(strategy),
+            max_bounces: Some(strategy.bounces()),
+            ..self
+        }
+    }
+
     /// How direct light is estimated, as files and the window name it.
     pub const ESTIMATOR: Parameter =
         Parameter::new("estimator", "How direct light is estimated. All estimators converge to the same image.")

@@ -1,8 +1,6 @@
 //! A single strategy of bidirectional paths.
 use serde::{Deserialize, Serialize};
 
-use super::{Estimator, RenderSettings, Reuse};
-
 /// The only strategy of the estimator `bidirectional` that finds light: with `s` vertices from the light and `t` from the camera.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Strategy {
@@ -21,18 +19,6 @@ impl Strategy {
     pub fn of_bounces(bounces: u32, weighted: bool) -> impl Iterator<Item = Strategy> {
         let most = if bounces == 0 { 0 } else { bounces + 1 };
         (0..=most).map(move |s| Strategy { s, t: bounces + 2 - s, weighted })
-    }
-
-    /// Settings that render the light of this strategy alone. The cap also bounds the number of connections, whatever the roulette.
-    pub fn settings(self, base: RenderSettings) -> RenderSettings {
-        RenderSettings {
-            estimator: Estimator::Bidirectional,
-            reuse: Reuse::Off,
-            adaptive: false,
-            strategy: Some(self),
-            max_bounces: Some(self.bounces()),
-            ..base
-        }
     }
 
     /// Number of bounces of its paths.

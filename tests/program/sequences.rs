@@ -110,7 +110,7 @@ fn a_frame_that_was_kept_continues_in_its_sequence() {
     // A frame that is finished needs no checkpoint.
     assert!(!shell.path("turn-02.nf").exists() && !shell.path("turn-03.nf").exists());
     let again = turn(&[&kept[..], &["--spp", "20", "--resume"]].concat());
-    assert!(again.status.success() && text(&again.stderr).contains("2 of 2 frames exist and are left out"));
+    assert!(again.status.success() && text(&again.stderr).contains("2 of 2 frames exist and are skipped"));
 }
 
 #[test]

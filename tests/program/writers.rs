@@ -7,7 +7,7 @@ use crate::imports::{code, source, source_files};
 const WRITES: [&str; 8] =
     ["fs::write(", "fs::rename(", "fs::copy(", "File::create", "File::options", "OpenOptions", ".persist(", "NamedTempFile"];
 /// The module that replaces files, its faults for tests, and the store of a study, which opens an empty file to lock it.
-const WRITERS: [&str; 3] = ["file/target.rs", "file/faults.rs", "study/store.rs"];
+const WRITERS: [&str; 3] = ["file/target/mod.rs", "file/faults.rs", "study/store.rs"];
 
 #[test]
 fn every_file_is_replaced_whole_by_the_same_module() {

@@ -6,11 +6,13 @@ use std::{
     ffi::{OsStr, OsString},
     fs::{self, File, FileType, TryLockError},
     hash::{DefaultHasher, Hash, Hasher},
-    io::{self, BufWriter, ErrorKind, Write},
+    io::{self, ErrorKind, Write},
     path::{Path, PathBuf},
 };
 
 use tempfile::NamedTempFile;
+
+use super::durable::fill;
 
 /// Marks the name of a temporary file: `.picture.png.noisefall-AbC123.part`.
 const MARK: &str = ".noisefall-";
@@ -83,26 +85,6 @@ fn failed(path: &Path, error: &io::Error) -> WriteError {
         _ => "",
     };
     WriteError::Failed { path: path.to_owned(), reason: format!("{reason}{remedy}") }
-}
-
-/// A writer whose bytes survive a loss of power after a sync.
-pub(super) trait Durable: Write {
-    fn sync(&self) -> io::Result<()>;
-}
-
-impl Durable for File {
-    fn sync(&self) -> io::Result<()> {
-        self.sync_all()
-    }
-}
-
-/// Writes and syncs the bytes, so that a rename cannot reach the disk before them.
-pub(super) fn fill(file: &mut impl Durable, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
-    let mut buffered = BufWriter::new(&mut *file);
-    write(&mut buffered)?;
-    buffered.flush()?;
-    drop(buffered);
-    file.sync()
 }
 
 /// A file to write.

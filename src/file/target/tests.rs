@@ -1,6 +1,6 @@
 //! After any failure, either the old file or the new one exists, and no other file beside it.
 use super::*;
-use crate::file::faults::lose_nothing;
+use crate::file::{durable::Durable, faults::lose_nothing};
 
 fn folder() -> tempfile::TempDir {
     tempfile::tempdir().expect("a folder")

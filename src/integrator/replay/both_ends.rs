@@ -56,13 +56,13 @@ pub struct StrategyTerm {
     pub contribution: [f32; 3],
 }
 
-/// Replays the paths from both ends of a batch of one pixel. Returns its radiance, too; `None` if there are no paths from lights.
-pub(super) fn both_ends(work: &Work, batch: &mut Batch) -> Option<([f32; 3], BothEnds)> {
+/// Replays the paths from both ends of a batch of one pixel; `None` if there are no paths from lights.
+pub(super) fn both_ends(work: &Work, batch: &mut Batch) -> Option<BothEnds> {
     let rays = work.scene.light_rays(work.settings)?;
     let mut recorder = Recorder { work, rays, both: BothEnds::default(), ends: Default::default() };
     let finished = trace_both_ends(One, work, rays, batch, &|| false, &mut recorder);
     debug_assert_eq!(finished, Ok(()));
-    Some((super::radiance_at(batch, [0, 0]), recorder.both))
+    Some(recorder.both)
 }
 
 /// A path as it grows.
@@ -145,8 +145,8 @@ impl Observer<One> for Recorder<'_, '_> {
         let object = ray.on_surface.0.then(|| scene.owners[ray.place.primitive.0 as usize]);
         self.both.light.push(PathPoint { position: ray.o.lane(0), object });
         let cos = if ray.on_surface.0 { ray.d.dot(ray.point.n_geometric).abs().0 } else { 1.0 };
-        let (_, far) = self.rays.density_of_lamps(One, &scene.lights, ray.is_lamp, ray.light);
-        let is_near = ray.on_surface.0 || ray.is_lamp.0 && !far.0;
+        let is_near_lamp = || !self.rays.density_of_lamps(One, &scene.lights, ray.is_lamp, ray.light).1.0;
+        let is_near = ray.on_surface.0 || ray.is_lamp.0 && is_near_lamp();
         let path = &mut self.ends[PathStart::Light as usize];
         path.pdf = f64::from(cos) / f64::from(ray.inverse_density.0);
         path.step = if is_near { Step::Direction } else { Step::Parallel };

@@ -57,8 +57,9 @@ pub fn replay(scene: &Scene, rays: &CameraRays, settings: &RenderSettings, pixel
         let from_camera = RenderSettings { estimator: Estimator::Mis, reuse: Reuse::Off, ..*settings };
         let replay = replay(scene, rays, &from_camera, pixel, sample);
         let work = Work::tile(scene, rays, settings, pixel, [1, 1], sample);
-        let Some((radiance, both_ends)) = both_ends(&work, &mut Batch::default()) else { return replay };
-        return Replay { radiance, alone: Some(replay.radiance), both_ends: Some(both_ends), ..replay };
+        let mut batch = Batch::default();
+        let both_ends = both_ends(&work, &mut batch);
+        return Replay { radiance: radiance_at(&batch, [0, 0]), alone: Some(replay.radiance), both_ends, ..replay };
     }
     let one = Work::tile(scene, rays, settings, pixel, [1, 1], sample);
     let work = if one.shares() { one.whole_tile() } else { one };

@@ -16,7 +16,9 @@ use crate::viewer::instruments::{
 };
 use crate::viewer::panels::views;
 
+/// Height of an instrument at first, points: the image has more than half of a low window.
 const HEIGHT: f32 = 250.0;
+const PART: f32 = 0.45;
 /// Width that the tabs and the choice of a view need beside each other, points.
 const TABS: f32 = 500.0;
 
@@ -43,12 +45,16 @@ impl App {
             return;
         }
         let most = (ui.available_height() - 160.0).max(120.0);
-        Panel::bottom("instrument").resizable(true).default_size(HEIGHT.min(most)).max_size(most).show(ui, |ui| {
-            // The contents fill the panel, whose height is the user's.
-            let room = ui.available_size();
-            ui.set_min_size(room);
-            self.instrument(ui, tab);
-        });
+        Panel::bottom("instrument")
+            .resizable(true)
+            .default_size(HEIGHT.min(PART * ui.available_height()).min(most))
+            .max_size(most)
+            .show(ui, |ui| {
+                // The contents fill the panel, whose height is the user's.
+                let room = ui.available_size();
+                ui.set_min_size(room);
+                self.instrument(ui, tab);
+            });
     }
 
     /// Whether the instrument only asks what to compare with: a line, which leaves the room to the image.
@@ -129,7 +135,7 @@ impl App {
                 let has_room = bounces::has_room_for_series(request.camera.resolution);
                 has_room.then(|| match self.strategy() {
                     Some(strategy) => {
-                        RenderTask::Picture(RenderRequest { settings: strategy.settings(request.settings), ..request })
+                        RenderTask::Picture(RenderRequest { settings: request.settings.of_strategy(strategy), ..request })
                     }
                     None => RenderTask::Series(request),
                 })
@@ -150,7 +156,7 @@ impl App {
     /// Why there are no strategies of bidirectional paths to show, if so.
     fn without_strategies(&self) -> Option<String> {
         let opened = self.session.opened.as_ref()?;
-        opened.scene.lacks_light_paths(&strategies::FIRST.settings(self.session.settings))
+        opened.scene.lacks_light_paths(&self.session.settings.of_strategy(strategies::FIRST))
     }
 
     /// Traces what the path inspector shows, while it is open.

@@ -99,6 +99,9 @@ impl Gallery {
                 // Nothing takes the keyboard while egui measures the window.
                 let focused = (self.takes_keyboard && ui.is_enabled()).then_some(current);
                 self.takes_keyboard &= !ui.is_enabled();
+                // The bar has room of its own: it would lie over the last cards.
+                let scroll = &mut ui.spacing_mut().scroll;
+                scroll.floating_allocated_width = scroll.bar_width;
                 // As tall at once as it will be: the window is centred by its last size.
                 ScrollArea::vertical().max_height(room.y).min_scrolled_height(room.y).show(ui, |ui| {
                     request = self.cards(ui, catalogue, columns, focused).map(SceneRequest::Open);

@@ -102,7 +102,7 @@ fn the_panel_says_that_adaptive_sampling_is_not_used_where_pixels_share_paths() 
     sampled(&mut window);
     window.run_steps(3);
     assert!(window.query_by_label(NOTE).is_some());
-    restarts(&mut window, "no sharing", |w| choose(w, "Share paths", "Never"));
+    restarts(&mut window, "no sharing", |w| choose(w, "Sharing", "Nothing"));
     sampled(&mut window);
     window.run_steps(3);
     assert!(window.query_by_label_contains("not used").is_none());
