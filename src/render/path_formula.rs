@@ -231,7 +231,7 @@ mod tests {
                 for sample in 0..40 {
                     let replay = replay(scene, &settings, [7 + sample % 20, 9 + sample / 2], sample);
                     let nested = value(&levels(&replay));
-                    for (nested, sum) in nested.iter().zip(replay.radiance) {
+                    for (nested, sum) in nested.iter().zip(replay.alone.unwrap_or(replay.radiance)) {
                         let scale = f64::from(sum).max(1e-3);
                         assert!((nested - f64::from(sum)).abs() < 1e-4 * scale, "{nested} {sum}:\n{}", text(&replay));
                     }

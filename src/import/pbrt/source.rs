@@ -64,7 +64,7 @@ impl Files {
         if !self.known.insert(path.display().to_string()) {
             self.repeated.set(self.repeated.get() + length.max(LEAST_REPEATED));
             if self.repeated.get() > MOST_REPEATED {
-                return Err("files include each other without end".to_owned());
+                return Err("files are included too many times".to_owned());
             }
         }
         self.bytes += length;

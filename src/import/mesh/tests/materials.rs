@@ -106,7 +106,7 @@ fn missing_libraries_and_textures_are_remarks_with_grey_and_constants() {
     assert_eq!(lost.description.materials["a"].kind, Lambertian { albedo: Textured::grey(0.5) }.into());
     let bare = with("Kd 0.5 0.5 0.5\nmap_Kd lost.png\nmap_d a.dds\ndisp a.png\n", &[]);
     let lines = bare.remarks.lines(9).join("\n");
-    for part in ["`lost.png`: there is no such file", "`a.dds` is not of a format", "`disp a.png`"] {
+    for part in ["`lost.png`: there is no such file", "`a.dds` is not of a supported format", "`disp a.png`"] {
         assert!(lines.contains(part), "{part} is not in {lines}");
     }
     assert_eq!(bare.description.materials["a b"].kind, Lambertian { albedo: Textured::grey(0.5) }.into());

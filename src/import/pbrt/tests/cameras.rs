@@ -76,6 +76,6 @@ fn what_is_not_taken_over_is_remarked() {
     let found = imported("Film \"rgb\" \"float cropwindow\" [0 .5 0 .5] \"string hue\" \"red\"\nCamera \"spherical\"");
     let lines = remarks(&found).join("\n");
     assert!(lines.contains("cropwindow") && lines.contains("`hue`") && lines.contains("spherical"), "{lines}");
-    assert!(error("Camera \"fisheye\"\nWorldBegin").contains("no camera"));
+    assert!(error("Camera \"fisheye\"\nWorldBegin").contains("not a camera"));
     assert!(error("Film \"rgb\" \"integer xresolution\" 0\nWorldBegin").contains("xresolution"));
 }

@@ -10,7 +10,7 @@ fn unbalanced_ends_are_refused() {
         ("WorldBegin\nAttributeBegin", "its End is missing"),
         ("WorldBegin\nObjectBegin \"a\"\nObjectBegin \"b\"", "within another"),
         ("WorldBegin\nObjectBegin \"a\"\nObjectInstance \"a\"", "within a definition"),
-        ("WorldBegin\nObjectInstance \"a\"", "no object"),
+        ("WorldBegin\nObjectInstance \"a\"", "not an object"),
         ("WorldBegin\nWorldBegin", "comes twice"),
     ] {
         assert!(error(text).contains(reason), "{text}: {}", error(text));
@@ -40,7 +40,7 @@ fn files_that_multiply_are_refused() {
     let texts: Vec<String> = (0..40).map(|i| format!("Include \"{}.pbrt\"\n", i + 1).repeat(2)).collect();
     let mut files: Vec<(&str, &str)> = names.iter().zip(&texts).map(|(name, text)| (name.as_str(), text.as_str())).collect();
     files.extend([("40.pbrt", ""), ("a.pbrt", "Include \"0.pbrt\"")]);
-    assert!(Files::new(&files).read().is_err_and(|error| error.to_string().contains("again and again")));
+    assert!(Files::new(&files).read().is_err_and(|error| error.to_string().contains("too many times")));
 }
 
 #[test]
