@@ -6,8 +6,8 @@ use crate::imports::{code, source, source_files};
 /// What creates, changes or renames a file.
 const WRITES: [&str; 8] =
     ["fs::write(", "fs::rename(", "fs::copy(", "File::create", "File::options", "OpenOptions", ".persist(", "NamedTempFile"];
-/// The module that replaces files, its faults for tests, and the store of a study, which opens an empty file to lock it.
-const WRITERS: [&str; 3] = ["file/target/mod.rs", "file/faults.rs", "study/store.rs"];
+/// The module that replaces files, its faults for tests, and those that lock an empty file: studies and recovery files.
+const WRITERS: [&str; 4] = ["file/target/mod.rs", "file/faults.rs", "study/store.rs", "viewer/background/recovery_files.rs"];
 
 #[test]
 fn every_file_is_replaced_whole_by_the_same_module() {

@@ -20,7 +20,7 @@ resolution = [32, 32]
 [materials]
 white = { lambertian = { albedo = 0.9 } }
 glossy = { conductor = { reflectance = 0.95, roughness = 0.5 } }
-coated = { rough_plastic = { albedo = 0.9, roughness = 0.3 } }
+coated = { rough_plastic = { albedo = 0.9, ior = 1.5, roughness = 0.3 } }
 clay = { principled = { base_color = 0.9, base_diffuse_roughness = 0.5 } }
 [[objects]]
 shape = { cuboid = { min = [-1.0, -1.0, -1.0], max = [1.0, 1.0, 1.0] } }
