@@ -50,7 +50,7 @@ fn saving_writes_the_changed_line_and_no_other_and_the_title_says_what_is_unsave
     let title = |window: &Window| window.state().window.title.clone();
     assert!(title(&window).starts_with("Five-sphere Cornell box") && !title(&window).contains('•'));
     grow(&mut window);
-    assert!(title(&window).starts_with("Five-sphere Cornell box • "), "{}", title(&window));
+    assert!(title(&window).starts_with("Five-sphere Cornell box (mine.toml) • "), "{}", title(&window));
     save(&mut window);
     assert!(!title(&window).contains('•'));
     let saved = std::fs::read_to_string(&path).expect("it is there");
