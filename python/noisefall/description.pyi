@@ -14,19 +14,19 @@ class Sky:
     ground_albedo: Sequence[float] | float | None = None
     """Albedo of the ground, which brightens the sky of `hosek`."""
     model: Literal['preetham', 'hosek'] | None = None
-    """Where the radiance is from."""
+    """Model of the radiance."""
     sky_scale: float | None = None
     """Factor that multiplies the radiance of the sky."""
     sun: Sequence[float] | None = None
     """Direction towards the sun, of any length."""
     sun_diameter: float | None = None
-    """Diameter of the sun, which keeps its irradiance. Default: that of the model. (degrees)"""
+    """Angular diameter of the sun. Changing it keeps the irradiance. Default: that of the model. (degrees)"""
     sun_scale: float | None = None
     """Factor that multiplies the radiance of the sun; 0 shows the sky alone."""
     turbidity: float | None = None
     """Haze: 2 is very clear, 10 is hazy."""
     zenith: Sequence[float] | None = None
-    """Direction upwards, of any length."""
+    """Direction of the zenith, of any length."""
 
 @dataclass(kw_only=True)
 class Rotate:
@@ -57,7 +57,7 @@ class Background:
     image: str | None = None
     """Equirectangular image, such as EXR or HDR; its centre is towards −z."""
     pole_rows: bool | None = None
-    """Whether the first and the last row of texels lie at the poles, and not half a row from them."""
+    """Whether the first and last rows of texels lie at the poles. Otherwise they lie half a row from them."""
     radiance: Sequence[float] | float | None = None
     """Radiance of each channel. (W·sr⁻¹·m⁻²)"""
     rotate: float | None = None
@@ -241,7 +241,7 @@ class Blend:
     """A mixture of two materials, each of which may be a blend or `null`."""
 
     by_side: bool | None = None
-    """Whether the front is of the first material alone, and the back of the second, whatever the weight."""
+    """Whether the front has the first material and the back the second, whatever the weight."""
     first: str
     """Name of the first material."""
     second: str
@@ -494,11 +494,11 @@ class Material:
     mirror: Mirror | Mapping[str, Any] | None = None
     """A smooth mirror."""
     mirrored_normals: bool | None = None
-    """Whether normals of bump and normal maps that face away from the viewer are mirrored in the normal of the surface, which replaces them otherwise. Default: false."""
+    """Whether mapped normals that face away from the viewer are mirrored at the normal of the surface. Otherwise that normal replaces them. Default: false."""
     normal_map: str | None = None
     """A linear image of shading normals."""
     normal_shadowing: bool | None = None
-    """Whether bump and normal maps darken light at grazing angles, as microfacets do, which softens hard edges of shading. Such a surface is not reciprocal. Default: false."""
+    """Whether bump and normal maps darken light at grazing angles, as microfacets do. This softens hard edges of shading, and makes the surface not reciprocal. Default: false."""
     null: Null | Mapping[str, Any] | None = None
     """A surface that light passes unchanged."""
     opacity: float | Mapping[str, str] | None = None
@@ -764,11 +764,11 @@ class Image:
     path: str
     """PNG, JPEG, TGA, WebP, EXR or HDR file."""
     rotate: float | None = None
-    """Rotation of u towards v, applied after that. (°)"""
+    """Rotation from u towards v, applied after the shear. (°)"""
     scale: Sequence[float] | None = None
     """Factors that multiply u and v, applied first. v points downwards."""
     shear: float | None = None
-    """What v adds to u, applied after the scale."""
+    """Multiple of v that is added to u, applied after the scale."""
     wrap_u: Literal['repeat', 'mirror', 'clamp', 'black'] | None = None
     """How the image continues beyond 0 and 1 in u."""
     wrap_v: Literal['repeat', 'mirror', 'clamp', 'black'] | None = None
