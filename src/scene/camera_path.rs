@@ -16,7 +16,9 @@ use std::{
 use glam::DVec3;
 use toml::de::DeTable;
 
-use super::{Camera, Lens, SceneError, diagnostic::SourceText, load::read_text, read::read, wording::in_plain_words};
+use super::{
+    Camera, Lens, SceneError, diagnostic::SourceText, load::read_text, parse::check_nesting, read::read, wording::in_plain_words,
+};
 use crate::declare::{CountRange, Declare, Parameter, Parameters, Range};
 
 /// Cameras at given times.
@@ -72,6 +74,7 @@ impl CameraPath {
     /// The path in a text. `name` is its name in errors.
     pub fn parse(name: &str, text: String) -> Result<CameraPath, SceneError> {
         let source = SourceText { name: name.to_owned(), text };
+        check_nesting(&source)?;
         let table = DeTable::parse(&source.text).map_err(|error| in_plain_words(&source, &error))?;
         let mut path = CameraPath { frames: 2, keys: Vec::new() };
         let (_, errors) = read(&mut path, &table, &source);

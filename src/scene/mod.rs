@@ -19,6 +19,7 @@ mod light_paths;
 mod load;
 mod locate;
 mod material_instance;
+mod nesting;
 mod object;
 mod parse;
 pub mod projection;

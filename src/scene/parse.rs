@@ -10,6 +10,7 @@ use super::{
     description::{FORMAT, SceneDescription},
     diagnostic::{SceneError, SourceText},
     locate::locate,
+    nesting::too_deep,
     read::read as read_description,
     syntax::{Slips, slips},
     wording::in_plain_words,
@@ -83,6 +84,7 @@ fn understood(source: &SourceText) -> Result<(SceneDescription, Damage, Vec<Scen
         let help = "keep large meshes in files of their own, as OBJ or PLY";
         SceneError::of_file(Path::new(&source.name), error.to_string(), help)
     })?;
+    check_nesting(source)?;
     let table = DeTable::parse(&source.text).map_err(|first| not_toml(source, &first))?;
     if table.get_ref().is_empty() {
         return Err(source.error(0..0, "the file is empty; a scene begins with `format = 1`", "expected `format = 1`"));
@@ -91,6 +93,12 @@ fn understood(source: &SourceText) -> Result<(SceneDescription, Damage, Vec<Scen
     let mut description = SceneDescription::default();
     let (damage, errors) = read_description(&mut description, &table, source);
     Ok((description, damage, errors))
+}
+
+/// Refuses brackets that nest too deeply to be parsed.
+pub(super) fn check_nesting(source: &SourceText) -> Result<(), SceneError> {
+    let refuse = |place| source.error(place, "too many brackets are open", "close the brackets before this one");
+    too_deep(&source.text).map_or(Ok(()), |place| Err(refuse(place)))
 }
 
 /// All syntax errors of a text: those found in the text itself, and those of the TOML parser on other lines. `first` is the first

@@ -30,6 +30,7 @@ use std::{
     time::{Duration, Instant},
 };
 
+use noisefall::memory::set_limit;
 use rand::{Rng, SeedableRng, rngs::SmallRng};
 
 use self::{
@@ -107,12 +108,14 @@ impl World {
         World(root)
     }
 
-    /// A text without the place of this world, and without white space, because long lines are broken, also within a path. `text` is
-    /// that of a value for debugging.
+    /// A text without the place of this world, and without white space, because long lines are broken, also within a path. Of longer
+    /// ones a message shows a part, which may begin within the place. `text` is that of a value for debugging.
     fn plain(&self, text: &str) -> String {
         let text = text.replace("\\n", "");
         let words: String = text.chars().filter(|c| !c.is_whitespace() && *c != '│').collect();
-        words.replace(&self.0.display().to_string(), mutation::ROOT)
+        let root = self.0.display().to_string();
+        let cuts = root.char_indices().map(|(at, _)| &root[at..]);
+        cuts.fold(words.replace(&root, mutation::ROOT), |words, end| words.replace(&format!("…{end}/"), "…/"))
     }
 
     /// Writes the files of an input, and returns the first one.
@@ -177,6 +180,8 @@ fn do_no_harm(bases: &[Base], inputs: u64) {
     let folder = tempfile::tempdir().expect("a folder").keep();
     let [whole, broken] = [("a", true), ("b", false)].map(|(name, are_whole)| World::new(folder.join(name), bases, are_whole));
     tell(&format!("inputs {first} to {} of seed {seed} in {}", first + inputs, folder.display()));
+    // Some formats pack any number of pixels into a few bytes: there, only this limits the memory.
+    set_limit(ROOM as u64 / 2);
     let start = Instant::now();
     let current = Arc::new(AtomicU64::new(first));
     watch(Arc::downgrade(&current));
