@@ -55,10 +55,9 @@ pub(super) fn visible_smooth_normal<L: Lanes>(smooth: V<L>, n: V<L>, wo: V<L>) -
     smooth.dot(wo).above(GRAZING).pick(smooth, n)
 }
 
-/// A tilted normal that the viewer in the direction `wo` can see. One that faces away is mirrored in the normal `n` of the surface if its
-/// flags in [`crate::scene::surface::Surfaces::relief`] says so (V. Schüßler et al., "Microfacet-based Normal Mapping for Robust Monte Carlo
-/// Path Tracing", SIGGRAPH Asia 2017), and is replaced by it otherwise. Returns
-/// the number of the case, too.
+/// A tilted normal that the viewer in the direction `wo` can see, and the number of the case. One that faces away is mirrored in the
+/// normal `n` of the surface if its `flags` in [`crate::scene::surface::Surfaces::relief`] say so (V. Schüßler et al.,
+/// "Microfacet-based Normal Mapping for Robust Monte Carlo Path Tracing", SIGGRAPH Asia 2017), and is replaced by it otherwise.
 #[inline(always)]
 pub(super) fn visible_normal<L: Lanes>(l: L, flags: U<L>, tilted: V<L>, n: V<L>, wo: V<L>) -> (V<L>, U<L>) {
     let mirrored = n * (n.dot(tilted) * 2.0) - tilted;

@@ -116,8 +116,7 @@ fn scatter_kind<L: Lanes, K: Shade>(
     let SurfaceHits { hit, vertex, .. } = &surface;
     let coordinates = ReflectionCoordinates::call_of(l, work, hit.slot, reflection, K::LOBES);
     let bsdf = surface.bsdf(l, l.first(0));
-    let viewed = surface.normals.towards(l, back);
-    let frame = surface.frame_about(l, &viewed);
+    let View { frame, normal } = surface.view(l, back);
     let wo = frame.local_from_world(back);
     let sample = bsdf.sample(wo, coordinates.direction, coordinates.lobe);
     let d = frame.world_from_local(sample.wi);
@@ -132,11 +131,12 @@ fn scatter_kind<L: Lanes, K: Shade>(
     let unscaled = judged / K::roulette_scale(&bsdf, front, l.f(1.0));
     // Mirrors and glass keep the angles to the shading normal, but flux is measured across the surface.
     let (mut weight, mut of_delta, mut reversible) = (sample.weight, sample.weight * unscaled, l.first(L::N));
-    if surface.has_shading_normals() {
+    if let Some(normal) = &normal {
         let (there, here) = (sample.wi.z.abs(), wo.z.abs());
         of_delta = of_delta * (here * cosines / there);
-        reversible = viewed.equals(&surface.normals.towards(l, d));
-        if let Some((of_d, of_back)) = surface.normals.shadowing(l, &viewed, d).zip(surface.normals.shadowing(l, &viewed, back)) {
+        reversible = normal.equals(&surface.normals.towards(l, d));
+        let shadowing = |wi: V<L>| surface.normals.shadowing(l, normal, wi);
+        if let Some((of_d, of_back)) = shadowing(d).zip(shadowing(back)) {
             (weight, of_delta) = (weight * of_d, of_delta * of_back);
         }
     }
@@ -157,6 +157,12 @@ fn scatter_kind<L: Lanes, K: Shade>(
         judged,
         roulette: coordinates.roulette,
     }
+}
+
+/// The frame for a viewer, and its normal where it is not that of the vertex.
+struct View<L: Lanes> {
+    frame: Frame<L>,
+    normal: Option<ViewedNormal<L>>,
 }
 
 /// A register of hits of a kind.
@@ -196,28 +202,26 @@ impl<'a, 'q, L: Lanes, K: Shade> SurfaceHits<'a, 'q, L, K> {
         K::DETAILED && (self.work.scene.shapes.have_elements() || self.normals.relief.is_some())
     }
 
-    /// The frame about the normal that a viewer sees.
+    /// What a viewer in the direction `d` sees.
     #[inline(always)]
-    fn frame_about(&self, l: L, viewed: &ViewedNormal<L>) -> Frame<L> {
-        if self.has_shading_normals() {
-            self.vertex.frame_about::<K>(l, self.work, viewed.n, self.chart.as_ref())
-        } else {
-            self.vertex.frame
+    fn view(&self, l: L, d: V<L>) -> View<L> {
+        if !self.has_shading_normals() {
+            return View { frame: self.vertex.frame, normal: None };
         }
+        let normal = self.normals.towards(l, d);
+        View { frame: self.vertex.frame_about::<K>(l, self.work, normal.n, self.chart.as_ref()), normal: Some(normal) }
     }
 
     /// The BSDF of a viewer in the direction `wo`. The pdf back is that of a viewer in the direction `wi`, whose frame may be another.
     #[inline(always)]
     fn evaluate(&self, l: L, wo: V<L>, wi: V<L>) -> Evaluated<L> {
-        let viewed = self.normals.towards(l, wo);
-        let frame = self.frame_about(l, &viewed);
-        let (mut f_cos, pdf) = self.evaluate_in(l, &frame, wo, wi);
-        let of_back = self.frame_about(l, &self.normals.towards(l, wi));
-        let (_, reverse) = self.evaluate_in(l, &of_back, wi, wo);
-        if self.has_shading_normals() {
-            let is_on_side_of = |d: V<L>| (frame.local_from_world(d).z * d.dot(self.hit.n)).above(0.0);
+        let (viewed, of_back) = (self.view(l, wo), self.view(l, wi));
+        let (mut f_cos, pdf) = self.evaluate_in(l, &viewed.frame, wo, wi);
+        let (_, reverse) = self.evaluate_in(l, &of_back.frame, wi, wo);
+        if let Some(viewed_n) = &viewed.normal {
+            let is_on_side_of = |d: V<L>| (viewed.frame.local_from_world(d).z * d.dot(self.hit.n)).above(0.0);
             f_cos = (is_on_side_of(wo) & is_on_side_of(wi)).pick(f_cos, V::splat(l, [0.0; 3]));
-            if let Some(shadowing) = self.normals.shadowing(l, &viewed, wi) {
+            if let Some(shadowing) = self.normals.shadowing(l, viewed_n, wi) {
                 f_cos = f_cos * shadowing;
             }
         }

@@ -8,7 +8,7 @@ mod kept_file;
 mod kept_scene;
 mod probe;
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;
 
 pub(super) use self::{keeper::Keeper, kept_file::KeptState};
 pub use self::{

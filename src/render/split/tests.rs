@@ -1,6 +1,4 @@
 //! Exact sums of tiles with known samples, and their sections.
-use std::sync::Arc;
-
 use rand::{Rng, SeedableRng, rngs::SmallRng};
 
 use super::{
@@ -10,18 +8,11 @@ use super::{
 };
 use crate::{
     file::faults::lose_nothing,
-    import::ImportOptions,
     integrator::{BLOCK, TILE},
     math::SimdLevel,
-    render::{
-        area::Area,
-        checkpoint::{keep_scene, kept_header},
-        exact_sum::MOST_VALUES,
-        protocol::RenderRequest,
-        threads::Threads,
-    },
-    render_file::{Header, ImageFacts, Kind, Target},
-    scene::{Camera, Sharing, built_in},
+    render::{area::Area, checkpoint::tests::small_render, exact_sum::MOST_VALUES},
+    render_file::{Header, ImageFacts, Kind},
+    scene::Sharing,
 };
 
 /// Its last blocks are 3 pixels wide and 5 high.
@@ -157,13 +148,9 @@ fn sections_come_back_and_nonsense_is_refused() {
 fn a_disk_that_fails_at_any_moment_leaves_the_samples_before() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("a.nf");
-    let scene = Arc::new(built_in());
-    let camera = Camera { resolution: [8, 4], ..scene.camera };
-    let request = RenderRequest { settings: scene.settings, camera, scene };
-    let threads = Threads::new(1, SimdLevel::best()).expect("a thread can be had");
-    let kept = keep_scene(&request.scene, &folder.path().join("a.toml"), &ImportOptions::default());
-    let header = kept_header(&request, kept, None, Target::default(), &threads).expect("it names no files");
-    let tile = TileSums::new(Area { origin: [0, 0], size: camera.resolution });
+    let resolution = [8, 4];
+    let (header, _) = small_render(resolution, folder.path());
+    let tile = TileSums::new(Area { origin: [0, 0], size: resolution });
     let write = |end: u32| {
         let header =
             Header { kind: Kind::Samples, samples: vec![[0, end]], image: Some(ImageFacts::default()), ..header.clone() };

@@ -154,3 +154,71 @@ fn all_strategies_together_find_the_light_of_mis() {
         }
     }
 }
+
+/// Checks that two strategies alone find the same light.
+fn assert_alike(scene: &Scene, [a, b]: [[u32; 2]; 2], spp: u32) {
+    let [(of_a, a_variance), (of_b, b_variance)]: [(f64, f64); 2] = [(a, 1), (b, 2)].map(|([s, t], seed)| {
+        let alone = RenderSettings { seed, ..SETTINGS }.of_strategy(Strategy { s, t, weighted: false });
+        mean(scene, &alone, spp).into()
+    });
+    let error = (a_variance + b_variance).sqrt();
+    assert!(error < 0.04 * of_a, "{a:?}, {b:?}: {of_a} ± {error}");
+    assert!((of_a - of_b).abs() < 4.0 * error, "{a:?}, {b:?}: {of_a} and {of_b} ± {error}");
+}
+
+/// A lamp whose light a bent mirror brings to the floor. Its smooth normals are up to 30° off those of its faces.
+const BENT_MIRROR: &str = "
+    format = 1
+    [camera]
+    eye = [-0.2, 3.0, 0.0]
+    look_at = [-0.2, 0.0, 0.0]
+    up = [0.0, 0.0, 1.0]
+    fov = 15
+    resolution = [16, 16]
+    [materials]
+    white.lambertian = { albedo = 0.8 }
+    bent.mirror = { reflectance = 0.9 }
+    [[objects]]
+    shape.rectangle = { origin = [-0.9, 0.0, -2.0], edge_u = [0.0, 0.0, 4.0], edge_v = [4.0, 0.0, 0.0] }
+    material = 'white'
+    [[objects]]
+    shape.mesh = { smooth = true, triangles = [[0, 2, 1], [1, 2, 3], [2, 4, 3], [3, 4, 5]], vertices = [[-1, 0.2, -1], \
+    [-1, 0.2, 1], [-1, 1.2, -1], [-1, 1.2, 1], [-1.7, 1.6, -1], [-1.7, 1.6, 1]] }
+    material = 'bent'
+    [[objects]]
+    shape.sphere = { center = [1.0, 1.4, 0.0], radius = 0.3 }
+    emission.radiance = 5
+    ";
+
+#[test]
+fn smooth_mirrors_bring_the_same_light_from_either_end() {
+    let scene = parse("mirror", BENT_MIRROR.to_owned()).unwrap_or_else(|error| panic!("{}", error.report()));
+    assert_alike(&scene, [[0, 4], [3, 1]], 8000);
+}
+
+/// A white ball in rough glass that absorbs, in light from everywhere.
+const BALL_IN_GLASS: &str = "
+    format = 1
+    background.radiance = 1
+    [camera]
+    eye = [0.0, 0.0, 3.0]
+    look_at = [0.0, 0.0, 0.0]
+    fov = 20
+    resolution = [16, 16]
+    [materials]
+    white.lambertian = { albedo = 0.8 }
+    glass.dielectric = { ior = 1.3, roughness = 0.7, transmittance = [0.1, 0.1, 0.1] }
+    [[objects]]
+    shape.sphere = { center = [0, 0, 0], radius = 0.5 }
+    material = 'glass'
+    [[objects]]
+    shape.sphere = { center = [0, 0, 0], radius = 0.25 }
+    material = 'white'
+    ";
+
+#[test]
+fn connections_in_glass_are_attenuated() {
+    let scene = parse("glass", BALL_IN_GLASS.to_owned()).unwrap_or_else(|error| panic!("{}", error.report()));
+    assert_alike(&scene, [[1, 4], [2, 3]], 8000);
+    assert_alike(&scene, [[1, 4], [4, 1]], 8000);
+}

@@ -153,10 +153,11 @@ impl App {
         self.without_strategies().is_none().then_some(strategy)
     }
 
-    /// Why there are no strategies of bidirectional paths to show, if so.
+    /// Why there are no strategies of bidirectional paths to show, if that is known. A render finds out.
     fn without_strategies(&self) -> Option<String> {
         let opened = self.session.opened.as_ref()?;
-        opened.scene.lacks_light_paths(&self.session.settings.of_strategy(strategies::FIRST))
+        let settings = self.session.settings.of_strategy(strategies::FIRST);
+        opened.scene.estimator_in_force(&settings).map(|in_force| in_force.reason)
     }
 
     /// Traces what the path inspector shows, while it is open.
