@@ -63,7 +63,8 @@ impl Import {
         // A part around the middle of the film is seen under a smaller angle.
         let half = (0.5 * angle).to_radians().tan() * f64::from(film.crop[0]) / width;
         let [eye, forward, up] = frame(element, map)?;
-        element.ignore(&["near_clip", "far_clip"]);
+        self.clip_plane(element, "near_clip", 1e-2, "nearer")?;
+        self.clip_plane(element, "far_clip", 1e4, "farther")?;
         let [x, y] = [element.number("principal_point_offset_x", 0.0)?, element.number("principal_point_offset_y", 0.0)?];
         // Fractions of the film that the scene moves to the left and up.
         let [of_crop_right, of_crop_up] = film.shift();
@@ -94,7 +95,7 @@ impl Import {
         let width = 2.0 * across * f64::from(film.crop[0]) / f64::from(film.size[0]);
         // Rays begin at the near plane.
         let eye = eye + map.transform_vector3(DVec3::Z) * element.number("near_clip", 1e-2)?;
-        element.ignore(&["far_clip"]);
+        self.clip_plane(element, "far_clip", 1e4, "farther")?;
         self.description.camera = CameraDescription {
             eye,
             look_at: eye + forward,
@@ -105,6 +106,14 @@ impl Import {
             lens: None,
             ..self.description.camera.clone()
         };
+        Ok(())
+    }
+
+    /// Remarks on a clip plane that is not where Mitsuba has it by default.
+    fn clip_plane(&mut self, element: Element, name: &str, default: f64, side: &str) -> Result<(), SceneError> {
+        if element.number(name, default)? != default {
+            self.remark_value(element, name, "no clip plane", &format!("surfaces {side} than this are seen"))?;
+        }
         Ok(())
     }
 

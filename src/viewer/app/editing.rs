@@ -40,8 +40,7 @@ impl App {
             None => {}
         }
         // A drag goes on as long as a button is down.
-        let is_last = self.session.waiting_edit.is_none() && !self.background.worker.is_editing();
-        if is_last && !self.ctx.input(|input| input.pointer.any_down()) {
+        if !self.is_compiling() && !self.ctx.input(|input| input.pointer.any_down()) {
             self.background.settler.start();
         }
         if let Some(settled) = self.background.settler.take()
@@ -53,6 +52,11 @@ impl App {
                 opened.change(settled.scene);
             }
         }
+    }
+
+    /// Whether an edit is compiled or waits to be.
+    pub fn is_compiling(&self) -> bool {
+        self.session.waiting_edit.is_some() || self.background.worker.is_editing()
     }
 
     fn take_edited(&mut self, scene: Arc<Scene>) {

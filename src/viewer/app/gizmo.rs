@@ -6,7 +6,7 @@ use noisefall::shape::Transform;
 use super::{scene_editor::SceneEditor, state::App};
 use crate::viewer::canvas::{
     framing,
-    gizmo::{GizmoOutput, Phase},
+    gizmo::{GizmoOutput, Mode, Phase},
     interaction::Tool,
     picture_area::PictureArea,
 };
@@ -29,6 +29,13 @@ impl App {
 
     /// Shows the gizmo of the selected part over the picture, and makes its edits.
     pub fn show_gizmo(&mut self, ui: &mut Ui, area: &PictureArea) {
+        if self.selection.moves_copy {
+            if self.is_compiling() {
+                return;
+            }
+            self.selection.moves_copy = false;
+            self.selection.gizmo.start(Mode::Move);
+        }
         let Some((subject, pivot)) = self.selection.movable().cloned().zip(self.pivot()).filter(|_| self.has_gizmo()) else {
             return self.selection.end_operation();
         };

@@ -137,8 +137,7 @@ impl App {
     /// Whether the picture is, or will be, that of the document.
     fn shows_document(&self) -> bool {
         let (Some(editor), Some(opened)) = (&self.editor, &self.session.opened) else { return false };
-        let is_pending = self.session.waiting_edit.is_some() || self.background.worker.is_editing();
-        is_pending || editor.document.description() == &*opened.description
+        self.is_compiling() || editor.document.description() == &*opened.description
     }
 
     /// Reloads the scene file, as a step that can be undone.

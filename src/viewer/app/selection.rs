@@ -11,20 +11,23 @@ pub struct Selection {
     pub gizmo: Gizmo,
     /// What the gizmo has done to the object or lamp so far.
     pub change: Option<Transform>,
+    /// The part is a copy, which the pointer moves as soon as it is compiled.
+    pub moves_copy: bool,
     /// The pixel of the picture that was clicked last: new objects are placed there.
     pub clicked: Option<[u32; 2]>,
 }
 
 impl Selection {
     pub fn new(ctx: &egui::Context) -> Selection {
-        Selection { subject: None, outline: OutlineFinder::new(ctx), gizmo: Gizmo::default(), change: None, clicked: None }
+        let outline = OutlineFinder::new(ctx);
+        Selection { subject: None, outline, gizmo: Gizmo::default(), change: None, moves_copy: false, clicked: None }
     }
 
     /// Selects a part of the scene, or nothing.
     pub fn select(&mut self, subject: Option<Subject>) {
         if self.subject != subject {
             self.end_operation();
-            self.subject = subject;
+            (self.subject, self.moves_copy) = (subject, false);
         }
     }
 

@@ -141,7 +141,8 @@ impl App {
         if presses(ctx, Key::Delete) || presses(ctx, Key::X) {
             self.act_on(subject, Action::Delete);
         } else if ctx.input(duplicates) {
-            self.act_on(subject, Action::Duplicate);
+            self.act_on(subject.clone(), Action::Duplicate);
+            self.selection.moves_copy = self.window.hovered.is_some() && self.selection.subject != Some(subject);
         }
     }
 

@@ -42,7 +42,7 @@ const KEYS: [(&str, &[(&str, &str)]); 5] = [
             ("Right click in the list", "duplicate, rename, delete, change kind, drop to floor"),
             ("Double click in the list", "rename"),
             ("L", "look at the object"),
-            ("Shift+D", "duplicate"),
+            ("Shift+D", "duplicate and move"),
             ("X, Delete", "delete"),
             ("G  R  S", "move, rotate, scale, while the pointer is over the image"),
             ("X  Y  Z", "then: restrict to an axis (Shift: to a plane)"),

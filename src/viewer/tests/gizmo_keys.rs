@@ -2,7 +2,7 @@
 use noisefall::shape::ShapeKind;
 
 use super::{
-    edited::{center, description},
+    edited::{center, description, edits},
     selection::{AMBER_BALL, ball, seen},
     *,
 };
@@ -42,6 +42,26 @@ fn the_gizmo_moves_the_object_by_keys_and_escape_takes_it_back() {
     let ShapeKind::Sphere(sphere) = &description(&window).objects[AMBER_BALL].shape else { panic!("it is a ball") };
     assert!((sphere.radius - 0.76).abs() < 1e-12);
     assert_eq!(window.state().session.camera, camera, "the key does not fly");
+}
+
+#[test]
+fn a_copy_follows_the_pointer_until_it_is_put_down() {
+    let mut window = window("cornell_spheres");
+    let at = seen(&mut window, ball());
+    click_at(&mut window, at);
+    let count = description(&window).objects.len();
+    edits(&mut window, "the copy", |w| w.key_press_modifiers(Modifiers::SHIFT, Key::D));
+    let copy = window.state().selection.object().expect("it is selected");
+    let start = center(&window, copy);
+    for key in [Key::X, Key::Num2, Key::Enter] {
+        press(&mut window, key);
+    }
+    assert_eq!(description(&window).objects.len(), count + 1, "x is an axis here");
+    assert!(center(&window, copy).distance(start + DVec3::X * 2.0) < 1e-12);
+    undo(&mut window);
+    assert_eq!(center(&window, copy), start);
+    undo(&mut window);
+    assert!(!window.state().has_unsaved_changes());
 }
 
 #[test]

@@ -45,6 +45,17 @@ fn parallel_rays_cover_the_scale_of_the_transform_and_begin_at_the_near_plane() 
 }
 
 #[test]
+fn clip_planes_are_remarked_on_unless_they_are_those_of_mitsuba() {
+    let text = |near: f64, far: f64| {
+        format!(
+            "<sensor type=\"perspective\"><float name=\"near_clip\" value=\"{near}\"/><float name=\"far_clip\" value=\"{far}\"/></sensor>"
+        )
+    };
+    assert!(scene(&text(0.01, 1e4)).remarks.is_empty());
+    assert_eq!(scene(&text(0.1, 50.0)).remarks.len(), 2);
+}
+
+#[test]
 fn a_lens_keeps_its_radius_and_distance() {
     let text = "<sensor type=\"thinlens\"><float name=\"aperture_radius\" value=\"0.1\"/>\
         <float name=\"focus_distance\" value=\"3\"/></sensor>";

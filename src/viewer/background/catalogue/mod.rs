@@ -1,5 +1,5 @@
-//! The scenes of the list and the gallery: the files of the nearest `scenes/` folder, or else the scenes in the program, and files
-//! opened from elsewhere.
+//! The scenes of the list and the gallery: those that come with the program, those of a user in a `scenes/` folder, and files opened
+//! from elsewhere.
 use std::{
     fs::File,
     io::Read,
@@ -75,10 +75,22 @@ pub enum SceneRequest {
     Gallery,
 }
 
-/// The shipped scenes in the order of their chapters; scenes without a chapter come last, sorted by name.
+/// Scenes of a user in the current folder.
+const FOLDER: &str = "scenes";
+
+/// The shipped scenes in the order of their chapters. Those of a user in the current folder come last, sorted by name.
 pub fn find() -> Vec<CatalogueEntry> {
-    let mut scenes = folder().map_or_else(shipped, |folder| list(&folder));
-    scenes.sort_by_cached_key(|entry| (lesson(&entry.path).unwrap_or(usize::MAX), entry.name.to_lowercase()));
+    entries(project_folder().as_deref(), Path::new(FOLDER))
+}
+
+/// The scenes of the project, or else those in the program and the `own` ones of a user.
+fn entries(project: Option<&Path>, own: &Path) -> Vec<CatalogueEntry> {
+    let mut scenes = project.map_or_else(shipped, list);
+    if project.is_none() {
+        scenes.extend(list(own).into_iter().map(|entry| CatalogueEntry { chapter: OTHERS, ..entry }));
+    }
+    let lesson = |entry: &CatalogueEntry| lesson(&entry.path).filter(|_| entry.chapter != OTHERS).unwrap_or(usize::MAX);
+    scenes.sort_by_cached_key(|entry| (lesson(entry), entry.name.to_lowercase()));
     scenes
 }
 
@@ -132,13 +144,13 @@ pub fn in_full(path: &Path) -> PathBuf {
     path.canonicalize().unwrap_or_else(|_| path.to_owned())
 }
 
-/// `scenes/` in the current folder or in an ancestor of the program's folder, because a build is in `target/release` of its
-/// project.
-fn folder() -> Option<PathBuf> {
+/// The folder of the shipped scenes: in the current folder, or in an ancestor of the program's folder, because a build is in
+/// `target/release` of its project.
+fn project_folder() -> Option<PathBuf> {
     let program = std::env::current_exe().ok();
     let above = program.iter().flat_map(|program| program.ancestors().skip(1));
     let candidates = std::iter::once(Path::new(".")).chain(above);
-    candidates.map(|folder| folder.join("scenes")).find(|folder| folder.is_dir())
+    candidates.map(|folder| folder.join(FOLDER)).find(|folder| folder.join(BUILT_IN_STEM).with_extension("toml").is_file())
 }
 
 fn list(folder: &Path) -> Vec<CatalogueEntry> {

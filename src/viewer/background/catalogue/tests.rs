@@ -60,6 +60,18 @@ fn the_scenes_in_the_program_are_those_of_the_folder() {
 }
 
 #[test]
+fn scenes_of_a_user_come_after_those_of_the_program() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for name in ["zebra.toml", "lamps.toml"] {
+        std::fs::write(folder.path().join(name), "format = 1\n").expect("it is written");
+    }
+    let scenes = entries(None, folder.path());
+    let is_own = |entry: &CatalogueEntry| entry.path.starts_with(in_full(folder.path()));
+    assert_eq!(scenes.iter().filter(|entry| !is_own(entry)).count(), shipped().len());
+    assert!(scenes[shipped().len()..].iter().all(|entry| is_own(entry) && entry.chapter == OTHERS));
+}
+
+#[test]
 fn a_folder_lists_its_scenes_and_what_is_opened_is_listed_once_under_its_last_name() {
     let folder = tempfile::tempdir().expect("a folder");
     let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).expect("it is written");

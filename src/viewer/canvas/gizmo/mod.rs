@@ -67,6 +67,11 @@ impl Gizmo {
         self.presses = keys::take(ctx, self.operation.is_some());
     }
 
+    /// Begins an operation, as its key does.
+    pub fn start(&mut self, mode: Mode) {
+        self.presses.push(Press::Start(mode));
+    }
+
     /// Whether an operation is under way, or begins in this frame: keys and mouse are the gizmo's.
     pub fn is_active(&self) -> bool {
         self.operation.is_some() || self.presses.iter().any(|press| matches!(press, Press::Start(_)))
