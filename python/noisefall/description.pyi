@@ -727,6 +727,8 @@ class Render:
     """Exposure of the displayed image. One stop doubles the brightness; samples do not change. (stops)"""
     max_bounces: int | None = None
     """Highest number of bounces. A cap makes the image too dark. Default: no cap."""
+    merging: bool | None = None
+    """Whether the estimator `bidirectional` merges vertices that are near each other (Georgiev et al. 2012). Biased, but consistent."""
     reuse: Literal['auto', 'on', 'bright', 'both', 'off'] | None = None
     """What neighbouring pixels share: path suffixes (Bekaert, Sbert and Halton 2002), bright samples, or both."""
     roulette: Literal['off', 'throughput'] | Roulette | Mapping[str, Any] | None = None

@@ -29,6 +29,7 @@ pub struct Settings {
     max_bounces: Option<Cap>,
     reuse: Option<String>,
     adaptive: Option<bool>,
+    merging: Option<bool>,
     seed: Option<u32>,
 }
 
@@ -68,6 +69,7 @@ impl Settings {
             directions: word::<Directions>("directions", self.directions.as_deref(), of_scene.directions)?,
             reuse: word::<Reuse>("reuse", self.reuse.as_deref(), of_scene.reuse)?,
             adaptive: self.adaptive.unwrap_or(of_scene.adaptive),
+            merging: self.merging.unwrap_or(of_scene.merging),
             seed: self.seed.unwrap_or(of_scene.seed),
             roulette,
             strategy: of_scene.strategy,

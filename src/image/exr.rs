@@ -2,7 +2,7 @@
 use std::io::{BufRead, Seek};
 
 use ::exr::{
-    meta::MetaData,
+    meta::{BlockDescription, MetaData, header::Header},
     prelude::{ReadChannels, ReadLayers, read},
 };
 
@@ -16,6 +16,7 @@ pub(super) fn decode<P: Pixel>(mut file: impl BufRead + Seek) -> Result<Picture<
     let headers = MetaData::read_from_buffered(&mut file, false).map_err(ImageFormatError::broken)?.headers;
     for header in &headers {
         check_size(header.layer_size.width() as u64, header.layer_size.height() as u64)?;
+        check_tiles(header)?;
     }
     let sizes = headers.iter().map(|header| header.layer_size);
     let Some(largest) = sizes.max_by_key(|size| size.area()) else {
@@ -40,4 +41,16 @@ pub(super) fn decode<P: Pixel>(mut file: impl BufRead + Seek) -> Result<Picture<
     let size = image.layer_data.size;
     let (_, radiance) = image.layer_data.channel_data.pixels;
     Ok(Picture { width: size.width() as u32, height: size.height() as u32, radiance })
+}
+
+/// Refuses tiles that are larger than their image and than usual tiles. The decoder takes the memory of a whole one.
+fn check_tiles(header: &Header) -> Result<(), ImageFormatError> {
+    /// Side of the largest tiles that images of any size have, in pixels.
+    const USUAL: usize = 1024;
+    let BlockDescription::Tiles(tiles) = header.blocks else { return Ok(()) };
+    let ([width, height], size) = ([tiles.tile_size.width(), tiles.tile_size.height()], header.layer_size);
+    if width > size.width().max(USUAL) || height > size.height().max(USUAL) {
+        return Err(ImageFormatError::broken(format!("its tiles of {width} × {height} pixels are larger than the image")));
+    }
+    Ok(())
 }

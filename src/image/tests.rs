@@ -114,6 +114,20 @@ fn the_opacity_of_an_exr_is_read_as_grey_within_its_range() {
     assert_eq!(super::read_light(&path, Encoding::Srgb).expect("it is light").radiance[3], [0.5, 0.5, 0.5, 0.0]);
 }
 
+#[test]
+fn an_exr_whose_tiles_are_much_larger_than_the_image_is_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("a.exr");
+    ::exr::prelude::write_rgba_file(&path, 4, 1, |_, _| (0.5f32, 0.5f32, 0.5f32, 1.0f32)).expect("it is written");
+    let mut bytes = std::fs::read(&path).expect("it is there");
+    let name = b"tiles\0tiledesc\0";
+    let at = bytes.windows(name.len()).position(|window| window == name).expect("it has tiles") + name.len() + 4;
+    // The highest byte of the width.
+    bytes[at + 3] = 0x10;
+    let Err(error) = decode::<[f32; 4]>(Cursor::new(bytes), Encoding::Srgb) else { panic!("it is read") };
+    assert!(error.to_string().contains("tiles of 268435520 × 64 pixels"), "{error}");
+}
+
 /// 3 × 2 pixels of 10, 20, … 60, in the passes of Adam7.
 #[rustfmt::skip]
 const IN_PASSES: [u8; 75] = [

@@ -76,6 +76,7 @@ pub fn options(settings: &RenderSettings, of_scene: &RenderSettings) -> String {
     };
     option(settings.sampler != of_scene.sampler, "sampler", settings.sampler.name().to_owned());
     option(settings.estimator != of_scene.estimator, "estimator", settings.estimator.name().to_owned());
+    option(settings.merging != of_scene.merging, "merging", on_or_off(settings.merging).to_owned());
     option(settings.directions != of_scene.directions, "directions", settings.directions.name().to_owned());
     option(settings.roulette != of_scene.roulette, "roulette", settings.roulette.name());
     let cap = settings.max_bounces.map_or_else(|| "none".to_owned(), |cap| cap.to_string());

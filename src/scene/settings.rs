@@ -12,6 +12,9 @@ use crate::{
 pub struct RenderSettings {
     /// How direct light is estimated.
     pub estimator: Estimator,
+    /// Whether the estimator `bidirectional` merges vertices, too. Biased, but consistent.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub merging: bool,
     /// The sequence of random numbers.
     pub sampler: Sampler,
     /// How directions are sampled at diffuse surfaces.
@@ -86,6 +89,7 @@ impl RenderSettings {
             estimator: Estimator::Bidirectional,
             reuse: Reuse::Off,
             adaptive: false,
+            merging: false,
             strategy: Some(strategy),
             max_bounces: Some(strategy.bounces()),
             ..self
@@ -96,6 +100,12 @@ impl RenderSettings {
     pub const ESTIMATOR: Parameter =
         Parameter::new("estimator", "How direct light is estimated. All estimators converge to the same image.")
             .aliases("integrator method nee");
+    /// Whether vertices are merged, as files and the window name it.
+    pub const MERGING: Parameter = Parameter::new(
+        "merging",
+        "Whether the estimator `bidirectional` merges vertices that are near each other (Georgiev et al. 2012). Biased, but consistent.",
+    )
+    .aliases("vcm merge vertex_merging photons");
     /// How directions are sampled, as files and the window name it.
     pub const DIRECTIONS: Parameter = Parameter::new("directions", "How directions are sampled at diffuse surfaces.")
         .symbol("p(ω)")
@@ -132,6 +142,7 @@ impl RenderSettings {
 impl Declare for RenderSettings {
     fn parameters(&mut self, p: &mut dyn Parameters) {
         p.word(&Self::ESTIMATOR, &mut self.estimator);
+        p.flag(&Self::MERGING, &mut self.merging);
         p.word(&Self::DIRECTIONS, &mut self.directions);
         p.word(&Self::SAMPLER, &mut self.sampler);
         p.optional(
@@ -162,9 +173,17 @@ impl RenderSettings {
         self.max_bounces.map_or(Self::LONGEST_PATH, |cap| cap.min(Self::HIGHEST_CAP))
     }
 
+    /// Whether vertices are merged.
+    pub fn merges(&self) -> bool {
+        self.merging && self.estimator.connects()
+    }
+
     /// Why the expected picture differs from the solution of the equation; `None` when it does not.
     pub fn bias(&self) -> Option<String> {
         let part = self.strategy.map(|Strategy { s, t, .. }| format!("strategy ({s}, {t}) alone"));
-        part.or_else(|| self.max_bounces.map(|cap| format!("cap at {cap}")))
+        let cap = part.or_else(|| self.max_bounces.map(|cap| format!("cap at {cap}")));
+        let merging = self.merges().then(|| "vertex merging".to_owned());
+        let all: Vec<String> = cap.into_iter().chain(merging).collect();
+        (!all.is_empty()).then(|| all.join(", "))
     }
 }

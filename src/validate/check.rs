@@ -76,6 +76,7 @@ impl Validation {
     pub fn settings(&self, estimator: Estimator) -> RenderSettings {
         RenderSettings {
             estimator,
+            merging: false,
             sampler: Sampler::Independent,
             directions: Directions::Cosine,
             roulette: Roulette::Off,

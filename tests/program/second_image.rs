@@ -156,18 +156,28 @@ fn the_terms_of_a_furnace_are_powers_of_its_albedo() {
 #[test]
 fn a_region_is_rendered_first_and_the_rest_catches_up() {
     let scene = Arc::new(built_in());
-    let renderer = renderer();
     let region = Region::between([40, 40], [50, 60]);
-    let budget = Budget { max_spp: Some(40), region: Some(region), ..Budget::default() };
-    renderer.set_budget(budget);
-    renderer.submit(1, request(&scene, 128));
-    let ahead = |published: &Published| published.frame.spp_at(45 * 128 + 45) > published.frame.spp + 4;
-    let published = wait(|| renderer.latest(), ahead);
-    assert_eq!(published.frame.spp_at(0), published.frame.spp, "outside nothing is done before");
-    let done =
-        wait(|| renderer.latest(), |published| matches!(published.status.state, State::Done(_)) && published.frame.spp == 40);
+    // Step by step, because the region takes only some milliseconds.
+    let worker = Stepwise::new();
+    worker.renderer.set_budget(Budget { max_spp: Some(40), region: Some(region), ..Budget::default() });
+    worker.renderer.submit(1, request(&scene, 128));
+    let mut was_ahead = false;
+    let done = loop {
+        worker.times();
+        let published = worker.renderer.latest();
+        worker.go_on();
+        if published.frame.spp_at(45 * 128 + 45) > published.frame.spp + 4 {
+            assert_eq!(published.frame.spp_at(0), published.frame.spp, "outside nothing is done before");
+            was_ahead = true;
+        }
+        if matches!(published.status.state, State::Done(_)) && published.frame.spp == 40 {
+            break published;
+        }
+    };
+    assert!(was_ahead);
     assert!(done.frame.counts.is_empty(), "all pixels have as many samples in the end");
 
+    let renderer = renderer();
     renderer.set_budget(Budget { max_spp: Some(40), ..Budget::default() });
     renderer.submit(2, request(&scene, 128));
     let even = wait(|| renderer.latest(), |published| published.status.generation == 2 && published.frame.spp == 40);

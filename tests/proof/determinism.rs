@@ -25,6 +25,7 @@ fn settings(sampler: Sampler, reuse: Reuse) -> RenderSettings {
         directions: Directions::Cosine,
         roulette: Roulette::BY_THROUGHPUT,
         max_bounces: None,
+        merging: false,
         count_crossings: false,
         reuse,
         adaptive: true,

@@ -24,6 +24,7 @@ fn settings(directions: Directions) -> RenderSettings {
         directions,
         roulette: Roulette::Off,
         max_bounces: None,
+        merging: false,
         count_crossings: false,
         reuse: Reuse::Off,
         adaptive: false,

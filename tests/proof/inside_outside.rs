@@ -34,6 +34,7 @@ fn render(scene: &Scene, directions: Directions, spp: u32) -> Vec<Estimate> {
         directions,
         roulette: Roulette::BY_THROUGHPUT,
         max_bounces: None,
+        merging: false,
         count_crossings: false,
         reuse: Reuse::Off,
         adaptive: true,

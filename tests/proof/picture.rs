@@ -21,6 +21,7 @@ pub fn settings(estimator: Estimator) -> RenderSettings {
         directions: Directions::Cosine,
         roulette: Roulette::BY_THROUGHPUT,
         max_bounces: None,
+        merging: false,
         count_crossings: false,
         reuse: Reuse::Off,
         adaptive: false,

@@ -70,6 +70,9 @@ pub struct Arguments {
     /// Adaptive sampling, with more samples where there is more noise: on or off; --spp is then the average
     #[arg(long, value_parser = parse::on_or_off)]
     pub adaptive: Option<bool>,
+    /// Vertex merging of the estimator `bidirectional` (Georgiev et al. 2012): on or off. Biased, but consistent
+    #[arg(long, value_parser = parse::on_or_off)]
+    pub merging: Option<bool>,
     /// Seed of the random numbers
     #[arg(long, value_name = "N", value_parser = parse::whole)]
     pub seed: Option<u32>,

@@ -76,6 +76,7 @@ impl Arguments {
         RenderSettings {
             sampler: self.sampler.unwrap_or(of_scene.sampler),
             estimator: self.estimator.unwrap_or(of_scene.estimator),
+            merging: self.merging.unwrap_or(of_scene.merging),
             directions: self.directions.unwrap_or(of_scene.directions),
             roulette: self.roulette.unwrap_or(of_scene.roulette),
             max_bounces: self.max_bounces.map_or(of_scene.max_bounces, |cap| cap.0),

@@ -5,6 +5,7 @@ use fearless_simd_macros::simd;
 use super::{
     connect::{Connector, finish_connections},
     observer::{Observer, PathStart},
+    radius::merged_paths,
     scatter::{Evaluated, depth, evaluate, media_towards, scatter},
 };
 use crate::{
@@ -52,6 +53,7 @@ pub(super) fn shade_camera_paths<L: Lanes, O: Observer<L>>(
         _ => Others::None,
     };
     let is_connected = connects && reflection < work.settings.last_bounce();
+    let merged = merged_paths(work);
     for stage in &work.scene.surfaces.stages {
         let hits = &hits[*stage as usize];
         for at in hits.registers(l) {
@@ -59,9 +61,15 @@ pub(super) fn shade_camera_paths<L: Lanes, O: Observer<L>>(
             if stage.sees_lights() && !is_joined {
                 queue_light_sample(l, work, *stage, hits, at, &vertex, reflection, &mut state.direct);
             }
-            if stage.sees_lights() && is_connected {
+            if stage.sees_lights() && connects {
                 let connector = Connector { work, stage: *stage, hits, at, vertex: &vertex, reflection };
-                connector.connect(l, state, radiance, rays, observer);
+                // Before connections, which are added in registers: so the sum has one order.
+                if merged > 0.0 {
+                    connector.merge(l, merged, state, radiance);
+                }
+                if is_connected {
+                    connector.connect(l, state, radiance, rays, observer);
+                }
             }
             let scattered = scatter(l, work, *stage, hits, at, vertex.back, reflection);
             let throughput = vertex.hit.throughput * scattered.weight;
@@ -73,7 +81,7 @@ pub(super) fn shade_camera_paths<L: Lanes, O: Observer<L>>(
             observer.scattered(PathStart::Camera, keep, &scattered);
             let cos = cosine(scattered.d, vertex.hit.n);
             let pdfs = [scattered.pdf, scattered.reverse];
-            let mut partial = vertex.partial.scatter(scattered.delta, pdfs, cos, others);
+            let mut partial = vertex.partial.scatter(scattered.delta, pdfs, cos, others, merged);
             let is_only_strategy = scattered.delta & !scattered.reversible;
             partial.c = is_only_strategy.pick(l.f(0.0), partial.c);
             let slot = vertex.hit.slot;
@@ -111,7 +119,8 @@ fn queue_light_sample<L: Lanes>(
     let keep = *live & sample.pdf.above(0.0) & radiance.max_component().above(0.0);
     let height = sample.wi.dot(hit.n);
     let o = height.above(0.0).pick(hit.p, hit.p - hit.n * depth(l, stage, hits, at));
-    let partial = if work.settings.estimator.connects() { partial.sum(height.abs(), reverse) } else { l.f(0.0) };
+    let partial =
+        if work.settings.estimator.connects() { partial.sum(height.abs(), reverse, merged_paths(work)) } else { l.f(0.0) };
     let (d, target, slot, pdf) = (sample.wi, sample.target, hit.slot, sample.pdf);
     let media = media_towards(l, work, stage, hits, at, d);
     DirectSample { o, d, radiance, target, slot, pdf, bsdf_pdf, partial, media }.push(keep, queue);

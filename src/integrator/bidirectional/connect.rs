@@ -3,6 +3,7 @@ use fearless_simd_macros::simd;
 
 use super::{
     observer::{Observer, Term},
+    radius::merged_paths,
     scatter::{Evaluated, depth, evaluate, media_towards},
     strategy::weight_of,
 };
@@ -97,7 +98,7 @@ impl<L: Lanes> Connector<'_, '_, L> {
             cos: height.abs(),
             light: contribution,
             pdf,
-            partial: partial.sum(l.f(1.0), reverse),
+            partial: partial.sum(l.f(1.0), reverse, merged_paths(work)),
             slot: hit.slot,
             vertex: index,
         };
@@ -144,6 +145,7 @@ fn finish<L: Lanes, O: Observer<L>>(
 ) {
     let LightPaths { connections, vertices, .. } = state;
     let (queue, hits) = &mut connections[stage as usize];
+    let merged = merged_paths(work);
     for at in queue.registers(l) {
         let connection = Connection::read(l, queue, at.start);
         let Connection { o, d, distance, cos, .. } = connection;
@@ -162,7 +164,7 @@ fn finish<L: Lanes, O: Observer<L>>(
         let nearest = work.scene.shapes.closest(l, faces, o, d, work.time(l, connection.slot));
         let same = nearest.primitive.equals(end.primitive) & nearest.element.equals(end.element);
         let seen = faces & same & nearest.t.ge(distance * NEARLY);
-        let from_camera = end.partial.sum(connection.pdf * leaving * per_area, pdf);
+        let from_camera = end.partial.sum(connection.pdf * leaving * per_area, pdf, merged);
         let from_light = connection.partial * (reverse * cos * per_area);
         let weight = 1.0 / (1.0 + from_camera + from_light);
         let (s, t) = (light.bounce + 2, reflection + 1);

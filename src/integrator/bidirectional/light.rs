@@ -3,6 +3,7 @@ use fearless_simd_macros::simd;
 
 use super::{
     observer::{Observer, PathStart, Term},
+    radius::merged_paths,
     scatter::{Evaluated, depth, evaluate, media_towards, scatter},
     strategy::weight_of,
 };
@@ -43,7 +44,9 @@ pub(super) fn shade_light_paths<L: Lanes, O: Observer<L>>(
     let next = &mut paths[((*bounce + 1) & 1) as usize];
     next.clear();
     let (connects, only_caustics) = (work.settings.estimator.connects(), work.settings.estimator.traces_only_caustics());
-    let is_connected = connects && *bounce + 2 <= work.settings.last_bounce();
+    let merged = merged_paths(work);
+    // A merge is at a surface of the path from the camera, and does not count as one more.
+    let is_kept = connects && (merged > 0.0 || *bounce + 2 <= work.settings.last_bounce());
     // Without a surface between, camera paths find the light by light samples.
     let is_joined = !only_caustics || *bounce > 0;
     let others = if connects || only_caustics { Others::All } else { Others::None };
@@ -58,7 +61,7 @@ pub(super) fn shade_light_paths<L: Lanes, O: Observer<L>>(
             let light = vertex.hit.throughput * V { x: r, y: g, z: b };
             if stage.sees_lights() && is_joined {
                 queue_join(l, work, *stage, hits, at, &vertex, light, *bounce, &mut state.joins, observer);
-                if is_connected {
+                if is_kept {
                     let place = state.ends[0].place(l, vertex.hit.slot);
                     state.vertices.push(l, work, *stage, hits, at, &vertex, light, place, *bounce);
                 }
@@ -75,7 +78,7 @@ pub(super) fn shade_light_paths<L: Lanes, O: Observer<L>>(
             observer.scattered(PathStart::Light, keep, &scattered);
             let cos = cosine(scattered.d, vertex.hit.n);
             let pdfs = [scattered.pdf, scattered.reverse];
-            let partial = vertex.partial.scatter(scattered.delta, pdfs, cos, others);
+            let partial = vertex.partial.scatter(scattered.delta, pdfs, cos, others, merged);
             let slot = vertex.hit.slot;
             state.ends[0].put_partial(keep, slot, partial);
             Path { o: scattered.o, d: scattered.d, throughput: survival.throughput, slot }.push(keep, &mut next.paths);
@@ -171,7 +174,7 @@ fn queue_join<L: Lanes, O: Observer<L>>(
     let estimator = work.settings.estimator;
     if estimator.connects() || estimator.traces_only_caustics() {
         let found = density * (1.0 / work.light_paths_of_image());
-        weight = weight_of(work, s, t, 1.0 / (1.0 + partial.sum(found, pdf)));
+        weight = weight_of(work, s, t, 1.0 / (1.0 + partial.sum(found, pdf, merged_paths(work))));
     }
     let o = height.above(0.0).pick(hit.p, hit.p - hit.n * depth(l, stage, hits, at));
     let weighted = light * weight;

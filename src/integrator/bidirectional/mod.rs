@@ -9,6 +9,7 @@
 //! | s = 1 | `camera.rs`, `direct.rs` | by light samples |
 //! | t = 1 | `light.rs`, `join.rs` | where a vertex of the path from the light is joined with the camera, in any pixel |
 //! | s, t ≥ 2 | `connect.rs` | where two vertices are connected |
+//! | merging | `merge.rs` | where a vertex of a path from a light is near |
 //!
 //! `bidirectional` weights all of them by the balance heuristic (Veach 1997, section 10.2). The weights are computed from two numbers of
 //! each path, which follow it from vertex to vertex (D. van Antwerpen, "Recursive MIS Computation for Streaming BDPT on the GPU", 2011;
@@ -27,7 +28,9 @@ mod direct;
 mod emit;
 mod join;
 mod light;
+mod merge;
 mod observer;
+mod radius;
 mod scatter;
 mod strategy;
 mod trace;

@@ -8,6 +8,7 @@ use super::{
     emit::emit,
     join::join,
     light::shade_light_paths,
+    merge::prepare,
     observer::Observer,
 };
 use crate::{
@@ -77,6 +78,9 @@ fn trace_camera_paths<L: Lanes, O: Observer<L>>(
 ) -> Result<(), Interrupted> {
     let last_bounce = work.settings.last_bounce();
     let cut_short = work.settings.max_bounces != Some(last_bounce);
+    if work.settings.merges() {
+        prepare(work, state);
+    }
     spawn(l, work, batch);
     while !batch.current().is_empty() {
         if interrupted() {

@@ -2,12 +2,14 @@
 //!
 //! | file | content |
 //! |---|---|
+//! | `grid.rs` | finds vertices near a place |
 //! | `partial.rs` | partial sums of the balance heuristic |
 //! | `path_state.rs` | the state of the paths from one end, by slot |
 //! | `vertices.rs` | the vertices of paths from lights |
 //! | `records.rs` | records in the queues between stages |
 //! | `paths.rs` | all of that |
 //! | `splat.rs` | light that arrives in any pixel |
+pub mod grid;
 pub mod partial;
 pub mod path_state;
 pub mod paths;

@@ -7,7 +7,7 @@
 //! one: [`Partial::arrive`] converts the numbers.
 //!
 //! In a single direction, as off a mirror, no other strategy can sample, so v becomes 0. Both pdfs of such a direction count as 1 at either
-//! end. Roulette is no part of any pdf.
+//! end. Roulette is no part of any pdf. Where vertices are merged, a term `merged` stands beside v: see `bidirectional/merge.rs`.
 use crate::math::{F, Lanes, M, Pick, V};
 
 /// Largest value of either number. Where a path has it, others find its light far more likely; larger numbers would become infinite.
@@ -54,11 +54,11 @@ impl<L: Lanes> Partial<L> {
     /// After a direction with the pdf `pdf` has been sampled at an angle with the cosine `cos`; `reverse` is the pdf of the direction back
     /// to the vertex before.
     #[inline(always)]
-    pub fn scatter(self, delta: M<L>, [pdf, reverse]: [F<L>; 2], cos: F<L>, others: Others) -> Self {
+    pub fn scatter(self, delta: M<L>, [pdf, reverse]: [F<L>; 2], cos: F<L>, others: Others, merged: f32) -> Self {
         let zero = pdf.splat(0.0);
         let of_delta = self.c * cos;
         let c = match others {
-            Others::All => delta.pick(of_delta, (self.c * reverse + self.v) * (cos / pdf)),
+            Others::All => delta.pick(of_delta, (self.before(reverse) + merged) * (cos / pdf)),
             Others::AfterDelta => delta.pick(of_delta, zero),
             Others::None => zero,
         };
@@ -73,7 +73,13 @@ impl<L: Lanes> Partial<L> {
 
     /// The sum at a vertex for these P and R.
     #[inline(always)]
-    pub fn sum(self, found: F<L>, sent_back: F<L>) -> F<L> {
-        found * (self.v + self.c * sent_back)
+    pub fn sum(self, found: F<L>, sent_back: F<L>, merged: f32) -> F<L> {
+        found * (self.before(sent_back) + merged)
+    }
+
+    /// The part of the strategies that join the paths before this vertex.
+    #[inline(always)]
+    pub fn before(self, sent_back: F<L>) -> F<L> {
+        self.v + self.c * sent_back
     }
 }

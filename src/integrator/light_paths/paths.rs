@@ -1,5 +1,6 @@
 //! The data of paths from both ends, by slot, and the queues of their stages.
 use super::{
+    grid::Grid,
     path_state::PathState,
     records::{CameraRay, Connection, DirectSample},
     vertices::LightVertices,
@@ -7,7 +8,7 @@ use super::{
 use crate::{
     integrator::{queue::Queue, queues::HitQueues, slots::SLOTS},
     material::Stage,
-    math::One,
+    math::{MAX_LANES, One},
 };
 
 /// The numbers and queues of paths from both ends. Allocated when the first batch of them is traced.
@@ -19,6 +20,9 @@ pub struct LightPaths {
     /// Their lights, and the places there: primitives and triangles.
     pub sources: Vec<[f32; 4]>,
     pub vertices: LightVertices,
+    /// The places of the vertices, if they are merged, and the vertices near those of a register.
+    pub grid: Grid,
+    pub near: [Vec<u32>; MAX_LANES],
     pub direct: Queue,
     pub joins: Queue,
     /// Connections and the hits at their vertices of lights, by stage of shading there.
@@ -32,6 +36,8 @@ impl Default for LightPaths {
             fluxes: vec![[0.0; 4]; SLOTS],
             sources: vec![[0.0; 4]; SLOTS],
             vertices: LightVertices::default(),
+            grid: Grid::default(),
+            near: Default::default(),
             direct: DirectSample::<One>::queue(SLOTS),
             joins: CameraRay::<One>::queue(SLOTS),
             connections: (0..Stage::COUNT).map(|_| (Connection::<One>::queue(SLOTS), HitQueues::default())).collect(),

@@ -138,6 +138,11 @@ impl LightVertices {
         }
     }
 
+    /// The places of all vertices.
+    pub fn positions(&self) -> impl Iterator<Item = [f32; 3]> {
+        self.rows.iter().step_by(ROWS as usize).map(|[x, y, z, _]| [*x, *y, *z])
+    }
+
     /// The last vertices of the paths in some slots, plus 1, or 0.
     #[inline(always)]
     pub fn last<L: Lanes>(&self, l: L, slot: U<L>) -> U<L> {

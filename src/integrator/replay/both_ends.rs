@@ -56,9 +56,15 @@ pub struct StrategyTerm {
     pub contribution: [f32; 3],
 }
 
-/// Replays the paths from both ends of a batch of one pixel; `None` if there are no paths from lights.
+/// Replays the paths from both ends of a batch of one pixel; `None` if there are no paths from lights. Merges take over light of other
+/// pixels: with them only the batch is traced.
 pub(super) fn both_ends(work: &Work, batch: &mut Batch) -> Option<BothEnds> {
     let rays = work.scene.light_rays(work.settings)?;
+    if work.settings.merges() {
+        let finished = trace_both_ends(One, work, rays, batch, &|| false, &mut ());
+        debug_assert_eq!(finished, Ok(()));
+        return None;
+    }
     let mut recorder = Recorder { work, rays, both: BothEnds::default(), ends: Default::default() };
     let finished = trace_both_ends(One, work, rays, batch, &|| false, &mut recorder);
     debug_assert_eq!(finished, Ok(()));

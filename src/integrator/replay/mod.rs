@@ -42,7 +42,7 @@ pub struct Replay {
     pub alone: Option<[f32; 3]>,
     /// The paths that pixels share in this sample, if they do.
     pub shared: Option<SharedLight>,
-    /// The paths from both ends, if there are paths from lights.
+    /// The paths from both ends, if there are paths from lights and nothing is merged.
     pub both_ends: Option<BothEnds>,
     /// Vertices of the path from the camera in order. The contributions of their emission and of their light samples add up to the
     /// radiance, or to `alone` if there is one.
@@ -56,10 +56,10 @@ pub fn replay(scene: &Scene, rays: &CameraRays, settings: &RenderSettings, pixel
     if scene.traces_light_paths(settings) {
         let from_camera = RenderSettings { estimator: Estimator::Mis, reuse: Reuse::Off, ..*settings };
         let replay = replay(scene, rays, &from_camera, pixel, sample);
-        let work = Work::tile(scene, rays, settings, pixel, [1, 1], sample);
+        let (work, place) = work_of(scene, rays, settings, pixel, sample);
         let mut batch = Batch::default();
         let both_ends = both_ends(&work, &mut batch);
-        return Replay { radiance: radiance_at(&batch, [0, 0]), alone: Some(replay.radiance), both_ends, ..replay };
+        return Replay { radiance: radiance_at(&batch, place), alone: Some(replay.radiance), both_ends, ..replay };
     }
     let one = Work::tile(scene, rays, settings, pixel, [1, 1], sample);
     let work = if one.shares() { one.whole_tile() } else { one };
@@ -106,7 +106,7 @@ fn end_at(scene: &Scene, settings: &RenderSettings, last: &Vertex) -> End {
     }
 }
 
-/// The work that takes a sample of a pixel, and the pixel's column and row in it. Pixels that share need the paths of the whole tile.
+/// The work that takes a sample of a pixel, and the pixel's column and row in it. Pixels that share or merge need the paths of the whole tile.
 fn work_of<'a>(
     scene: &'a Scene,
     rays: &'a CameraRays,
@@ -115,7 +115,7 @@ fn work_of<'a>(
     sample: u32,
 ) -> (Work<'a>, [u32; 2]) {
     let one = Work::tile(scene, rays, settings, pixel, [1, 1], sample);
-    let work = if scene.sharing(rays, settings).correlates() { one.whole_tile() } else { one };
+    let work = if settings.merges() || scene.sharing(rays, settings).correlates() { one.whole_tile() } else { one };
     (work, place_in(&work, pixel))
 }
 

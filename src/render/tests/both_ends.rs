@@ -52,7 +52,7 @@ const PANELS: &str = "
     emission.radiance = [9.0, 8.0, 7.0]
     ";
 
-const BALL: &str = "shape.sphere = { center = [0.4, 0.8, 0.2], radius = 0.4 }";
+pub const BALL: &str = "shape.sphere = { center = [0.4, 0.8, 0.2], radius = 0.4 }";
 /// A cube whose normals are those of a ball. They differ from those of its sides by up to 55°.
 const SMOOTH_CUBE: &str = "shape.mesh = { smooth = true, \
     vertices = [[-1, -1, -1], [1, -1, -1], [1, 1, -1], [-1, 1, -1], [-1, -1, 1], [1, -1, 1], [1, 1, 1], [-1, 1, 1]], \
@@ -60,12 +60,13 @@ const SMOOTH_CUBE: &str = "shape.mesh = { smooth = true, \
     [1, 2, 6], [1, 6, 5]] }
     transform = [{ scale = 0.3 }, { rotate = { axis = [1, 1, 0], degrees = 20 } }, { translate = [0.4, 0.8, 0.2] }]";
 
-fn scene(shape: &str, material: &str) -> Scene {
+pub fn scene(shape: &str, material: &str) -> Scene {
     parse("both ends", PANELS.replace("SHAPE", shape).replace("BALL", material))
         .unwrap_or_else(|error| panic!("{}", error.report()))
 }
 
-const SETTINGS: RenderSettings = RenderSettings {
+pub const SETTINGS: RenderSettings = RenderSettings {
+    merging: false,
     estimator: Estimator::Bidirectional,
     sampler: Sampler::Independent,
     directions: crate::sampling::Directions::Bsdf,
@@ -80,7 +81,7 @@ const SETTINGS: RenderSettings = RenderSettings {
 };
 
 /// Mean green of the image, and its variance.
-fn mean(scene: &Scene, settings: &RenderSettings, spp: u32) -> [f64; 2] {
+pub fn mean(scene: &Scene, settings: &RenderSettings, spp: u32) -> [f64; 2] {
     let rays = scene.rays(&scene.camera);
     let threads = Threads::new(2, SimdLevel::best()).expect("threads");
     let mut film = Film::new(rays.resolution);
@@ -132,7 +133,7 @@ fn every_strategy_alone_finds_the_light_of_its_number_of_reflections() {
 
 #[test]
 fn all_strategies_together_find_the_light_of_mis() {
-    const SETTINGS: RenderSettings = RenderSettings { roulette: Roulette::BY_THROUGHPUT, ..self::SETTINGS };
+    pub const SETTINGS: RenderSettings = RenderSettings { roulette: Roulette::BY_THROUGHPUT, ..self::SETTINGS };
     let balls =
         ["white", "gloss", "lacquered", "clear", "tinted", "rough_tinted", "shadowed", "bumped_glass"].map(|ball| (BALL, ball));
     let cubes = ["white", "gloss", "lacquered", "clear", "rough", "rough_tinted", "bumped", "shadowed", "bumped_glass"]

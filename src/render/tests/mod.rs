@@ -4,6 +4,7 @@ mod denoise;
 mod film;
 mod frame;
 mod layers;
+mod merging;
 mod noise;
 mod passes;
 mod tile;

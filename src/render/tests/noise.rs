@@ -16,7 +16,7 @@ use crate::{
     scene::{Camera, Estimator, RenderSettings, Reuse, Roulette, Scene, load, parse},
 };
 
-fn shipped(name: &str) -> Scene {
+pub fn shipped(name: &str) -> Scene {
     load(format!("{}/scenes/{name}.toml", env!("CARGO_MANIFEST_DIR")).as_ref()).expect("a shipped scene")
 }
 
@@ -35,6 +35,7 @@ fn frame(film: &Film) -> Frame {
 
 /// Independent samples of the furnace, whose variance is known.
 const UNIFORM: RenderSettings = RenderSettings {
+    merging: false,
     estimator: Estimator::Path,
     sampler: Sampler::Independent,
     directions: Directions::Uniform,

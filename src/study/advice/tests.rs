@@ -18,6 +18,7 @@ use crate::{
 };
 
 const IN_USE: RenderSettings = RenderSettings {
+    merging: false,
     estimator: Estimator::Mis,
     sampler: Sampler::Independent,
     directions: crate::sampling::Directions::Bsdf,

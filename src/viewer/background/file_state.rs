@@ -5,7 +5,7 @@ use noisefall::{
     declare::{Assets, for_each_file},
     edit::{Document, Outside, Version, Written},
     export::{self, Source},
-    scene::{description::SceneDescription, read_text},
+    scene::{description::SceneDescription, load, read_text},
 };
 
 /// The file of a document as it is now.
@@ -49,7 +49,11 @@ pub fn compare(document: &Document) -> FileState {
     match document.compare_outside(&text) {
         Ok(None) => FileState::Known,
         Ok(Some(outside)) => FileState::Changed(Box::new(outside)),
-        Err(error) => FileState::Broken(BrokenFile { text: Some(text), report: error.report() }),
+        Err(error) => {
+            // The compiler knows the lines of names, too.
+            let report = load(path).err().unwrap_or(error).report();
+            FileState::Broken(BrokenFile { text: Some(text), report })
+        }
     }
 }
 
@@ -111,11 +115,11 @@ mod tests {
     fn a_scene_in_the_program_is_written_with_its_files() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("sky.toml");
-        let scene = noisefall::scene::load(Path::new("sky_lit")).expect("it is in the program");
+        let scene = load(Path::new("sky_lit")).expect("it is in the program");
         let document = Document::untitled(&scene.source).expect("a scene");
         let done = save(&document, Some(Path::new("sky_lit")), &scene.assets, &path, false);
         assert!(matches!(done, SaveResult::Exported(version) if version == document.version()));
-        let again = noisefall::scene::load(&path).expect("its files are there");
+        let again = load(&path).expect("its files are there");
         assert!(again.assets.is_empty() && again.objects.len() == scene.objects.len());
     }
 

@@ -20,6 +20,8 @@ const NOTICE_SECONDS: f64 = 6.0;
 /// Largest width of a text, and the width that the side panel and the buttons need beside it, points.
 const MOST_WIDTH: f32 = 620.0;
 const AROUND: f32 = 500.0;
+/// Width of the buttons of a message, points.
+const BUTTONS: f32 = 110.0;
 /// The oldest one is dropped for a new one.
 const MOST_NOTICES: usize = 4;
 
@@ -64,8 +66,12 @@ impl Notices {
 fn show_notice(ui: &mut egui::Ui, notice: &Notice) -> bool {
     ui.horizontal(|ui| {
         let colour = if notice.is_error { ui.bad() } else { ui.visuals().text_color() };
-        ui.set_max_width((ui.ctx().content_rect().width() - AROUND).clamp(200.0, MOST_WIDTH));
-        ui.add(egui::Label::new(RichText::new(with_quotation_marks(&notice.text)).color(colour)).wrap());
+        let width = (ui.ctx().content_rect().width() - AROUND).clamp(200.0, MOST_WIDTH);
+        ui.set_max_width(width);
+        ui.scope(|ui| {
+            ui.set_max_width(width - BUTTONS);
+            ui.add(egui::Label::new(RichText::new(with_quotation_marks(&notice.text)).color(colour)).wrap());
+        });
         if notice.is_error && ui.small_button("Copy").on_hover_text("Copies this message.").clicked() {
             ui.ctx().copy_text(notice.text.clone());
         }

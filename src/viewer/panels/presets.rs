@@ -16,7 +16,7 @@ const PRESETS: [(Preset, &str, &str); 2] = [
     (
         Preset::Teaching,
         "Teaching",
-        "The textbook estimator: pixels share nothing, and sampling is not adaptive. Estimator, sampler, directions and roulette stay as they are.",
+        "The textbook estimator: pixels share nothing, sampling is not adaptive, nothing is merged, and no trial chooses the estimator. The other settings stay as they are.",
     ),
     (
         Preset::Fastest,
@@ -30,7 +30,11 @@ impl Preset {
     /// The settings with this preset in force. Cap and seed stay: they decide what is estimated, and not how fast.
     pub fn applied_to(self, settings: &RenderSettings) -> RenderSettings {
         match self {
-            Preset::Teaching => RenderSettings { reuse: Reuse::Off, adaptive: false, ..*settings },
+            Preset::Teaching => {
+                let is_chosen = settings.estimator == Estimator::Auto;
+                let estimator = if is_chosen { Estimator::default() } else { settings.estimator };
+                RenderSettings { estimator, reuse: Reuse::Off, adaptive: false, merging: false, ..*settings }
+            }
             Preset::Fastest => RenderSettings {
                 estimator: Estimator::Auto,
                 max_bounces: settings.max_bounces,
@@ -86,6 +90,7 @@ mod tests {
         let taught = Preset::Teaching.applied_to(&own);
         assert_eq!(taught, RenderSettings { reuse: Reuse::Off, adaptive: false, ..own });
         let fast = Preset::Fastest.applied_to(&own);
+        assert_eq!(Preset::Teaching.applied_to(&fast).estimator, Estimator::Mis);
         assert_eq!((fast.max_bounces, fast.count_crossings, fast.seed), (Some(5), true, 7));
         assert_eq!((fast.estimator, fast.reuse, fast.adaptive), (Estimator::Auto, Reuse::Auto, false));
         for preset in [Preset::Teaching, Preset::Fastest] {

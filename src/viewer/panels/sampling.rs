@@ -44,7 +44,7 @@ pub fn show(ui: &mut Ui, settings: &mut RenderSettings, findings: &Findings<'_>)
     let Findings { status, in_force, caution } = *findings;
     controls(ui, "sampling", |ui| {
         presets::show(ui, settings);
-        estimator_row(ui, &mut settings.estimator, in_force);
+        estimator_row(ui, settings, in_force);
         sampler_row(ui, &mut settings.sampler);
         row(ui, &RenderSettings::DIRECTIONS.label(), "Pdf p(ω_i) of the next direction at diffuse surfaces.", |ui, _| {
             words(ui, &mut settings.directions);
@@ -78,13 +78,21 @@ pub fn show(ui: &mut Ui, settings: &mut RenderSettings, findings: &Findings<'_>)
     ui.button("What should I use here?").on_hover_text(doc).clicked()
 }
 
-fn estimator_row(ui: &mut Ui, estimator: &mut Estimator, in_force: Option<&EstimatorInForce>) {
+fn estimator_row(
+    ui: &mut Ui,
+    RenderSettings { estimator, merging, .. }: &mut RenderSettings,
+    in_force: Option<&EstimatorInForce>,
+) {
     let doc = "How direct light is estimated. All estimators converge to the same image; they differ in noise.";
     row_with_note(ui, &RenderSettings::ESTIMATOR.label(), doc, |ui, label| {
         word_list(ui, label, estimator);
-        // Always there, so that no row below moves.
+        // Always something, so that no row below moves.
         let text = match in_force {
             Some(in_force) => in_force.to_string(),
+            None if estimator.connects() => {
+                ui.checkbox(merging, "Merge vertices (biased)").on_hover_text(RenderSettings::MERGING.doc);
+                return;
+            }
             None if *estimator == Estimator::Auto => "…".to_owned(),
             None => " ".to_owned(),
         };

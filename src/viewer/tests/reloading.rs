@@ -103,6 +103,11 @@ fn an_error_is_shown_with_its_line_and_the_last_scene_stays() {
     assert_eq!((radius(window.state()), generation(&window)), (start, before));
     let samples = window.state().results.status.samples;
     wait(&mut window, "more samples", |app| app.results.status.samples > samples);
+    let unknown = format!("{text}\n[[objects]]\nmaterial = 'whit'\nshape.sphere = {{ center = [0, 0, 0], radius = 0.1 }}\n");
+    write(&mut window, &path, &unknown);
+    let error = window.state().dialogs.file_error.clone().expect("it is shown");
+    let line = 1 + unknown[..unknown.find("'whit'").expect("it is there")].matches('\n').count();
+    assert!(error.contains("whit") && error.contains(&format!("mine.toml:{line}:")), "{error}");
     // Names of nothing are found by the reader, files that are missing by the compiler: both have a line.
     let missing = format!(
         "{text}\n[textures.gone]\nimage = {{ path = 'gone.png' }}\n[materials.gone]\nlambertian.albedo = {{ texture = 'gone' }}\n[[objects]]\nname = 'last'\nmaterial = 'gone'\nshape.sphere = {{ center = [0, 0, 0], radius = 0.1 }}\n"

@@ -39,6 +39,9 @@ pub fn show(
     ui.add_space(4.0);
     if let Some(text) = incomparable(&sides) {
         ui.label(RichText::new(text).color(ui.warning()));
+    } else if let Some(first) = head_start(&sides) {
+        // More samples of the same points can be more efficient.
+        ui.weak(format!("No verdict: {first} had a head start. Restart (Ctrl+R) to give both the same time."));
     } else if sides.iter().all(|side| side.efficiency.is_some()) {
         let ratio = error_ratio.map(|ratio| efficiency_ratio(ratio, &sides, [a, b]));
         let (text, more) = verdict(ratio);
@@ -46,15 +49,12 @@ pub fn show(
     } else {
         ui.weak("Available after two samples per pixel.");
     }
-    if began_apart(sides.each_ref().map(|side| side.seconds)) {
-        let first = if sides[0].seconds > sides[1].seconds { "A" } else { "B" };
-        ui.weak(format!("{first} had a head start. Restart (Ctrl+R) to give both the same time."));
-    }
 }
 
-/// Whether one picture had clearly more seconds than the other.
-fn began_apart([a, b]: [f64; 2]) -> bool {
-    a.max(b) > 1.3 * a.min(b) + 0.5
+/// The side that had clearly more seconds than the other, if one had.
+fn head_start([a, b]: &[Side; 2]) -> Option<&'static str> {
+    let (more, less) = if a.seconds > b.seconds { (a, b) } else { (b, a) };
+    (more.seconds > 1.1 * less.seconds + 0.5).then_some(more.letter)
 }
 
 const HEADINGS: [(&str, &str); 8] = [
@@ -198,8 +198,12 @@ mod tests {
 
     #[test]
     fn a_head_start_counts_where_it_is_large() {
-        for (seconds, apart) in [([10.0, 13.4], false), ([13.6, 10.0], true), ([0.1, 0.6], false), ([0.7, 0.1], true)] {
-            assert_eq!(began_apart(seconds), apart, "{seconds:?}");
+        let started = |seconds: f64| {
+            let elapsed = std::time::Duration::from_secs_f64(seconds);
+            side(&Status { spp: 7, elapsed, ..Status::default() }, &RenderSettings::default(), None)
+        };
+        for (a, b, apart) in [(10.0, 11.4, false), (11.6, 10.0, true), (0.1, 0.6, false), (0.7, 0.1, true)] {
+            assert_eq!(head_start(&[a, b].map(started)).is_some(), apart, "{a} {b}");
         }
     }
 
