@@ -54,6 +54,9 @@ const LONGEST: Duration = Duration::from_secs(10);
 /// Endings of the files outside of the folders.
 const ENDINGS: [&str; 12] = ["xml", "pbrt", "gltf", "bin", "ply", "obj", "mtl", "png", "spd", "stl", "hdr", "toml"];
 
+/// The text of a file that no format has.
+const NOTHING: &[u8] = b"nothing";
+
 /// An input: files in the order of their base.
 struct Input {
     base: usize,
@@ -82,11 +85,14 @@ impl Input {
 }
 
 /// A folder with the scenes, under one with files that they must not read.
-struct World(PathBuf);
+struct World {
+    root: PathBuf,
+    /// Whole files by their endings, or nothing that can be read.
+    secrets: Vec<(&'static str, Vec<u8>)>,
+}
 
 impl World {
-    /// Its secrets are whole files, or nothing that can be read.
-    fn new(root: PathBuf, bases: &[Base], are_whole: bool) -> World {
+    fn new(root: PathBuf, bases: &[Base]) -> World {
         for base in 0..bases.len() {
             let folder = root.join(format!("scenes/{base}"));
             fs::create_dir_all(&folder).expect("a folder");
@@ -98,30 +104,25 @@ impl World {
         }
         let whole = |ending: &str| {
             let mut all = bases.iter().flat_map(|base| &base.files);
-            all.find(|(name, ..)| name.ends_with(ending)).map(|(.., bytes)| bytes.clone())
+            all.find(|(name, ..)| name.ends_with(ending)).map_or_else(|| NOTHING.to_vec(), |(.., bytes)| bytes.clone())
         };
-        for ending in ENDINGS {
-            let secret = if are_whole { whole(ending) } else { None };
-            fs::write(root.join(format!("secret.{ending}")), secret.unwrap_or_else(|| b"nothing".to_vec()))
-                .expect("it is written");
-        }
-        World(root)
+        let world = World { root, secrets: ENDINGS.map(|ending| (ending, whole(ending))).into() };
+        world.write_secrets(true);
+        world
     }
 
-    /// A text without the place of this world, and without white space, because long lines are broken, also within a path. Of longer
-    /// ones a message shows a part, which may begin within the place. `text` is that of a value for debugging.
-    fn plain(&self, text: &str) -> String {
-        let text = text.replace("\\n", "");
-        let words: String = text.chars().filter(|c| !c.is_whitespace() && *c != '│').collect();
-        let root = self.0.display().to_string();
-        let cuts = root.char_indices().map(|(at, _)| &root[at..]);
-        cuts.fold(words.replace(&root, mutation::ROOT), |words, end| words.replace(&format!("…{end}/"), "…/"))
+    /// Writes the files outside of the folders of scenes.
+    fn write_secrets(&self, are_whole: bool) {
+        for (ending, whole) in &self.secrets {
+            let bytes = if are_whole { whole } else { NOTHING };
+            fs::write(self.root.join(format!("secret.{ending}")), bytes).expect("it is written");
+        }
     }
 
     /// Writes the files of an input, and returns the first one.
     fn write(&self, input: &Input) -> PathBuf {
-        let folder = self.0.join(format!("scenes/{}", input.base));
-        let root = self.0.display().to_string();
+        let folder = self.root.join(format!("scenes/{}", input.base));
+        let root = self.root.display().to_string();
         for (name, _, bytes) in &input.files {
             let names_root = bytes.windows(mutation::ROOT.len()).any(|window| window == mutation::ROOT.as_bytes());
             let text = names_root.then(|| String::from_utf8_lossy(bytes).replace(mutation::ROOT, &root).into_bytes());
@@ -138,7 +139,7 @@ fn from_environment(name: &str, default: u64) -> u64 {
 #[test]
 fn every_base_is_read_as_it_is() {
     let (bases, folder) = (bases::bases(), tempfile::tempdir().expect("a folder"));
-    let world = World::new(folder.path().to_owned(), &bases, true);
+    let world = World::new(folder.path().to_owned(), &bases);
     for (base, Base { name, reader, files, .. }) in bases.iter().enumerate() {
         let path = world.write(&Input { base, files: files.clone(), leaves: false });
         for number in [0, 1] {
@@ -178,7 +179,7 @@ fn do_no_harm(bases: &[Base], inputs: u64) {
     let [inputs, seed, first] = [("INPUTS", inputs), ("SEED", 0), ("FIRST", 0)]
         .map(|(name, value)| from_environment(&format!("NOISEFALL_HOSTILE_{name}"), value));
     let folder = tempfile::tempdir().expect("a folder").keep();
-    let [whole, broken] = [("a", true), ("b", false)].map(|(name, are_whole)| World::new(folder.join(name), bases, are_whole));
+    let world = World::new(folder.clone(), bases);
     tell(&format!("inputs {first} to {} of seed {seed} in {}", first + inputs, folder.display()));
     // Some formats pack any number of pixels into a few bytes: there, only this limits the memory.
     set_limit(ROOM as u64 / 2);
@@ -192,7 +193,7 @@ fn do_no_harm(bases: &[Base], inputs: u64) {
         let input = Input::new(bases, seed, number);
         let reader = bases[input.base].reader;
         largest = largest.max(input.length());
-        let (path, start) = (whole.write(&input), processor_time());
+        let (path, start) = (world.write(&input), processor_time());
         let read = catch_unwind(AssertUnwindSafe(|| outcome(&path, reader, number)));
         let name = format!("input {number} of seed {seed}, {}", path.display());
         let found = read.unwrap_or_else(|_| panic!("{name}: a panic"));
@@ -201,12 +202,14 @@ fn do_no_harm(bases: &[Base], inputs: u64) {
         let peak = MEMORY.max_allocated().saturating_sub(before);
         assert!(peak <= FACTOR * largest + ROOM, "{name}: {peak} bytes for files of {}", input.length());
         if input.leaves && reader == Reader::Foreign {
-            let other = outcome(&broken.write(&input), reader, number);
-            assert_eq!(whole.plain(&found), broken.plain(&other), "{name}: files outside of the folder matter");
+            world.write_secrets(false);
+            let other = outcome(&path, reader, number);
+            world.write_secrets(true);
+            assert_eq!(found, other, "{name}: files outside of the folder matter");
         }
         // Files that a mutation has cut stay, and those of the base come back.
         let unchanged = Input { files: bases[input.base].files.clone(), ..input };
-        whole.write(&unchanged);
+        world.write(&unchanged);
     }
     let (peak, seconds) = (MEMORY.max_allocated() - before, start.elapsed().as_secs_f64());
     tell(&format!("{inputs} inputs in {seconds:.0} s, a peak of {peak} bytes for files of up to {largest}"));
