@@ -34,10 +34,12 @@ pub fn text(id: &PathId, replay: &Replay) -> String {
     if let Some(both_ends) = &replay.both_ends {
         text += &path_strategies::text(id.scene, both_ends);
     } else if let Some(alone) = replay.alone {
-        text += &format!(
-            "\nThis path alone would have made it {}: pixels share light with their neighbours (--reuse off stops that).",
-            three(alone)
-        );
+        let reason = if id.settings.merges() {
+            "vertices are merged with those of other pixels' paths (--merging off lists all strategies)"
+        } else {
+            "pixels share light with their neighbours (--reuse off stops that)"
+        };
+        text += &format!("\nThis path alone would have made it {}: {reason}.", three(alone));
     }
     text
 }
