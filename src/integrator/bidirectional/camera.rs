@@ -59,13 +59,13 @@ pub(super) fn shade_camera_paths<L: Lanes, O: Observer<L>>(
         for at in hits.registers(l) {
             let vertex = state.ends[1].read(l, hits, at);
             if stage.sees_lights() && !is_joined {
-                queue_light_sample(l, work, *stage, hits, at, &vertex, reflection, &mut state.direct);
+                queue_light_sample(l, work, *stage, hits, at, &vertex, reflection, merged, &mut state.direct);
             }
             if stage.sees_lights() && connects {
-                let connector = Connector { work, stage: *stage, hits, at, vertex: &vertex, reflection };
+                let connector = Connector { work, stage: *stage, hits, at, vertex: &vertex, reflection, merged };
                 // Before connections, which are added in registers: so the sum has one order.
                 if merged > 0.0 {
-                    connector.merge(l, merged, state, radiance);
+                    connector.merge(l, state, radiance);
                 }
                 if is_connected {
                     connector.connect(l, state, radiance, rays, observer);
@@ -108,6 +108,7 @@ fn queue_light_sample<L: Lanes>(
     at: Register<L>,
     PathVertex { live, hit, back, partial }: &PathVertex<L>,
     reflection: u32,
+    merged: f32,
     queue: &mut Queue,
 ) {
     let transmits = if stage.transmits() { l.first(L::N) } else { l.first(0) };
@@ -119,8 +120,7 @@ fn queue_light_sample<L: Lanes>(
     let keep = *live & sample.pdf.above(0.0) & radiance.max_component().above(0.0);
     let height = sample.wi.dot(hit.n);
     let o = height.above(0.0).pick(hit.p, hit.p - hit.n * depth(l, stage, hits, at));
-    let partial =
-        if work.settings.estimator.connects() { partial.sum(height.abs(), reverse, merged_paths(work)) } else { l.f(0.0) };
+    let partial = if work.settings.estimator.connects() { partial.sum(height.abs(), reverse, merged) } else { l.f(0.0) };
     let (d, target, slot, pdf) = (sample.wi, sample.target, hit.slot, sample.pdf);
     let media = media_towards(l, work, stage, hits, at, d);
     DirectSample { o, d, radiance, target, slot, pdf, bsdf_pdf, partial, media }.push(keep, queue);

@@ -37,6 +37,8 @@ pub(super) struct Connector<'a, 'w, L: Lanes> {
     pub at: Register<L>,
     pub vertex: &'a PathVertex<L>,
     pub reflection: u32,
+    /// See [`merged_paths`].
+    pub merged: f32,
 }
 
 impl<L: Lanes> Connector<'_, '_, L> {
@@ -75,7 +77,7 @@ impl<L: Lanes> Connector<'_, '_, L> {
     #[inline(always)]
     #[allow(clippy::too_many_arguments)]
     fn queue(&self, l: L, state: &mut LightPaths, lanes: crate::math::M<L>, index: crate::math::U<L>, light: &LightVertex<L>) {
-        let Connector { work, stage, hits, at, vertex: PathVertex { hit, back, partial, .. }, .. } = self;
+        let Connector { work, stage, hits, at, vertex: PathVertex { hit, back, partial, .. }, merged, .. } = self;
         let way = light.p - hit.p;
         let square = way.length_squared();
         let distance = square.sqrt();
@@ -98,7 +100,7 @@ impl<L: Lanes> Connector<'_, '_, L> {
             cos: height.abs(),
             light: contribution,
             pdf,
-            partial: partial.sum(l.f(1.0), reverse, merged_paths(work)),
+            partial: partial.sum(l.f(1.0), reverse, *merged),
             slot: hit.slot,
             vertex: index,
         };

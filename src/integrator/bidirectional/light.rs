@@ -60,7 +60,7 @@ pub(super) fn shade_light_paths<L: Lanes, O: Observer<L>>(
             let [r, g, b, _] = l.rows(&state.fluxes, vertex.hit.slot);
             let light = vertex.hit.throughput * V { x: r, y: g, z: b };
             if stage.sees_lights() && is_joined {
-                queue_join(l, work, *stage, hits, at, &vertex, light, *bounce, &mut state.joins, observer);
+                queue_join(l, work, *stage, hits, at, &vertex, light, *bounce, merged, &mut state.joins, observer);
                 if is_kept {
                     let place = state.ends[0].place(l, vertex.hit.slot);
                     state.vertices.push(l, work, *stage, hits, at, &vertex, light, place, *bounce);
@@ -147,6 +147,7 @@ fn queue_join<L: Lanes, O: Observer<L>>(
     PathVertex { live, hit, back, partial }: &PathVertex<L>,
     light: V<L>,
     bounce: u32,
+    merged: f32,
     queue: &mut Queue,
     observer: &mut O,
 ) {
@@ -174,7 +175,7 @@ fn queue_join<L: Lanes, O: Observer<L>>(
     let estimator = work.settings.estimator;
     if estimator.connects() || estimator.traces_only_caustics() {
         let found = density * (1.0 / work.light_paths_of_image());
-        weight = weight_of(work, s, t, 1.0 / (1.0 + partial.sum(found, pdf, merged_paths(work))));
+        weight = weight_of(work, s, t, 1.0 / (1.0 + partial.sum(found, pdf, merged)));
     }
     let o = height.above(0.0).pick(hit.p, hit.p - hit.n * depth(l, stage, hits, at));
     let weighted = light * weight;

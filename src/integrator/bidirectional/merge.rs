@@ -32,8 +32,8 @@ pub(super) fn prepare(work: &Work, state: &mut LightPaths) {
 impl<L: Lanes> Connector<'_, '_, L> {
     /// Adds the light of all paths from lights that end nearby.
     #[inline(always)]
-    pub fn merge(&self, l: L, merged_paths: f32, state: &mut LightPaths, radiance: &mut [[f32; 4]]) {
-        let Connector { work, stage, hits, at, vertex, reflection } = self;
+    pub fn merge(&self, l: L, state: &mut LightPaths, radiance: &mut [[f32; 4]]) {
+        let Connector { work, stage, hits, at, vertex, reflection, merged } = self;
         let PathVertex { live, hit, back, partial } = vertex;
         let LightPaths { vertices, grid, near, .. } = state;
         let ([x, y, z], live) = ([hit.p.x.to_array(), hit.p.y.to_array(), hit.p.z.to_array()], live.bits());
@@ -45,7 +45,7 @@ impl<L: Lanes> Connector<'_, '_, L> {
         }
         let most = near.iter().map(Vec::len).max().unwrap_or(0);
         let end_of_bounces = work.settings.last_bounce() + 1 - reflection;
-        let per_path = 1.0 / merged_paths;
+        let per_path = 1.0 / *merged;
         for number in 0..most {
             let mut indices = [f32::from_bits(u32::MAX); MAX_LANES];
             for (index, near) in indices.iter_mut().zip(&*near) {

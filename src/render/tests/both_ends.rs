@@ -61,8 +61,11 @@ const SMOOTH_CUBE: &str = "shape.mesh = { smooth = true, \
     transform = [{ scale = 0.3 }, { rotate = { axis = [1, 1, 0], degrees = 20 } }, { translate = [0.4, 0.8, 0.2] }]";
 
 pub fn scene(shape: &str, material: &str) -> Scene {
-    parse("both ends", PANELS.replace("SHAPE", shape).replace("BALL", material))
-        .unwrap_or_else(|error| panic!("{}", error.report()))
+    parsed(&PANELS.replace("SHAPE", shape).replace("BALL", material))
+}
+
+fn parsed(text: &str) -> Scene {
+    parse("both ends", text.to_owned()).unwrap_or_else(|error| panic!("{}", error.report()))
 }
 
 pub const SETTINGS: RenderSettings = RenderSettings {
@@ -133,7 +136,7 @@ fn every_strategy_alone_finds_the_light_of_its_number_of_reflections() {
 
 #[test]
 fn all_strategies_together_find_the_light_of_mis() {
-    pub const SETTINGS: RenderSettings = RenderSettings { roulette: Roulette::BY_THROUGHPUT, ..self::SETTINGS };
+    const SETTINGS: RenderSettings = RenderSettings { roulette: Roulette::BY_THROUGHPUT, ..self::SETTINGS };
     let balls =
         ["white", "gloss", "lacquered", "clear", "tinted", "rough_tinted", "shadowed", "bumped_glass"].map(|ball| (BALL, ball));
     let cubes = ["white", "gloss", "lacquered", "clear", "rough", "rough_tinted", "bumped", "shadowed", "bumped_glass"]
@@ -193,8 +196,7 @@ const BENT_MIRROR: &str = "
 
 #[test]
 fn smooth_mirrors_bring_the_same_light_from_either_end() {
-    let scene = parse("mirror", BENT_MIRROR.to_owned()).unwrap_or_else(|error| panic!("{}", error.report()));
-    assert_alike(&scene, [[0, 4], [3, 1]], 8000);
+    assert_alike(&parsed(BENT_MIRROR), [[0, 4], [3, 1]], 8000);
 }
 
 /// A white ball in rough glass that absorbs, in light from everywhere.
@@ -219,7 +221,7 @@ const BALL_IN_GLASS: &str = "
 
 #[test]
 fn connections_in_glass_are_attenuated() {
-    let scene = parse("glass", BALL_IN_GLASS.to_owned()).unwrap_or_else(|error| panic!("{}", error.report()));
+    let scene = parsed(BALL_IN_GLASS);
     assert_alike(&scene, [[1, 4], [2, 3]], 8000);
     assert_alike(&scene, [[1, 4], [4, 1]], 8000);
 }

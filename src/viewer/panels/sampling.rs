@@ -90,7 +90,8 @@ fn estimator_row(
         let text = match in_force {
             Some(in_force) => in_force.to_string(),
             None if estimator.connects() => {
-                ui.checkbox(merging, "Merge vertices (biased)").on_hover_text(RenderSettings::MERGING.doc);
+                let doc = "Also takes over the light of paths from lights that end nearby (Georgiev et al. 2012). Finds caustics in mirrors. Biased, but consistent.";
+                ui.checkbox(merging, "Merge vertices (biased)").on_hover_text(doc);
                 return;
             }
             None if *estimator == Estimator::Auto => "…".to_owned(),
