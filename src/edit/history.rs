@@ -63,6 +63,15 @@ impl History {
         Ok(())
     }
 
+    /// Makes one step of the last two. It has the name of the first.
+    pub fn join(&mut self) {
+        let Some(last) = self.done.pop_back() else { return };
+        match self.done.back_mut() {
+            Some(first) => first.merge(last.edit),
+            None => self.done.push_back(last),
+        }
+    }
+
     /// Undoes the last step. Returns false if there is none.
     pub fn undo(&mut self, document: &mut Document) -> bool {
         let Some(step) = self.done.pop_back() else { return false };

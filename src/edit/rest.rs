@@ -1,6 +1,4 @@
 //! Drops objects onto the surface below them.
-use std::ops::Range;
-
 use glam::DVec3;
 
 use super::{Document, Edit, Placement};
@@ -13,10 +11,12 @@ use crate::{
 
 /// Starting points of the rays, which go down from half the height of an object's box, as fractions of its edges.
 const PLACES: [f64; 5] = [0.01, 0.25, 0.5, 0.75, 0.99];
-/// Largest number of surfaces of the object itself that a ray passes through.
+/// Largest number of surfaces that a ray passes through.
 const MOST_PASSED: usize = 64;
-/// Distance behind a surface of the object at which a ray continues, as a fraction of the object's size.
+/// Distance behind a surface at which a ray continues, as a fraction of the object's size.
 const STEP: f64 = 1e-5;
+/// The accuracy of a drop, as a fraction of the object's size: intersections are found in single precision.
+const ACCURACY: f64 = 1e-6;
 /// Smallest −y of the unit normal of a ceiling.
 const STEEPEST_CEILING: f64 = 0.7;
 /// The height of new lamps over the floor, in sizes of new objects.
@@ -25,18 +25,21 @@ const SIZES_OF_LAMP_HEIGHT: f64 = 2.0;
 const PART_OF_ROOM: f64 = 0.6;
 
 impl Document {
-    /// The edit that lets the bounding box of an object rest on the highest surface below its middle. `scene` is the compiled scene of
-    /// this document. `None` if there is nothing below, or if it rests already.
+    /// The edit that lets an object rest on the highest surface that is below it and below the middle of its height. An object that has
+    /// sunk in is raised; one that is beside is not looked at. `scene` is the compiled scene of this document. `None` if there is nothing
+    /// below, or if it rests already.
     pub fn drop_to_floor(&self, scene: &Scene, object: usize) -> Option<Edit> {
         let own = scene.objects_of(object);
         let objects = scene.objects.get(own.clone())?;
         let corners = objects.iter().map(|object| object.shape.corners());
         let [min, max] = corners.reduce(|[a, b], [c, d]| [a.min(c), b.max(d)])?;
-        let places = PLACES.into_iter().flat_map(|x| PLACES.map(|z| DVec3::new(x, 0.5, z)));
-        let starts = places.map(|place| min + (max - min) * place);
-        let step = STEP * (max - min).max_element();
-        let floor = starts.filter_map(|start| surface_below(scene, start, step, &own)).max_by(f64::total_cmp)?;
-        let by = floor - min.y;
+        let size = (max - min).max_element();
+        let (step, is_own) = (STEP * size, |owner: usize| own.contains(&owner));
+        let is_below_object = |column: &DVec3| surface_below(scene, column.with_y(max.y + step), step, is_own).is_some();
+        let columns = PLACES.into_iter().flat_map(|x| PLACES.map(|z| min + (max - min) * DVec3::new(x, 0.5, z)));
+        let floors =
+            columns.filter(is_below_object).filter_map(|column| surface_below(scene, column, step, |owner| !is_own(owner)));
+        let by = to_accuracy(floors.max_by(f64::total_cmp)? - min.y, ACCURACY * size);
         (by != 0.0).then(|| self.transformed(object, &Transform::Translate(DVec3::Y * by), DVec3::ZERO)).flatten()
     }
 }
@@ -49,7 +52,7 @@ impl Placement {
             return self;
         }
         let start = self.at + self.normal * clearance;
-        let floor = surface_below(scene, start, STEP * self.scene_size, &(0..0));
+        let floor = surface_below(scene, start, STEP * self.scene_size, |_| true);
         Placement { at: DVec3 { y: floor.unwrap_or(start.y), ..start }, normal: DVec3::Y, ..self }
     }
 
@@ -71,8 +74,14 @@ impl Placement {
     }
 }
 
-/// The height of the first surface below a point that belongs to none of these objects, at time 0.
-fn surface_below(scene: &Scene, start: DVec3, step: f64, own: &Range<usize>) -> Option<f64> {
+/// A number with the decimals that an accuracy leaves.
+fn to_accuracy(x: f64, accuracy: f64) -> f64 {
+    let decimals = (-accuracy.log10()).ceil().clamp(0.0, 300.0) as usize;
+    format!("{x:.decimals$}").parse().unwrap_or(x) + 0.0
+}
+
+/// The height of the first surface below a point that belongs to one of these objects, at time 0.
+fn surface_below(scene: &Scene, start: DVec3, step: f64, is_one: impl Fn(usize) -> bool) -> Option<f64> {
     let mut p = start;
     for _ in 0..MOST_PASSED {
         let [o, d] = [p, DVec3::NEG_Y].map(|v| V::splat(One, v.as_vec3().to_array()));
@@ -81,7 +90,7 @@ fn surface_below(scene: &Scene, start: DVec3, step: f64, own: &Range<usize>) -> 
             return None;
         }
         let distance = f64::from(nearest.t.0);
-        if !own.contains(&(scene.owners[nearest.primitive.0 as usize] as usize)) {
+        if is_one(scene.owners[nearest.primitive.0 as usize] as usize) {
             return Some(p.y - distance);
         }
         p.y -= distance + step;

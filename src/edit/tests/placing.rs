@@ -258,6 +258,19 @@ fn objects_are_dropped_to_what_is_below() {
     assert!(document.drop_to_floor(&compiled(&document), 0).is_none());
 }
 
+#[test]
+fn what_is_beside_an_object_does_not_raise_it() {
+    let mut document = room();
+    // Its box reaches into the ball of the room, which it does not touch.
+    let pearl = ShapeKind::from(crate::shape::sphere::Sphere { center: DVec3::new(0.6, 0.7, 0.6), radius: 0.3 });
+    let mut pearl = crate::scene::description::ObjectDescription { shape: pearl, ..Default::default() };
+    does(&mut document, &Edit::insert_tree(path("objects.3"), Tree::of(&mut pearl)));
+    let edit = document.drop_to_floor(&compiled(&document), 3).expect("the floor is below");
+    does(&mut document, &edit);
+    let ShapeKind::Sphere(pearl) = &document.description().objects[3].shape else { panic!("it is a ball") };
+    assert_eq!(pearl.center, DVec3::new(0.6, 0.3, 0.6), "to the last digit");
+}
+
 /// A room of 2.5 m with a ball on its floor, closed above.
 fn closed_room() -> Document {
     let mut document = room();

@@ -29,11 +29,10 @@ impl App {
 
     /// Shows the gizmo of the selected part over the picture, and makes its edits.
     pub fn show_gizmo(&mut self, ui: &mut Ui, area: &PictureArea) {
-        if self.selection.moves_copy {
+        if self.selection.copy_of.is_some() && !self.selection.gizmo.is_active() {
             if self.is_compiling() {
                 return;
             }
-            self.selection.moves_copy = false;
             self.selection.gizmo.start(Mode::Move);
         }
         let Some((subject, pivot)) = self.selection.movable().cloned().zip(self.pivot()).filter(|_| self.has_gizmo()) else {
@@ -57,7 +56,7 @@ impl App {
     fn follow_gizmo(&mut self, subject: &Subject, output: &GizmoOutput) {
         let GizmoOutput { change, pivot, phase } = output;
         if *phase == Phase::Cancelled || (*phase == Phase::Done && is_identity(change)) {
-            return self.cancel_drag();
+            return self.cancel_operation();
         }
         let is_new = match &self.selection.change {
             Some(before) => before != change,
@@ -77,15 +76,19 @@ impl App {
         if *phase == Phase::Done {
             self.selection.change = None;
             self.editor.iter_mut().for_each(SceneEditor::end_drag);
+            if self.selection.copy_of.take().is_some() {
+                self.join_edits();
+            }
         }
     }
 
-    fn cancel_drag(&mut self) {
+    fn cancel_operation(&mut self) {
         self.selection.change = None;
         if self.editor.as_mut().is_some_and(SceneEditor::cancel_drag) {
             self.history.drop_edit();
             self.follow_document();
         }
+        self.discard_copy();
     }
 }
 

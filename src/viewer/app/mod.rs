@@ -7,6 +7,7 @@ mod display;
 mod dock;
 mod dragging;
 mod dropping;
+mod duplicating;
 mod editing;
 mod editor_panel;
 mod exports;

@@ -14,18 +14,14 @@ impl App {
     /// Does something to a part of the scene.
     pub fn act_on(&mut self, subject: Subject, action: Action) {
         let Some(editor) = &mut self.editor else { return };
-        let document = &mut editor.document;
+        let document = &editor.document;
         match action {
             Action::LookAt => {
                 self.selection.select(Some(subject));
                 self.look_at_selection();
             }
             Action::DropToFloor => self.drop_to_floor(&subject),
-            Action::Duplicate => {
-                if let Some((edit, copy)) = document.duplicate(&subject.path()) {
-                    self.edit_and_select(&edit, &copy);
-                }
-            }
+            Action::Duplicate => self.duplicate_beside(&subject),
             Action::Delete => {
                 if self.edit(&Edit::remove(subject.path())) {
                     self.selection.select(None);

@@ -90,6 +90,11 @@ impl SceneEditor {
         self.drag.take().is_some() && self.undo()
     }
 
+    /// Makes one step of the last two.
+    pub fn join_steps(&mut self) {
+        self.history.join();
+    }
+
     /// Reloads the file, as a step of its own.
     pub fn take_outside(&mut self, outside: Outside) {
         (self.drag, self.revision) = (None, self.revision + 1);

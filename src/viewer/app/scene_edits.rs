@@ -42,6 +42,18 @@ impl App {
         made.is_ok()
     }
 
+    /// Makes one step of the last two edits.
+    pub fn join_edits(&mut self) {
+        self.editor.iter_mut().for_each(SceneEditor::join_steps);
+        self.history.drop_edit();
+    }
+
+    /// Takes back the last edit of the scene, and forgets it.
+    pub fn discard_edit(&mut self) {
+        self.history.drop_edit();
+        self.undo_edit();
+    }
+
     /// Takes back the last edit of the scene.
     pub fn undo_edit(&mut self) {
         self.step_in_scene(SceneEditor::undo, |_| true);

@@ -11,8 +11,8 @@ pub struct Selection {
     pub gizmo: Gizmo,
     /// What the gizmo has done to the object or lamp so far.
     pub change: Option<Transform>,
-    /// The part is a copy, which the pointer moves as soon as it is compiled.
-    pub moves_copy: bool,
+    /// The part is a copy of this one. The pointer moves it as soon as it is compiled, until the copy is confirmed or discarded.
+    pub copy_of: Option<Subject>,
     /// The pixel of the picture that was clicked last: new objects are placed there.
     pub clicked: Option<[u32; 2]>,
 }
@@ -20,21 +20,21 @@ pub struct Selection {
 impl Selection {
     pub fn new(ctx: &egui::Context) -> Selection {
         let outline = OutlineFinder::new(ctx);
-        Selection { subject: None, outline, gizmo: Gizmo::default(), change: None, moves_copy: false, clicked: None }
+        Selection { subject: None, outline, gizmo: Gizmo::default(), change: None, copy_of: None, clicked: None }
     }
 
     /// Selects a part of the scene, or nothing.
     pub fn select(&mut self, subject: Option<Subject>) {
         if self.subject != subject {
             self.end_operation();
-            (self.subject, self.moves_copy) = (subject, false);
+            self.subject = subject;
         }
     }
 
     /// Ends the operation of the gizmo.
     pub fn end_operation(&mut self) {
         self.gizmo.reset();
-        self.change = None;
+        (self.change, self.copy_of) = (None, None);
     }
 
     /// The selected part that the gizmo may move: an object or a lamp.

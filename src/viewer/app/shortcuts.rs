@@ -141,8 +141,10 @@ impl App {
         if presses(ctx, Key::Delete) || presses(ctx, Key::X) {
             self.act_on(subject, Action::Delete);
         } else if ctx.input(duplicates) {
-            self.act_on(subject.clone(), Action::Duplicate);
-            self.selection.moves_copy = self.window.hovered.is_some() && self.selection.subject != Some(subject);
+            match self.window.hovered {
+                Some(_) => self.duplicate_and_move(subject),
+                None => self.duplicate_beside(&subject),
+            }
         }
     }
 
@@ -200,13 +202,16 @@ impl App {
         if self.window.had_focus || self.cancel_loading() {
             return;
         }
-        if self.background.adviser.take().is_some() || self.end_tour() {
-            return;
-        }
         let dialogs = &mut self.dialogs;
         if dialogs.help || dialogs.remarks || dialogs.wait() {
             (dialogs.help, dialogs.remarks, dialogs.scene_error) = (false, false, None);
-        } else if dialogs.file_error.is_some() || !dialogs.notices.0.is_empty() {
+            return;
+        }
+        if self.background.adviser.take().is_some() || self.end_tour() || self.discard_copy() {
+            return;
+        }
+        let dialogs = &mut self.dialogs;
+        if dialogs.file_error.is_some() || !dialogs.notices.0.is_empty() {
             dialogs.file_error = None;
             dialogs.notices.0.clear();
         } else if self.selection.subject.is_some() {

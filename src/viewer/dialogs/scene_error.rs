@@ -10,7 +10,7 @@ pub fn show(ctx: &egui::Context, error: &mut Option<String>, is_open: bool) -> b
     egui::Window::new("This scene cannot be opened")
         .open(&mut open)
         .collapsible(false)
-        .default_width((ctx.content_rect().width() - 376.0).clamp(300.0, 760.0))
+        .default_width(width(ctx))
         .anchor(Align2::CENTER_CENTER, over_the_picture(0.0))
         .show(ctx, |ui| {
             show_report(ui, report, 360.0);
@@ -32,7 +32,7 @@ pub fn show_of_file(ctx: &egui::Context, error: &mut Option<String>) {
     egui::Window::new("This scene file cannot be reloaded")
         .open(&mut open)
         .collapsible(false)
-        .default_width((ctx.content_rect().width() - 376.0).clamp(300.0, 620.0))
+        .default_width(width(ctx))
         .anchor(Align2::CENTER_BOTTOM, over_the_picture(64.0))
         .show(ctx, |ui| {
             show_report(ui, report, 200.0);
@@ -44,6 +44,11 @@ pub fn show_of_file(ctx: &egui::Context, error: &mut Option<String>) {
     if !open {
         *error = None;
     }
+}
+
+/// Width over the image, beside the panel.
+fn width(ctx: &egui::Context) -> f32 {
+    (ctx.content_rect().width() - 376.0).clamp(300.0, 760.0)
 }
 
 fn show_report(ui: &mut egui::Ui, report: &str, height: f32) {

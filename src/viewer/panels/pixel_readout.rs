@@ -74,7 +74,10 @@ fn number(number: Option<f32>, legend: &Legend) -> String {
     let title = &legend.title;
     let unit = legend.scale.as_ref().map_or("", |scale| scale.unit);
     match number.filter(|number| number.is_finite()) {
-        Some(number) => format!("{title} {} {unit}", fixed(number.into(), 4)),
+        Some(number) => {
+            let decimals = if number.fract() == 0.0 { 0 } else { 4 };
+            format!("{title} {} {unit}", fixed(number.into(), decimals))
+        }
         None => format!("{title} –"),
     }
 }
@@ -117,6 +120,7 @@ mod tests {
         let legend = Legend { title: "Depth".to_owned(), scale, entries: Vec::new() };
         let numbers = |number| PixelValues { numbers: Some(vec![0.0, number]), ..PixelValues::default() };
         assert_eq!(said(&numbers(2.5), Some(&legend)), "(1, 0)  Depth 2.5000 m");
+        assert_eq!(said(&numbers(33.0), Some(&legend)), "(1, 0)  Depth 33 m");
         assert_eq!(said(&numbers(f32::NAN), Some(&legend)), "(1, 0)  Depth –");
         assert_eq!(said(&PixelValues { is_missing: true, ..PixelValues::default() }, Some(&legend)), "(1, 0)  –");
     }

@@ -1,6 +1,8 @@
 //! Keys move, rotate and scale the selected object.
 use noisefall::shape::ShapeKind;
 
+use crate::viewer::panels::outliner::{Action, New};
+
 use super::{
     edited::{center, description, edits},
     selection::{AMBER_BALL, ball, seen},
@@ -59,9 +61,38 @@ fn a_copy_follows_the_pointer_until_it_is_put_down() {
     assert_eq!(description(&window).objects.len(), count + 1, "x is an axis here");
     assert!(center(&window, copy).distance(start + DVec3::X * 2.0) < 1e-12);
     undo(&mut window);
-    assert_eq!(center(&window, copy), start);
+    assert!(!window.state().has_unsaved_changes(), "it is one step");
+    redo(&mut window);
+    assert!(center(&window, copy).distance(start + DVec3::X * 2.0) < 1e-12);
+    undo(&mut window);
+    // Escape, or a click where it began, takes the copy back.
+    for moves in [&[Key::X, Key::Num2, Key::Escape][..], &[Key::Enter]] {
+        window.state_mut().selection.select(Some(Subject::Object(AMBER_BALL)));
+        edits(&mut window, "another copy", |w| w.key_press_modifiers(Modifiers::SHIFT, Key::D));
+        assert_eq!(window.state().selection.object(), Some(copy));
+        moves.iter().for_each(|key| press(&mut window, *key));
+        assert_eq!((description(&window).objects.len(), window.state().has_unsaved_changes()), (count, false));
+        assert_eq!(window.state().selection.object(), Some(AMBER_BALL));
+    }
+}
+
+#[test]
+fn a_copy_made_in_the_list_lies_beside_its_original() {
+    let mut window = window("cornell_spheres");
+    let start = center(&window, AMBER_BALL);
+    edits(&mut window, "the copy", |w| w.state_mut().act_on(Subject::Object(AMBER_BALL), Action::Duplicate));
+    let copy = window.state().selection.object().expect("it is selected");
+    let by = center(&window, copy) - start;
+    assert!(by.x.abs() > 2.0 * 0.38 && by.y == 0.0 && by.z == 0.0, "{by}");
     undo(&mut window);
     assert!(!window.state().has_unsaved_changes());
+    window.state_mut().add(New::LampWithoutSurface("point"));
+    window.state_mut().act_on(Subject::Lamp(0), Action::Duplicate);
+    let lamps = &description(&window).lamps;
+    let [from, to] = [&lamps[0], &lamps[1]].map(|lamp| lamp.position().expect("it stands somewhere"));
+    assert!(from.distance(to) > 0.05 && from.y == to.y);
+    window.state_mut().act_on(Subject::Material("amber".to_owned()), Action::Duplicate);
+    assert!(description(&window).materials.contains_key("amber 2"));
 }
 
 #[test]

@@ -18,7 +18,8 @@ fn escape_closes_one_thing_after_the_other() {
             .map(u8::from)
     };
     assert_eq!(left(&window), [1, 1, 1, 1]);
-    for expected in [[0, 1, 1, 1], [0, 0, 1, 1], [0, 0, 0, 1], [0, 0, 0, 0]] {
+    // The help lies over the tour.
+    for expected in [[1, 0, 1, 1], [0, 0, 1, 1], [0, 0, 0, 1], [0, 0, 0, 0]] {
         press(&mut window, Key::Escape);
         assert_eq!(left(&window), expected);
     }

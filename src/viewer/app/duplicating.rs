@@ -1,0 +1,80 @@
+//! Copies parts of the scene. An object in the place of another one is hard to see and wrong to render, so the pointer moves the copy,
+//! or it is put beside the original.
+use glam::DVec3;
+use noisefall::{edit::Edit, shape::Transform};
+
+use super::state::App;
+use crate::viewer::{canvas::framing, panels::subject::Subject};
+
+/// Distance of the middles of an object and its copy, in radii.
+const RADII: f64 = 2.2;
+/// The largest distance of a copy, and that of a lamp without surface, as fractions of the scene's size.
+const FARTHEST: f64 = 0.25;
+const LAMP: f64 = 0.05;
+
+impl App {
+    /// Copies a part of the scene and selects the copy. That of an object or a lamp is put beside the original, as seen by the camera.
+    pub fn duplicate_beside(&mut self, original: &Subject) {
+        let by = self.aside(original);
+        if !self.duplicate(original) {
+            return;
+        }
+        if let Some(edit) = by.and_then(|by| self.moved(&by))
+            && self.edit(&edit)
+        {
+            self.join_edits();
+        }
+    }
+
+    /// Copies a part of the scene and selects the copy. The pointer moves that of an object or a lamp.
+    pub fn duplicate_and_move(&mut self, original: Subject) {
+        if self.duplicate(&original) && self.selection.movable().is_some() {
+            self.selection.copy_of = Some(original);
+        }
+    }
+
+    /// Takes back the copy that the pointer moves. Returns whether there was one.
+    pub fn discard_copy(&mut self) -> bool {
+        let Some(original) = self.selection.copy_of.take() else { return false };
+        self.discard_edit();
+        self.selection.select(Some(original));
+        true
+    }
+
+    fn duplicate(&mut self, original: &Subject) -> bool {
+        let Some(editor) = &mut self.editor else { return false };
+        let Some((edit, copy)) = editor.document.duplicate(&original.path()) else { return false };
+        self.edit(&edit) && {
+            self.selection.select(Subject::at(&copy));
+            true
+        }
+    }
+
+    /// The edit that moves the selected object or lamp.
+    fn moved(&self, by: &Transform) -> Option<Edit> {
+        let document = &self.editor.as_ref()?.document;
+        match self.selection.subject.as_ref()? {
+            Subject::Object(object) => document.transformed(*object, by, DVec3::ZERO),
+            Subject::Lamp(lamp) => document.transformed_lamp(*lamp, by, DVec3::ZERO),
+            _ => None,
+        }
+    }
+
+    /// From an object or a lamp to the place beside it: along the horizontal axis that the image shows widest. It has two digits.
+    fn aside(&self, original: &Subject) -> Option<Transform> {
+        let scene = &self.session.opened.as_ref()?.scene;
+        let distance = match original {
+            Subject::Object(object) => {
+                let objects = scene.objects.get(scene.objects_of(*object))?;
+                let (_, radius) = framing::around(objects.iter().map(|object| object.shape.bounding_sphere()))?;
+                (RADII * radius).min(FARTHEST * scene.size)
+            }
+            Subject::Lamp(_) => LAMP * scene.size,
+            _ => return None,
+        };
+        let distance: f64 = format!("{distance:.1e}").parse().ok().filter(|distance: &f64| distance.is_finite())?;
+        let [right, ..] = self.session.camera.axes();
+        let axis = if right.x.abs() >= right.z.abs() { DVec3::X * right.x.signum() } else { DVec3::Z * right.z.signum() };
+        Some(Transform::Translate(axis * distance))
+    }
+}
