@@ -3,7 +3,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{CameraRays, RenderSettings, Reuse, Scene};
 
-/// What neighbouring pixels share in a render. Written as `false`, `true`, `bright` and `both` in tables, and as a number
+/// What neighbouring pixels share in a render. Written as `false`, `true`, `bright`, `both` and `merged` in tables, and as a number
 /// in files of renders.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Sharing {
@@ -20,9 +20,15 @@ pub enum Sharing {
     /// Path suffixes, and what is bright in the rest of a sample.
     #[serde(rename = "both")]
     Both = 3,
+    /// Paths from lights, whose vertices are merged with those of their own paths.
+    #[serde(rename = "merged")]
+    Merged = 4,
 }
 
 impl Sharing {
+    /// All kinds of sharing.
+    pub const ALL: [Sharing; 5] = [Sharing::Nothing, Sharing::Suffixes, Sharing::BrightSamples, Sharing::Both, Sharing::Merged];
+
     /// Its name in legends and tables.
     pub fn name(self) -> &'static str {
         match self {
@@ -30,6 +36,7 @@ impl Sharing {
             Sharing::Suffixes => "shared paths",
             Sharing::BrightSamples => "shared bright samples",
             Sharing::Both => "shared paths and bright samples",
+            Sharing::Merged => "merged vertices",
         }
     }
 
@@ -43,10 +50,10 @@ impl Sharing {
         }
     }
 
-    /// The setting that asks for it.
+    /// The setting of path reuse with it.
     pub fn reuse(self) -> Reuse {
         match self {
-            Sharing::Nothing => Reuse::Off,
+            Sharing::Nothing | Sharing::Merged => Reuse::Off,
             Sharing::Suffixes => Reuse::On,
             Sharing::BrightSamples => Reuse::Bright,
             Sharing::Both => Reuse::Both,
@@ -72,6 +79,9 @@ impl Sharing {
 impl Scene {
     /// What pixels share with these settings. [`Reuse::Auto`] is still undecided and counts as nothing.
     pub fn sharing(&self, rays: &CameraRays, settings: &RenderSettings) -> Sharing {
+        if settings.merges() && self.traces_light_paths(settings) {
+            return Sharing::Merged;
+        }
         let asked = Sharing::asked(settings.reuse);
         let [suffixes, bright] = [
             asked.has_suffixes() && self.can_share(rays, settings),

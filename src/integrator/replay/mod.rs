@@ -106,7 +106,7 @@ fn end_at(scene: &Scene, settings: &RenderSettings, last: &Vertex) -> End {
     }
 }
 
-/// The work that takes a sample of a pixel, and the pixel's column and row in it. Pixels that share or merge need the paths of the whole tile.
+/// The work that takes a sample of a pixel, and the pixel's column and row in it. Pixels that share need the paths of the whole tile.
 fn work_of<'a>(
     scene: &'a Scene,
     rays: &'a CameraRays,
@@ -115,7 +115,7 @@ fn work_of<'a>(
     sample: u32,
 ) -> (Work<'a>, [u32; 2]) {
     let one = Work::tile(scene, rays, settings, pixel, [1, 1], sample);
-    let work = if settings.merges() || scene.sharing(rays, settings).correlates() { one.whole_tile() } else { one };
+    let work = if scene.sharing(rays, settings).correlates() { one.whole_tile() } else { one };
     (work, place_in(&work, pixel))
 }
 

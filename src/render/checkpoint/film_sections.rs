@@ -16,7 +16,7 @@ use crate::{
         tile::Tile,
     },
     render_file::{Encode, Encoded, Fields, Reader, RenderFileError, Tag},
-    scene::{Reuse, Sharing},
+    scene::Sharing,
 };
 
 const FILM: Tag = Tag(*b"FILM");
@@ -162,7 +162,7 @@ fn read_film(mut fields: Fields, film: &mut Film) -> Result<(), RenderFileError>
 }
 
 fn sharing_of(number: u8) -> Result<Sharing, RenderFileError> {
-    let of_number = Reuse::ALL.map(Sharing::asked).into_iter().find(|sharing| *sharing as u8 == number);
+    let of_number = Sharing::ALL.into_iter().find(|sharing| *sharing as u8 == number);
     of_number.ok_or_else(|| RenderFileError::contents("the film has an unknown kind of sharing"))
 }
 

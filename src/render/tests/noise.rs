@@ -210,6 +210,9 @@ fn means_over_blocks_scatter_as_their_variance_says() {
     let shared = assert_scatter(&room, &RenderSettings { reuse: Reuse::On, ..independent }, 4, "pixels that share paths");
     // The channels of a sample come from one path, so what pixels say together is nearly right where they share nothing.
     assert!((0.9..1.05).contains(&alone) && shared > 1.1 * alone, "{alone} {shared}");
+    let merging = RenderSettings { estimator: Estimator::Bidirectional, merging: true, ..independent };
+    let merged = assert_scatter(&room, &merging, 4, "pixels that merge vertices of the same paths");
+    assert!(merged > 1.1 * alone, "{alone} {merged}");
     let plates = shipped("veach_plates");
     let adaptive = RenderSettings { sampler: Sampler::Independent, adaptive: true, reuse: Reuse::Off, ..plates.settings };
     assert_scatter(&plates, &adaptive, 8, "samples spread by noise");

@@ -4,6 +4,7 @@ use noisefall::render::{Display, ToneMap, WhiteBalance};
 
 use crate::viewer::widgets::{
     explained::Explained,
+    list::value_entry,
     style::{controls, row},
 };
 
@@ -20,7 +21,7 @@ pub fn show(ui: &mut Ui, display: &mut Display) {
             let tone_map = &mut display.tone_map;
             let combo = ComboBox::from_id_salt("Tone map").selected_text(tone_map.title()).show_ui(ui, |ui| {
                 for (map, word) in ToneMap::ALL.map(|map| (map, map.word())) {
-                    ui.selectable_value(tone_map, map, word.title).on_hover_text(word.doc);
+                    value_entry(ui, tone_map, map, word.title).on_hover_text(word.doc);
                 }
             });
             combo.response.labelled_by(label);

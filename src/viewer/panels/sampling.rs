@@ -10,6 +10,7 @@ use noisefall::{
 use super::presets;
 use crate::viewer::widgets::{
     kinds::{kinds, number_rows, word_list, words},
+    list::closing,
     number,
     palette::Palette,
     style::{choices, controls, elided, row, row_with_note},
@@ -136,7 +137,12 @@ fn roulette_rows(ui: &mut Ui, roulette: &mut Roulette, caution: Option<&str>) {
     let doc = "Ends paths with probability 1 − q and weights the survivors by 1/q. Shorter paths, no bias.";
     row_with_note(ui, &RenderSettings::ROULETTE.label(), doc, |ui, label| {
         let combo = ComboBox::from_id_salt("Roulette").selected_text(roulette.about().label());
-        combo.show_ui(ui, |ui| kinds(ui, roulette)).response.labelled_by(label);
+        let list = |ui: &mut Ui| {
+            let before = roulette.place();
+            kinds(ui, roulette);
+            closing(ui, (roulette.place() != before).then_some(()));
+        };
+        combo.show_ui(ui, list).response.labelled_by(label);
         match caution {
             Some(caution) => ui.colored_label(ui.warning(), "infinite variance?").on_hover_text(caution),
             None => ui.label(" "),

@@ -7,7 +7,7 @@ use crate::viewer::background::{
     catalogue::{BUILT_IN_NAME, CatalogueEntry, SceneRequest, open_entry},
     opened_scene::OpenedScene,
 };
-use crate::viewer::widgets::quotation::with_quotation_marks;
+use crate::viewer::widgets::{list::closing, quotation::with_quotation_marks};
 
 /// The height of a row of the list: more than its text needs, so that all are alike.
 const ROW: f32 = 26.0;
@@ -73,7 +73,7 @@ fn scene_list(ui: &mut egui::Ui, opened: Option<&OpenedScene>, catalogue: &[Cata
             chosen = Some(Some(entry.path.clone()));
         }
     }
-    chosen
+    closing(ui, chosen)
 }
 
 #[cfg(test)]

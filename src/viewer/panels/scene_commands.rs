@@ -8,6 +8,7 @@ use noisefall::{
 };
 
 use super::outliner::New;
+use crate::viewer::widgets::list::closing;
 
 /// What a button asks for.
 #[derive(Clone, Copy, Debug)]
@@ -41,7 +42,7 @@ fn add_menu(ui: &mut Ui, opens: bool) -> Option<New> {
         let lamp = ui.menu_button("Lamp", lamps).inner.flatten();
         let material = ui.button("Material").clicked().then_some(New::Material);
         let texture = ui.button("Texture").clicked().then_some(New::Texture);
-        shape.or(lamp).or(material).or(texture)
+        closing(ui, shape.or(lamp).or(material).or(texture))
     });
     if opens {
         Popup::open_id(ui.ctx(), Popup::default_response_id(&menu.response));
@@ -59,7 +60,7 @@ fn template_menu(ui: &mut Ui) -> Option<Template> {
                 chosen = Some(template);
             }
         }
-        chosen
+        closing(ui, chosen)
     });
     menu.response.on_hover_text("Opens a new scene in place of this one.");
     menu.inner.flatten()

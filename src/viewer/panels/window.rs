@@ -1,7 +1,10 @@
 //! Settings of the window and the machine; none of them changes the image.
 use egui::{ComboBox, Slider, ThemePreference, Ui};
 
-use crate::viewer::widgets::style::{controls, row};
+use crate::viewer::widgets::{
+    list::{entry, value_entry},
+    style::{controls, row},
+};
 
 const THEMES: [(ThemePreference, &str); 3] =
     [(ThemePreference::System, "As the system"), (ThemePreference::Dark, "Dark"), (ThemePreference::Light, "Light")];
@@ -42,7 +45,7 @@ fn theme(ui: &mut Ui, label: egui::Id) -> Option<Option<String>> {
     let name = THEMES.iter().find(|(preference, _)| *preference == theme).map_or("", |(_, name)| name);
     let combo = ComboBox::from_id_salt("Theme").selected_text(name).show_ui(ui, |ui| {
         for (preference, name) in THEMES {
-            if ui.selectable_value(&mut theme, preference, name).clicked() {
+            if value_entry(ui, &mut theme, preference, name).clicked() {
                 ui.ctx().set_theme(preference);
                 chosen = Some((preference != ThemePreference::System).then(|| name.to_lowercase()));
             }
@@ -56,7 +59,7 @@ fn scale(ui: &mut Ui, label: egui::Id) {
     let (now, percent) = (ui.ctx().zoom_factor(), |scale: f32| format!("{:.0} %", 100.0 * scale));
     let combo = ComboBox::from_id_salt("Scale").selected_text(percent(now)).show_ui(ui, |ui| {
         for scale in SCALES {
-            if ui.selectable_label(scale == now, percent(scale)).clicked() {
+            if entry(ui, scale == now, percent(scale)).clicked() {
                 ui.ctx().set_zoom_factor(scale);
             }
         }

@@ -53,6 +53,21 @@ fn a_number_keeps_its_last_digits_when_tab_or_a_press_comes_in_the_same_frame() 
 }
 
 #[test]
+fn a_list_that_keys_open_closes_when_they_choose() {
+    let mut window = window("furnace");
+    let enter = |window: &mut Window, role, name: &str| {
+        window.get_by_role_and_label(role, name).focus();
+        window.run_steps(2);
+        press(window, Key::Enter);
+    };
+    enter(&mut window, Role::ComboBox, "Tone map");
+    assert!(egui::Popup::is_any_open(&window.ctx));
+    enter(&mut window, Role::Button, "AgX");
+    assert!(!egui::Popup::is_any_open(&window.ctx));
+    assert_eq!(window.state().session.look.display.tone_map, ToneMap::Agx);
+}
+
+#[test]
 fn a_question_has_the_keyboard_and_enter_gives_its_first_answer() {
     let folder = tempfile::tempdir().expect("a folder");
     let (mut window, path, _) = scene_files::window_of_copy(folder.path());

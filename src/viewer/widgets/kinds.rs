@@ -3,6 +3,7 @@ use egui::{ComboBox, Id, Response, Ui};
 use noisefall::declare::{OneOf, Parameter, Parameters, Scale, Value, Words};
 
 use super::{
+    list::value_entry,
     number,
     style::{choices, row},
 };
@@ -19,7 +20,7 @@ pub fn word_list<T: Words>(ui: &mut Ui, label: Id, chosen: &mut T) {
     // The label tells lists apart: each has one of its own.
     let combo = ComboBox::from_id_salt(label).selected_text(title(*chosen)).show_ui(ui, |ui| {
         for (word, value) in T::words() {
-            ui.selectable_value(chosen, *value, word.title).on_hover_text(word.doc);
+            value_entry(ui, chosen, *value, word.title).on_hover_text(word.doc);
         }
     });
     combo.response.labelled_by(label);

@@ -8,6 +8,7 @@ pub mod explained;
 pub mod given_up;
 pub mod hex;
 pub mod kinds;
+pub mod list;
 pub mod number;
 pub mod palette;
 pub mod path_field;

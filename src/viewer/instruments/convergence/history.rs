@@ -106,11 +106,10 @@ impl History {
 /// Names settings by what differs from those of the scene, or by estimator and sampler if nothing does, and by what pixels share.
 /// The words are those of the panel.
 pub fn name(settings: &RenderSettings, of_scene: &RenderSettings, sharing: Sharing) -> String {
-    let RenderSettings { estimator, merging, directions, sampler, roulette, max_bounces, reuse, adaptive, seed, .. } = *settings;
+    let RenderSettings { estimator, directions, sampler, roulette, max_bounces, reuse, adaptive, seed, .. } = *settings;
     let cap = max_bounces.map_or_else(|| "no cap".to_owned(), |cap| format!("cap of {}", counted(cap, "bounce")));
     let parts = [
         (estimator != of_scene.estimator, estimator.word().title.to_owned()),
-        (merging != of_scene.merging, if merging { "merging" } else { "no merging" }.to_owned()),
         (directions != of_scene.directions, format!("{} directions", directions.word().title)),
         (sampler != of_scene.sampler, sampler.word().title.to_owned()),
         (roulette != of_scene.roulette, roulette.words()),
@@ -238,6 +237,6 @@ mod tests {
         assert_eq!(name(&never, &scene.settings, Sharing::Nothing), "no sharing");
         assert_eq!(name(&scene.settings, &scene.settings, Sharing::Suffixes), "MIS, Sobol (Owen), shared paths");
         let merged = RenderSettings { estimator: Estimator::Bidirectional, merging: true, ..scene.settings };
-        assert_eq!(name(&merged, &scene.settings, Sharing::Nothing), "Bidirectional, merging, no sharing");
+        assert_eq!(name(&merged, &scene.settings, Sharing::Merged), "Bidirectional, merged vertices");
     }
 }

@@ -4,7 +4,7 @@ use glam::DVec3;
 use noisefall::declare::{OwnedValue, Parameter, Path, Range, Textured, Value, Word, check_value};
 
 use super::{Request, Surroundings, numbers::Numbers, references};
-use crate::viewer::widgets::{colour_edit, committed_text, counted::counted};
+use crate::viewer::widgets::{colour_edit, committed_text, counted::counted, list::value_entry};
 
 /// The control of a value, and its result.
 pub struct Cell<'a> {
@@ -153,7 +153,7 @@ impl Cell<'_> {
         let mut new = place;
         let combo = ComboBox::from_id_salt("word").selected_text(words[place].title).show_ui(ui, |ui| {
             for (at, word) in words.iter().enumerate() {
-                ui.selectable_value(&mut new, at, word.title).on_hover_text(word.doc);
+                value_entry(ui, &mut new, at, word.title).on_hover_text(word.doc);
             }
         });
         combo.response.labelled_by(label);

@@ -3,7 +3,10 @@ use egui::{Button, ComboBox, Id, Ui};
 use noisefall::declare::{Family, OwnedValue, Parameter, Path};
 
 use super::{Request, Surroundings};
-use crate::viewer::widgets::counted::counted;
+use crate::viewer::widgets::{
+    counted::counted,
+    list::{closing, entry},
+};
 
 /// Source of a value.
 pub enum Source {
@@ -45,15 +48,15 @@ pub fn names(
     let all = if family == Family::Material { surroundings.materials } else { surroundings.textures };
     let mut request = None;
     let combo = ComboBox::from_id_salt("names").truncate().selected_text(current.unwrap_or(NONE)).show_ui(ui, |ui| {
-        if is_optional && ui.selectable_label(current.is_none(), NONE).clicked() && current.is_some() {
+        if is_optional && entry(ui, current.is_none(), NONE).clicked() && current.is_some() {
             request = Some(Request::Remove { path: path.clone() });
         }
         for name in all {
-            if ui.selectable_label(current == Some(name), name).clicked() && current != Some(name) {
+            if entry(ui, current == Some(name), name).clicked() && current != Some(name) {
                 request = Some(Request::Set { path: path.clone(), value: OwnedValue::Text(name.clone()) });
             }
         }
-        if family == Family::Texture && ui.selectable_label(false, FROM_FILE).clicked() {
+        if family == Family::Texture && entry(ui, false, FROM_FILE).clicked() {
             request = Some(Request::BrowseTexture { path: path.clone() });
         }
     });
@@ -81,7 +84,7 @@ fn show_button(ui: &mut Ui, family: Family, name: &str, surroundings: &Surroundi
 pub fn textures(ui: &mut Ui, label: Id, current: &str, surroundings: &Surroundings) -> Option<Source> {
     let combo = ComboBox::from_id_salt("textures").truncate().selected_text(current);
     let combo = combo.show_ui(ui, |ui| {
-        let is_constant = ui.selectable_label(false, "constant").clicked();
+        let is_constant = entry(ui, false, "constant").clicked();
         entries(ui, Some(current), surroundings).or(is_constant.then_some(Source::Constant))
     });
     combo.response.labelled_by(label);
@@ -112,5 +115,5 @@ fn entries(ui: &mut Ui, current: Option<&str>, surroundings: &Surroundings) -> O
     if ui.button(FROM_FILE).clicked() {
         chosen = Some(Source::File);
     }
-    chosen
+    closing(ui, chosen)
 }

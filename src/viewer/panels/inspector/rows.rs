@@ -9,6 +9,7 @@ use super::{
     references,
     row::{Heading, Mark, capital},
 };
+use crate::viewer::widgets::list::value_entry;
 
 /// The visited tables, and the requests so far.
 pub struct Rows<'u> {
@@ -130,7 +131,7 @@ impl Parameters for Rows<'_> {
                 let name = |place: usize| words(&choice.alternatives[place]);
                 let combo = ComboBox::from_id_salt("choice").selected_text(name(now)).show_ui(ui, |ui| {
                     for (at, alternative) in choice.alternatives.iter().enumerate() {
-                        let entry = ui.selectable_value(&mut place, at, name(at));
+                        let entry = value_entry(ui, &mut place, at, name(at));
                         if let [only] = &alternative.outline[..] {
                             entry.on_hover_text(only.parameter.doc);
                         }

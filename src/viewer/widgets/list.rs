@@ -1,0 +1,26 @@
+//! Lists and menus that close when something is chosen. By itself egui closes them for the mouse, and not for keys.
+use egui::{IntoAtoms, Response, Ui};
+
+/// An entry that is marked or not.
+pub fn entry<'a>(ui: &mut Ui, is_chosen: bool, text: impl IntoAtoms<'a>) -> Response {
+    let response = ui.selectable_label(is_chosen, text);
+    closing(ui, response.clicked().then_some(()));
+    response
+}
+
+/// An entry that sets `chosen` to a value.
+pub fn value_entry<'a, T: PartialEq>(ui: &mut Ui, chosen: &mut T, value: T, text: impl IntoAtoms<'a>) -> Response {
+    let response = entry(ui, *chosen == value, text);
+    if response.clicked() {
+        *chosen = value;
+    }
+    response
+}
+
+/// What was chosen in the list or menu of `ui`, which closes if that is something.
+pub fn closing<T>(ui: &Ui, chosen: Option<T>) -> Option<T> {
+    if chosen.is_some() {
+        ui.close();
+    }
+    chosen
+}
