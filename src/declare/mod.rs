@@ -35,7 +35,6 @@ mod declared;
 #[cfg(feature = "reports")]
 mod dice;
 mod files;
-mod lines;
 mod lister;
 mod manual;
 mod memo;
@@ -61,7 +60,6 @@ pub use self::{
     check::{check, check_value},
     declared::{Declare, Kind, OneOf},
     files::for_each_file,
-    lines::lines_of,
     lister::outline,
     manual::manual,
     memo::{Memo, PartReport},

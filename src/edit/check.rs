@@ -5,7 +5,7 @@ use super::{
 };
 use crate::{
     declare::{Declare, Family, Parameter, Parameters, Path, Problem, Step, Value, check_value},
-    scene::{check_camera, check_lamp, check_object, description::SceneDescription},
+    scene::{check_blend, check_camera, check_lamp, check_object, description::SceneDescription},
 };
 
 /// Largest number of places that a message names.
@@ -38,7 +38,7 @@ fn names(description: &mut SceneDescription, path: &Path) -> Option<Problem> {
     unknown
 }
 
-/// The camera, the object or the lamp that contains a path.
+/// The camera, the object, the lamp or the material that contains a path.
 fn part(description: &SceneDescription, path: &Path) -> Option<Problem> {
     match &path.0[..] {
         [Step::Key(table), ..] if table == "camera" => {
@@ -51,6 +51,11 @@ fn part(description: &SceneDescription, path: &Path) -> Option<Problem> {
         [Step::Key(list), Step::Item(place), ..] if list == "lamps" => {
             let problem = check_lamp(description.lamps.get(*place)?).err()?;
             Some(problem.within(&Path::of("lamps").item(*place)))
+        }
+        [Step::Key(table), Step::Key(name), ..] if table == "materials" => {
+            let values = description.materials.get(name)?.kind.check().err();
+            let within = |problem: Problem| problem.within(&Path::of("materials").key(name));
+            values.map(within).or_else(|| check_blend(&description.materials, name).err())
         }
         _ => None,
     }

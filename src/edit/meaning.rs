@@ -1,5 +1,5 @@
 //! Values of a material by their meaning, whatever its kind calls them.
-use super::choose::choose;
+use super::{choose::choose, set::set};
 use crate::{
     declare::{Declare, Form, OneOf, OwnedValue, Parameter, Parameters, Path, Range, Step, Textured, Value},
     material::Material,
@@ -36,7 +36,20 @@ pub fn kept_by_kind(material: &MaterialDescription, kind: &str) -> Vec<(Path, Ow
         let has_other_key = before.path.0.last() != after.path.0.last();
         has_other_key.then(|| after.takes(&before)).flatten().map(|value| (after.path, value))
     };
-    [Meaning::Colour, Meaning::Roughness, Meaning::IndexOfRefraction].into_iter().filter_map(kept).collect()
+    let mut all: Vec<_> =
+        [Meaning::Colour, Meaning::Roughness, Meaning::IndexOfRefraction].into_iter().filter_map(kept).collect();
+    for (path, value) in &all {
+        _ = set(&mut changed, path, value);
+    }
+    // A sheet scatters to both sides: half of a bright colour leaves room for the other side.
+    if changed.kind.check().is_err() {
+        for (_, value) in &mut all {
+            if let OwnedValue::Textured(Textured::Constant(rgb)) = value {
+                *rgb = rgb.map(|x| 0.5 * x);
+            }
+        }
+    }
+    all
 }
 
 impl Found {

@@ -57,6 +57,16 @@ impl Compile for DiffuseTransmission {
             ..CompiledMaterial::new(Stage::DiffuseTransmission, reflectance, compiler)
         })
     }
+
+    fn check(&self) -> Result<(), Problem> {
+        match (&self.reflectance, &self.transmittance) {
+            (Textured::Constant(reflectance), Textured::Constant(transmittance)) => {
+                let [reflectance, transmittance] = [reflectance, transmittance].map(|rgb| rgb.map(|x| x as f32));
+                check_sum(reflectance, transmittance).map(drop)
+            }
+            _ => Ok(()),
+        }
+    }
 }
 
 /// The largest sum of both fractions in any channel, which must not exceed 1.

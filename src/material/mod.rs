@@ -159,6 +159,11 @@ pub trait Compile {
     /// Checks the values and packs them for the kernel.
     fn compile(&self, compiler: &mut MaterialCompiler) -> Result<CompiledMaterial, Problem>;
 
+    /// Checks what can be told without textures.
+    fn check(&self) -> Result<(), Problem> {
+        Ok(())
+    }
+
     /// Whether all light passes unchanged, as with an opacity of 0.
     fn is_clear(&self) -> bool {
         false
@@ -169,5 +174,10 @@ impl Material {
     /// Checks the textures that the material names, and makes the tables that it needs.
     pub fn compile(&self, compiler: &mut MaterialCompiler) -> Result<CompiledMaterial, Problem> {
         self.kind().compile(compiler).map_err(|problem| problem.within(&Path::of(self.name())))
+    }
+
+    /// Checks what can be told without textures.
+    pub fn check(&self) -> Result<(), Problem> {
+        self.kind().check().map_err(|problem| problem.within(&Path::of(self.name())))
     }
 }

@@ -55,7 +55,7 @@ pub use self::{
     camera::{Camera, CameraError, Lens},
     camera_path::CameraPath,
     camera_sequence::CameraSequence,
-    compile::{check_camera, check_lamp, check_object},
+    compile::{check_blend, check_camera, check_lamp, check_object},
     compile_report::CompileReport,
     diagnostic::{SceneError, SourceText},
     estimator::{Estimator, power_heuristic},

@@ -185,6 +185,24 @@ fn a_material_keeps_its_colour_under_the_key_of_its_new_kind() {
     does(&mut document, &change);
     let tiles = Some(OwnedValue::Textured(Textured::Texture("tiles".to_owned())));
     assert_eq!(document.value(&path("materials.floor.mirror.reflectance")), tiles);
+    // A sheet also transmits.
+    let bright = Edit::set(path("materials.white.lambertian.albedo"), OwnedValue::Textured(Textured::grey(0.9)));
+    does(&mut document, &bright);
+    let change = document.change_kind(&path("materials.white"), "material", "diffuse_transmission");
+    does(&mut document, &change);
+    assert_eq!(document.value(&path("materials.white.diffuse_transmission.reflectance")), constant([0.45; 3]));
+}
+
+#[test]
+fn what_no_material_can_be_is_refused_at_once() {
+    let mut document = room();
+    does(&mut document, &Edit::choose(path("materials.white"), "material", "diffuse_transmission"));
+    let bright = Edit::set(path("materials.white.diffuse_transmission.reflectance"), OwnedValue::Textured(Textured::grey(0.8)));
+    assert!(refuses(&mut document, &bright).message.contains("add up to 1.05"));
+    let blend = document.change_kind(&path("materials.white"), "material", "blend");
+    does(&mut document, &blend);
+    let circle = Edit::set(path("materials.white.blend.first"), OwnedValue::Text("white".to_owned()));
+    assert!(refuses(&mut document, &circle).message.contains("blends in a circle"));
 }
 
 #[test]

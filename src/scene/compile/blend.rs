@@ -14,6 +14,12 @@ use crate::{
 /// Blends of blends may go this deep.
 const DEEPEST: usize = 16;
 
+/// Checks the parts of a blend, and theirs: all are defined, none leads in a circle or too deep. Other materials pass.
+pub fn check_blend(described: &BTreeMap<String, MaterialDescription>, name: &str) -> Result<(), Problem> {
+    let numbers = described.keys().map(|name| (name.clone(), None)).collect();
+    Depths { described, numbers: &numbers, known: BTreeMap::new(), open: Vec::new() }.of(name).map(drop)
+}
+
 /// Gives the blends among the materials their parts.
 pub fn blends(
     described: &BTreeMap<String, MaterialDescription>,

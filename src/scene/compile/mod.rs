@@ -18,6 +18,7 @@ use std::{
 
 use self::{blend::blends, camera::camera, lamp::lamps, material::materials, object::objects, problems::Problems};
 pub use self::{
+    blend::check_blend,
     check::{check_camera, check_lamp, check_object},
     reuse::Before,
 };

@@ -117,7 +117,7 @@ impl Subject {
 #[cfg(test)]
 mod tests {
     use noisefall::{
-        declare::lines_of,
+        edit::Tree,
         material::Lambertian,
         scene::description::{BackgroundDescription, LampDescription},
         shape::Sphere,
@@ -142,21 +142,21 @@ mod tests {
         let mut room = SceneDescription::default();
         room.add_material("white", Lambertian::default());
         room.add_object("ball", Sphere::default());
-        let lines = |subject: &Subject, room: &SceneDescription| {
-            let mut part = subject.of(room)?;
-            Some(lines_of(|p| part.parameters(p)))
+        let found = |subject: &Subject, room: &SceneDescription| Some(Tree::of(&mut *subject.of(room)?));
+        let is = |subject: &Subject, room: &SceneDescription, part: &mut dyn Declare| {
+            found(subject, room).is_some_and(|found| found.is_identical(&Tree::of(part)))
         };
         let ball = Subject::Object(0);
-        assert!(lines(&ball, &room).is_some_and(|lines| lines[0] == "name: ball"));
+        assert!(is(&ball, &room, &mut room.objects[0].clone()));
         assert_eq!([ball.path(), Subject::Material("white".to_owned()).path()], ["objects.0", "materials.white"].map(Path::of));
-        assert!(lines(&Subject::Camera, &room).is_some());
-        assert_eq!([Subject::Object(1), Subject::Background].map(|subject| lines(&subject, &room)), [None, None]);
+        assert!(is(&Subject::Camera, &room, &mut room.camera.clone()));
+        assert!([Subject::Object(1), Subject::Background].iter().all(|subject| found(subject, &room).is_none()));
         room.background = Some(BackgroundDescription::default());
-        assert!(lines(&Subject::Background, &room).is_some());
+        assert!(is(&Subject::Background, &room, &mut BackgroundDescription::default()));
         room.lamps.push(LampDescription::default());
         assert_eq!(Subject::at(&Path::of("lamps.0")), Some(Subject::Lamp(0)));
-        assert!(lines(&Subject::Lamp(0), &room).is_some() && !Subject::Lamp(1).is_in(&room));
+        assert!(is(&Subject::Lamp(0), &room, &mut LampDescription::default()) && !Subject::Lamp(1).is_in(&room));
         room.title = "Room".to_owned();
-        assert!(lines(&Subject::Presentation, &room).is_some_and(|lines| lines[0] == "title: Room"));
+        assert!(is(&Subject::Presentation, &room, &mut Presentation::of(&room)));
     }
 }

@@ -141,7 +141,8 @@ fn window(scene: &str) -> Window {
 fn wait(window: &mut Window, what: &str, condition: impl Fn(&App) -> bool) {
     let start = Instant::now();
     while !condition(window.state()) {
-        assert!(start.elapsed() < Duration::from_secs(60), "{what} never came; {:?}", window.state().results.status);
+        let error = window.state().dialogs.scene_error.as_deref().unwrap_or_default();
+        assert!(start.elapsed() < Duration::from_secs(60), "{what} never came; {:?} {error}", window.state().results.status);
         std::thread::sleep(Duration::from_millis(2));
         window.step();
     }
@@ -157,13 +158,10 @@ fn the_objects_of_the_scene_are_listed_with_their_materials() {
         assert!(listed(&format!("{name}{kind}")), "{name}");
     }
     assert_eq!(window.query_all_by_label_contains("sphere, ").count(), 8);
-    // The selected one has its size and its material as they were compiled.
-    window.state_mut().selection.select(Some(Subject::Object(7)));
-    window.run_steps(3);
-    assert!(window.query_by_label("black, lamp").is_some());
+    // The selected one has its size as it was compiled.
     window.state_mut().selection.select(Some(Subject::Object(5)));
     window.run_steps(3);
-    assert!(window.query_by_label("lambertian").is_some());
+    assert!(window.query_by_label("0.76 × 0.76 × 0.76 m").is_some());
 }
 
 #[test]
