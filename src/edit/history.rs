@@ -63,7 +63,7 @@ impl History {
         Ok(())
     }
 
-    /// Makes one step of the last two. It has the name of the first.
+    /// Joins the last two steps into one, which has the name of the first.
     pub fn join(&mut self) {
         let Some(last) = self.done.pop_back() else { return };
         match self.done.back_mut() {

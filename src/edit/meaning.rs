@@ -39,10 +39,13 @@ pub fn kept_by_kind(material: &MaterialDescription, kind: &str) -> Vec<(Path, Ow
     let mut all: Vec<_> =
         [Meaning::Colour, Meaning::Roughness, Meaning::IndexOfRefraction].into_iter().filter_map(kept).collect();
     for (path, value) in &all {
-        _ = set(&mut changed, path, value);
+        // The colours of a texture are not known here.
+        let is_texture = matches!(value, OwnedValue::Textured(Textured::Texture(_)));
+        _ = set(&mut changed, path, if is_texture { &WHITE } else { value });
     }
-    // A sheet scatters to both sides: half of a bright colour leaves room for the other side.
+    // A sheet scatters to both sides: half of a bright colour leaves room for the other side. A texture cannot be halved.
     if changed.kind.check().is_err() {
+        all.retain(|(_, value)| !matches!(value, OwnedValue::Textured(Textured::Texture(_))));
         for (_, value) in &mut all {
             if let OwnedValue::Textured(Textured::Constant(rgb)) = value {
                 *rgb = rgb.map(|x| 0.5 * x);
@@ -75,6 +78,8 @@ impl Found {
         }
     }
 }
+
+const WHITE: OwnedValue = OwnedValue::Textured(Textured::Constant([1.0; 3]));
 
 /// The key of the width of slopes, the square of a roughness.
 const ALPHA: &str = "alpha";

@@ -9,7 +9,7 @@ use crate::{
     shape::Transform,
 };
 
-/// Starting points of the rays, which go down from half the height of an object's box, as fractions of its edges.
+/// Starting points of the rays, which go down from half the height of an object's box, as fractions of its edges. The same columns tell from above where the object is.
 const PLACES: [f64; 5] = [0.01, 0.25, 0.5, 0.75, 0.99];
 /// Largest number of surfaces that a ray passes through.
 const MOST_PASSED: usize = 64;
@@ -26,7 +26,7 @@ const PART_OF_ROOM: f64 = 0.6;
 
 impl Document {
     /// The edit that lets an object rest on the highest surface that is below it and below the middle of its height. An object that has
-    /// sunk in is raised; one that is beside is not looked at. `scene` is the compiled scene of this document. `None` if there is nothing
+    /// sunk in is raised; what stands beside it is ignored. `scene` is the compiled scene of this document. `None` if there is nothing
     /// below, or if it rests already.
     pub fn drop_to_floor(&self, scene: &Scene, object: usize) -> Option<Edit> {
         let own = scene.objects_of(object);
@@ -35,10 +35,12 @@ impl Document {
         let [min, max] = corners.reduce(|[a, b], [c, d]| [a.min(c), b.max(d)])?;
         let size = (max - min).max_element();
         let (step, is_own) = (STEP * size, |owner: usize| own.contains(&owner));
-        let is_below_object = |column: &DVec3| surface_below(scene, column.with_y(max.y + step), step, is_own).is_some();
+        let meets_object = |column: &DVec3| surface_below(scene, column.with_y(max.y + step), step, is_own).is_some();
         let columns = PLACES.into_iter().flat_map(|x| PLACES.map(|z| min + (max - min) * DVec3::new(x, 0.5, z)));
-        let floors =
-            columns.filter(is_below_object).filter_map(|column| surface_below(scene, column, step, |owner| !is_own(owner)));
+        let (meeting, beside): (Vec<_>, Vec<_>) = columns.partition(meets_object);
+        // No vertical ray meets an upright sheet.
+        let columns = if meeting.is_empty() { beside } else { meeting };
+        let floors = columns.into_iter().filter_map(|column| surface_below(scene, column, step, |owner| !is_own(owner)));
         let by = to_accuracy(floors.max_by(f64::total_cmp)? - min.y, ACCURACY * size);
         (by != 0.0).then(|| self.transformed(object, &Transform::Translate(DVec3::Y * by), DVec3::ZERO)).flatten()
     }
@@ -74,7 +76,7 @@ impl Placement {
     }
 }
 
-/// A number with the decimals that an accuracy leaves.
+/// Rounds a number to the decimals that an accuracy warrants.
 fn to_accuracy(x: f64, accuracy: f64) -> f64 {
     let decimals = (-accuracy.log10()).ceil().clamp(0.0, 300.0) as usize;
     format!("{x:.decimals$}").parse().unwrap_or(x) + 0.0

@@ -49,7 +49,7 @@ pub struct ImageFacts {
     pub title: String,
     /// Exposure of the scene in stops.
     pub exposure: f32,
-    /// Whether pixels share paths.
+    /// Whether pixels share paths or bright samples, or merge vertices.
     pub shares: bool,
 }
 

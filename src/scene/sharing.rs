@@ -20,7 +20,7 @@ pub enum Sharing {
     /// Path suffixes, and what is bright in the rest of a sample.
     #[serde(rename = "both")]
     Both = 3,
-    /// Paths from lights, whose vertices are merged with those of their own paths.
+    /// Paths from lights: their vertices are merged with those of the paths of the pixels.
     #[serde(rename = "merged")]
     Merged = 4,
 }
@@ -95,7 +95,7 @@ impl Scene {
         }
     }
 
-    /// All that pixels could share with these settings; nothing is the first.
+    /// All that pixels could share with these settings. Nothing is the first, unless vertices are merged.
     pub fn possible_sharing(&self, rays: &CameraRays, settings: &RenderSettings) -> Vec<Sharing> {
         let possible = |reuse| self.sharing(rays, &RenderSettings { reuse, ..*settings });
         let mut all: Vec<Sharing> = [Reuse::Off, Reuse::On, Reuse::Bright, Reuse::Both].map(possible).into();

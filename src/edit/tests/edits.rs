@@ -191,6 +191,13 @@ fn a_material_keeps_its_colour_under_the_key_of_its_new_kind() {
     let change = document.change_kind(&path("materials.white"), "material", "diffuse_transmission");
     does(&mut document, &change);
     assert_eq!(document.value(&path("materials.white.diffuse_transmission.reflectance")), constant([0.45; 3]));
+    let change = document.change_kind(&path("materials.floor"), "material", "diffuse_transmission");
+    does(&mut document, &change);
+    assert_eq!(
+        document.value(&path("materials.floor.diffuse_transmission.reflectance")),
+        constant([0.25; 3]),
+        "textures can be white"
+    );
 }
 
 #[test]

@@ -269,6 +269,15 @@ fn what_is_beside_an_object_does_not_raise_it() {
     does(&mut document, &edit);
     let ShapeKind::Sphere(pearl) = &document.description().objects[3].shape else { panic!("it is a ball") };
     assert_eq!(pearl.center, DVec3::new(0.6, 0.3, 0.6), "to the last digit");
+    // No vertical ray meets an upright sheet.
+    let origin = DVec3::new(-0.9, 0.4, 0.9);
+    let sheet = ShapeKind::from(crate::shape::rectangle::Rectangle { origin, edge_u: DVec3::X * 0.2, edge_v: DVec3::Y * 0.5 });
+    let mut sheet = crate::scene::description::ObjectDescription { shape: sheet, ..Default::default() };
+    does(&mut document, &Edit::insert_tree(path("objects.4"), Tree::of(&mut sheet)));
+    let edit = document.drop_to_floor(&compiled(&document), 4).expect("the floor is below");
+    does(&mut document, &edit);
+    let ShapeKind::Rectangle(sheet) = &document.description().objects[4].shape else { panic!("it is a rectangle") };
+    assert_eq!(sheet.origin, DVec3::new(-0.9, 0.0, 0.9));
 }
 
 /// A room of 2.5 m with a ball on its floor, closed above.

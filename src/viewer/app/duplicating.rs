@@ -1,16 +1,21 @@
 //! Copies parts of the scene. An object in the place of another one is hard to see and wrong to render, so the pointer moves the copy,
 //! or it is put beside the original.
 use glam::DVec3;
-use noisefall::{edit::Edit, shape::Transform};
+use noisefall::{edit::Edit, scene::Object, shape::Transform};
 
 use super::state::App;
-use crate::viewer::{canvas::framing, panels::subject::Subject};
+use crate::viewer::{
+    canvas::{framing, gizmo::Mode},
+    panels::subject::Subject,
+};
 
 /// Distance of the middles of an object and its copy, in radii.
 const RADII: f64 = 2.2;
 /// The largest distance of a copy, and that of a lamp without surface, as fractions of the scene's size.
 const FARTHEST: f64 = 0.25;
 const LAMP: f64 = 0.05;
+/// The largest number of places that are tried.
+const MOST_STEPS: u32 = 20;
 
 impl App {
     /// Copies a part of the scene and selects the copy. That of an object or a lamp is put beside the original, as seen by the camera.
@@ -26,10 +31,11 @@ impl App {
         }
     }
 
-    /// Copies a part of the scene and selects the copy. The pointer moves that of an object or a lamp.
+    /// Copies the selected object or lamp and selects the copy, which then follows the pointer.
     pub fn duplicate_and_move(&mut self, original: Subject) {
-        if self.duplicate(&original) && self.selection.movable().is_some() {
+        if self.duplicate(&original) {
             self.selection.copy_of = Some(original);
+            self.selection.gizmo.start(Mode::Move);
         }
     }
 
@@ -44,10 +50,11 @@ impl App {
     fn duplicate(&mut self, original: &Subject) -> bool {
         let Some(editor) = &mut self.editor else { return false };
         let Some((edit, copy)) = editor.document.duplicate(&original.path()) else { return false };
-        self.edit(&edit) && {
+        let is_made = self.edit(&edit);
+        if is_made {
             self.selection.select(Subject::at(&copy));
-            true
         }
+        is_made
     }
 
     /// The edit that moves the selected object or lamp.
@@ -60,21 +67,29 @@ impl App {
         }
     }
 
-    /// From an object or a lamp to the place beside it: along the horizontal axis that the image shows widest. It has two digits.
+    /// From an object or a lamp to the first place beside it where no other one is: along the horizontal axis that the image shows widest.
+    /// The distance has two digits.
     fn aside(&self, original: &Subject) -> Option<Transform> {
         let scene = &self.session.opened.as_ref()?.scene;
-        let distance = match original {
+        let spheres = |objects: &[Object]| framing::around(objects.iter().map(|object| object.shape.bounding_sphere()));
+        let lamps = &self.editor.as_ref()?.document.description().lamps;
+        let (center, distance) = match original {
             Subject::Object(object) => {
-                let objects = scene.objects.get(scene.objects_of(*object))?;
-                let (_, radius) = framing::around(objects.iter().map(|object| object.shape.bounding_sphere()))?;
-                (RADII * radius).min(FARTHEST * scene.size)
+                let (center, radius) = spheres(scene.objects.get(scene.objects_of(*object))?)?;
+                (center, (RADII * radius).min(FARTHEST * scene.size))
             }
-            Subject::Lamp(_) => LAMP * scene.size,
+            Subject::Lamp(lamp) => (lamps.get(*lamp)?.position()?, LAMP * scene.size),
             _ => return None,
         };
         let distance: f64 = format!("{distance:.1e}").parse().ok().filter(|distance: &f64| distance.is_finite())?;
         let [right, ..] = self.session.camera.axes();
         let axis = if right.x.abs() >= right.z.abs() { DVec3::X * right.x.signum() } else { DVec3::Z * right.z.signum() };
-        Some(Transform::Translate(axis * distance))
+        let is_near = |other: DVec3, by: f64| other.distance(center + axis * by) < 0.5 * distance;
+        let is_free = |by: &f64| {
+            let is_object = scene.objects.iter().any(|object| is_near(object.shape.bounding_sphere().0, *by));
+            !is_object && !lamps.iter().filter_map(|lamp| lamp.position()).any(|at| is_near(at, *by))
+        };
+        let by = (1..MOST_STEPS).map(|step| f64::from(step) * distance).find(is_free).unwrap_or(distance);
+        Some(Transform::Translate(axis * by))
     }
 }

@@ -6,7 +6,7 @@ use noisefall::shape::Transform;
 use super::{scene_editor::SceneEditor, state::App};
 use crate::viewer::canvas::{
     framing,
-    gizmo::{GizmoOutput, Mode, Phase},
+    gizmo::{GizmoOutput, Phase},
     interaction::Tool,
     picture_area::PictureArea,
 };
@@ -22,19 +22,14 @@ impl App {
         }
     }
 
-    fn has_gizmo(&self) -> bool {
+    /// Whether the selected part has handles over the image.
+    pub fn has_gizmo(&self) -> bool {
         let is_moving_tool = matches!(self.window.tool, Tool::Picture | Tool::Camera);
         is_moving_tool && self.selection.movable().is_some() && self.editor.is_some()
     }
 
     /// Shows the gizmo of the selected part over the picture, and makes its edits.
     pub fn show_gizmo(&mut self, ui: &mut Ui, area: &PictureArea) {
-        if self.selection.copy_of.is_some() && !self.selection.gizmo.is_active() {
-            if self.is_compiling() {
-                return;
-            }
-            self.selection.gizmo.start(Mode::Move);
-        }
         let Some((subject, pivot)) = self.selection.movable().cloned().zip(self.pivot()).filter(|_| self.has_gizmo()) else {
             return self.selection.end_operation();
         };
@@ -43,13 +38,15 @@ impl App {
         output.into_iter().for_each(|output| self.follow_gizmo(&subject, &output));
     }
 
-    /// The middle of the selected object, or the position of the selected lamp.
+    /// The middle of the selected object, or the position of the selected lamp. A copy is where its original is until it is compiled.
     fn pivot(&self) -> Option<DVec3> {
-        if let Some(Subject::Lamp(place)) = self.selection.subject {
-            return self.editor.as_ref()?.document.description().lamps.get(place)?.position();
-        }
+        let object = match self.selection.copy_of.as_ref().or(self.selection.subject.as_ref())? {
+            Subject::Lamp(place) => return self.editor.as_ref()?.document.description().lamps.get(*place)?.position(),
+            Subject::Object(place) => *place,
+            _ => return None,
+        };
         let scene = &self.session.opened.as_ref()?.scene;
-        let objects = &scene.objects[scene.objects_of(self.selection.object()?)];
+        let objects = &scene.objects[scene.objects_of(object)];
         framing::around(objects.iter().map(|object| object.shape.bounding_sphere())).map(|(center, _)| center)
     }
 
@@ -63,6 +60,9 @@ impl App {
             None => !is_identity(change),
         };
         if is_new {
+            if self.selection.change.is_none() {
+                self.editor.as_mut().map(SceneEditor::end_drag);
+            }
             self.selection.change = Some(change.clone());
             let name = self.editor.as_ref().map_or_else(String::new, |editor| subject.name(editor.document.description()));
             self.change_scene(&format!("{} of {name}", operation(change)), |editor| {
@@ -74,11 +74,26 @@ impl App {
             });
         }
         if *phase == Phase::Done {
-            self.selection.change = None;
-            self.editor.iter_mut().for_each(SceneEditor::end_drag);
-            if self.selection.copy_of.take().is_some() {
-                self.join_edits();
-            }
+            self.end_step();
+            // A copy that could not be moved is in the place of its original.
+            self.discard_copy();
+        }
+    }
+
+    /// Ends the step of an operation. A copy and its move become one step.
+    fn end_step(&mut self) {
+        self.selection.change = None;
+        let has_moved = self.editor.as_mut().is_some_and(SceneEditor::end_drag);
+        if has_moved && self.selection.copy_of.take().is_some() {
+            self.join_edits();
+        }
+    }
+
+    /// Ends an operation of the gizmo, of which another edit is no part.
+    pub fn leave_gizmo(&mut self) {
+        if self.selection.gizmo.is_active() {
+            self.end_step();
+            self.selection.end_operation();
         }
     }
 

@@ -80,9 +80,9 @@ impl SceneEditor {
         }
     }
 
-    /// Ends the drag: the next edit is a step of its own.
-    pub fn end_drag(&mut self) {
-        self.drag = None;
+    /// Ends the drag: the next edit is a step of its own. Returns whether the drag has made a step.
+    pub fn end_drag(&mut self) -> bool {
+        self.drag.take().is_some()
     }
 
     /// Takes back what the drag has made. Returns whether there was anything.
@@ -90,7 +90,7 @@ impl SceneEditor {
         self.drag.take().is_some() && self.undo()
     }
 
-    /// Makes one step of the last two.
+    /// Joins the last two steps into one.
     pub fn join_steps(&mut self) {
         self.history.join();
     }

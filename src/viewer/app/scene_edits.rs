@@ -11,11 +11,13 @@ use crate::viewer::{panels::subject::Subject, widgets::wording::capitalised};
 impl App {
     /// Makes an edit, as a step of its own. What the reader of scene files would refuse is refused, with its message.
     pub fn edit(&mut self, edit: &Edit) -> bool {
+        self.leave_gizmo();
         self.change_scene(&self.title_of(edit), |editor| editor.apply(edit).map(|()| true))
     }
 
     /// Makes an edit of a drag, which is one step.
     pub fn drag_edit(&mut self, edit: &Edit) {
+        self.leave_gizmo();
         self.change_scene(&self.title_of(edit), |editor| editor.drag(edit));
     }
 
@@ -42,7 +44,7 @@ impl App {
         made.is_ok()
     }
 
-    /// Makes one step of the last two edits.
+    /// Joins the last two edits into one step.
     pub fn join_edits(&mut self) {
         self.editor.iter_mut().for_each(SceneEditor::join_steps);
         self.history.drop_edit();

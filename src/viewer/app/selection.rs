@@ -11,7 +11,7 @@ pub struct Selection {
     pub gizmo: Gizmo,
     /// What the gizmo has done to the object or lamp so far.
     pub change: Option<Transform>,
-    /// The part is a copy of this one. The pointer moves it as soon as it is compiled, until the copy is confirmed or discarded.
+    /// The part is a copy of this one, which the gizmo moves until it is confirmed or discarded.
     pub copy_of: Option<Subject>,
     /// The pixel of the picture that was clicked last: new objects are placed there.
     pub clicked: Option<[u32; 2]>,

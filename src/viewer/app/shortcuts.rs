@@ -141,9 +141,10 @@ impl App {
         if presses(ctx, Key::Delete) || presses(ctx, Key::X) {
             self.act_on(subject, Action::Delete);
         } else if ctx.input(duplicates) {
-            match self.window.hovered {
-                Some(_) => self.duplicate_and_move(subject),
-                None => self.duplicate_beside(&subject),
+            if self.window.hovered.is_some() && self.has_gizmo() {
+                self.duplicate_and_move(subject);
+            } else {
+                self.duplicate_beside(&subject);
             }
         }
     }

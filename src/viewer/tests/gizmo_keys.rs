@@ -77,6 +77,24 @@ fn a_copy_follows_the_pointer_until_it_is_put_down() {
 }
 
 #[test]
+fn another_edit_ends_the_move_of_a_copy() {
+    let mut window = window("cornell_spheres");
+    let at = seen(&mut window, ball());
+    click_at(&mut window, at);
+    let count = description(&window).objects.len();
+    for moves in [&[][..], &[Key::X, Key::Num2]] {
+        window.state_mut().selection.select(Some(Subject::Object(AMBER_BALL)));
+        edits(&mut window, "the copy", |w| w.key_press_modifiers(Modifiers::SHIFT, Key::D));
+        moves.iter().for_each(|key| press(&mut window, *key));
+        window.state_mut().act_on(Subject::Object(0), Action::Rename("west".to_owned()));
+        press(&mut window, Key::Escape);
+        assert_eq!((description(&window).objects.len(), description(&window).objects[0].name.as_str()), (count + 1, "west"));
+        (0..2).for_each(|_| undo(&mut window));
+        assert!(!window.state().has_unsaved_changes(), "a copy and its move are one step");
+    }
+}
+
+#[test]
 fn a_copy_made_in_the_list_lies_beside_its_original() {
     let mut window = window("cornell_spheres");
     let start = center(&window, AMBER_BALL);

@@ -147,6 +147,12 @@ fn image(window: &mut Window) -> Vec<[f32; 3]> {
     window.state().results.shown.as_ref().expect("it is shown").radiance.clone()
 }
 
+/// Why the scene as it is edited cannot be compiled.
+fn uncompiled(window: &Window) -> Option<String> {
+    let notices = &window.state().dialogs.notices.0;
+    notices.iter().map(|notice| &notice.text).find(|text| text.starts_with("The image shows the scene before")).cloned()
+}
+
 #[test]
 fn the_image_after_random_edits_is_that_of_the_saved_file() {
     let events = std::env::var(LONGER).ok().and_then(|count| count.parse().ok()).unwrap_or(EVENTS);
@@ -157,8 +163,10 @@ fn the_image_after_random_edits_is_that_of_the_saved_file() {
         event(&mut window, &mut random, &path);
     }
     settle(&mut window);
-    // An edit may leave a scene that cannot be compiled, and says so: the image is then that of the scene before.
-    while window.state().dialogs.notices.0.iter().any(|notice| notice.text.starts_with("The image shows the scene before")) {
+    // What only a compiled scene tells leaves the image of the scene before.
+    while let Some(reason) = uncompiled(&window) {
+        assert!(["add up to", "two sides", "nested deeper"].iter().any(|known| reason.contains(known)), "{reason}");
+        assert!(window.state().history.names()[0].is_some(), "{reason}");
         undo(&mut window);
         settle(&mut window);
     }

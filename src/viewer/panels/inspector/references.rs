@@ -103,7 +103,7 @@ fn entries(ui: &mut Ui, current: Option<&str>, surroundings: &Surroundings) -> O
     let mut chosen = None;
     for name in surroundings.textures {
         let is_current = current == Some(name);
-        if ui.add(Button::selectable(is_current, name)).clicked() && !is_current {
+        if entry(ui, is_current, name).clicked() && !is_current {
             chosen = Some(Source::Texture(name.clone()));
         }
     }
