@@ -39,20 +39,23 @@ pub fn kept_by_kind(material: &MaterialDescription, kind: &str) -> Vec<(Path, Ow
     let mut all: Vec<_> =
         [Meaning::Colour, Meaning::Roughness, Meaning::IndexOfRefraction].into_iter().filter_map(kept).collect();
     for (path, value) in &all {
-        // The colours of a texture are not known here.
-        let is_texture = matches!(value, OwnedValue::Textured(Textured::Texture(_)));
-        _ = set(&mut changed, path, if is_texture { &WHITE } else { value });
+        _ = set(&mut changed, path, value);
     }
-    // A sheet scatters to both sides: half of a bright colour leaves room for the other side. A texture cannot be halved.
-    if changed.kind.check().is_err() {
-        all.retain(|(_, value)| !matches!(value, OwnedValue::Textured(Textured::Texture(_))));
-        for (_, value) in &mut all {
-            if let OwnedValue::Textured(Textured::Constant(rgb)) = value {
-                *rgb = rgb.map(|x| 0.5 * x);
-            }
-        }
+    if let Some((path, value)) = halved_colour(&mut changed) {
+        all.retain(|(other, _)| *other != path);
+        all.push((path, value));
     }
     all
+}
+
+/// Half of the colour, if the kind cannot have all of it: a sheet scatters to both sides. A texture, whose colours are not known here,
+/// counts as white.
+fn halved_colour(material: &mut MaterialDescription) -> Option<(Path, OwnedValue)> {
+    let Found { path, value, .. } = first(material, Meaning::Colour)?;
+    let rgb = if let OwnedValue::Textured(Textured::Constant(rgb)) = value { rgb } else { [1.0; 3] };
+    let constant = |rgb| OwnedValue::Textured(Textured::Constant(rgb));
+    _ = set(material, &path, &constant(rgb));
+    material.kind.check().is_err().then(|| (path, constant(rgb.map(|x| 0.5 * x))))
 }
 
 impl Found {
@@ -78,8 +81,6 @@ impl Found {
         }
     }
 }
-
-const WHITE: OwnedValue = OwnedValue::Textured(Textured::Constant([1.0; 3]));
 
 /// The key of the width of slopes, the square of a roughness.
 const ALPHA: &str = "alpha";

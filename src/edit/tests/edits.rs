@@ -195,7 +195,7 @@ fn a_material_keeps_its_colour_under_the_key_of_its_new_kind() {
     does(&mut document, &change);
     assert_eq!(
         document.value(&path("materials.floor.diffuse_transmission.reflectance")),
-        constant([0.25; 3]),
+        constant([0.5; 3]),
         "textures can be white"
     );
 }
