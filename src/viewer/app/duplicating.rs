@@ -1,7 +1,11 @@
 //! Copies parts of the scene. An object in the place of another one is hard to see and wrong to render, so the pointer moves the copy,
 //! or it is put beside the original.
 use glam::DVec3;
-use noisefall::{edit::Edit, scene::Object, shape::Transform};
+use noisefall::{
+    edit::Edit,
+    scene::{Object, description::LampDescription},
+    shape::Transform,
+};
 
 use super::state::App;
 use crate::viewer::{
@@ -87,7 +91,7 @@ impl App {
         let is_near = |other: DVec3, by: f64| other.distance(center + axis * by) < 0.5 * distance;
         let is_free = |by: &f64| {
             let is_object = scene.objects.iter().any(|object| is_near(object.shape.bounding_sphere().0, *by));
-            !is_object && !lamps.iter().filter_map(|lamp| lamp.position()).any(|at| is_near(at, *by))
+            !is_object && !lamps.iter().filter_map(LampDescription::position).any(|at| is_near(at, *by))
         };
         let by = (1..MOST_STEPS).map(|step| f64::from(step) * distance).find(is_free).unwrap_or(distance);
         Some(Transform::Translate(axis * by))
