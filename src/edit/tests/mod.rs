@@ -1,7 +1,9 @@
 //! Tests of editing.
+mod dropping;
 mod edits;
 mod history;
 mod importing;
+mod kinds;
 mod outside;
 mod placing;
 #[cfg(feature = "reports")]
@@ -14,10 +16,14 @@ mod saving;
 mod templates;
 mod view;
 
+use std::path::Path as FilePath;
+
+use glam::DVec3;
+
 use super::{Document, Edit, tree::Tree};
 use crate::{
     declare::{OwnedValue, Path, Problem},
-    scene::description::SceneDescription,
+    scene::{Scene, description::SceneDescription},
 };
 
 /// A small scene in the style of those that come with the program.
@@ -95,4 +101,32 @@ fn refuses(document: &mut Document, edit: &Edit) -> Problem {
     assert!(bits(document.description()).is_identical(&before), "a refused edit changes nothing");
     assert_eq!(document.version(), version);
     problem
+}
+
+/// Does an edit, shows the result, and holds its inverse against what was before.
+#[track_caller]
+fn there_and_back(edit: &Edit, look: impl FnOnce(&SceneDescription)) {
+    let mut document = room();
+    let before = bits(document.description());
+    let inverse = does(&mut document, edit);
+    let after = bits(document.description());
+    assert!(!after.is_identical(&before), "{edit:?} changes something");
+    look(document.description());
+    let again = does(&mut document, &inverse);
+    assert!(bits(document.description()).is_identical(&before), "{inverse:?}");
+    assert_eq!(document.text(), ROOM);
+    does(&mut document, &again);
+    assert!(bits(document.description()).is_identical(&after), "{again:?}");
+}
+
+fn compiled(document: &Document) -> Scene {
+    document.description().build(FilePath::new("")).unwrap_or_else(|error| panic!("{}", error.report()))
+}
+
+/// The box of the object with a name.
+fn extent(document: &Document, name: &str) -> [DVec3; 2] {
+    let scene = compiled(document);
+    let of_name = |object: &&crate::scene::Object| object.name == name || object.name.starts_with(&format!("{name} "));
+    let corners = scene.objects.iter().filter(of_name).map(|object| object.shape.corners());
+    corners.reduce(|[a, b], [c, d]| [a.min(c), b.max(d)]).expect("there is such an object")
 }

@@ -1,6 +1,4 @@
-//! Adding, posing and dropping objects.
-use std::path::Path as FilePath;
-
+//! Adding and posing objects.
 use glam::{DAffine3, DVec3};
 
 use super::*;
@@ -8,21 +6,9 @@ use crate::{
     declare::OneOf,
     edit::Placement,
     light::lamp::LampKind,
-    scene::{Scene, description::LampDescription},
+    scene::description::LampDescription,
     shape::{Rotation, ShapeKind, Transform, product},
 };
-
-fn compiled(document: &Document) -> Scene {
-    document.description().build(FilePath::new("")).unwrap_or_else(|error| panic!("{}", error.report()))
-}
-
-/// The box of the object with a name.
-fn extent(document: &Document, name: &str) -> [DVec3; 2] {
-    let scene = compiled(document);
-    let of_name = |object: &&crate::scene::Object| object.name == name || object.name.starts_with(&format!("{name} "));
-    let corners = scene.objects.iter().filter(of_name).map(|object| object.shape.corners());
-    corners.reduce(|[a, b], [c, d]| [a.min(c), b.max(d)]).expect("there is such an object")
-}
 
 fn name_of(document: &Document) -> String {
     document.description().objects.last().expect("there are objects").name.clone()
@@ -237,49 +223,6 @@ fn turning_by_the_mouse_makes_one_transform() {
     assert_eq!(turn.degrees, 13.0);
 }
 
-#[test]
-fn objects_are_dropped_to_what_is_below() {
-    let mut document = room();
-    let lift = |by: f64| Transform::Translate(DVec3::Y * by);
-    for by in [0.75, -0.2] {
-        let edit = document.transformed(1, &lift(by), DVec3::ZERO).expect("there is such an object");
-        does(&mut document, &edit);
-        let edit = document.drop_to_floor(&compiled(&document), 1).expect("the floor is below");
-        does(&mut document, &edit);
-        let [min, _] = extent(&document, "ball");
-        assert!(min.y.abs() < 1e-6, "{min}");
-    }
-    // A lamp falls onto the ball.
-    let edit = document.drop_to_floor(&compiled(&document), 2).expect("the ball is below");
-    does(&mut document, &edit);
-    let [min, _] = extent(&document, "lamp");
-    assert!((min.y - 1.0).abs() < 0.01, "{min}");
-    // Below the floor is nothing.
-    assert!(document.drop_to_floor(&compiled(&document), 0).is_none());
-}
-
-#[test]
-fn what_is_beside_an_object_does_not_raise_it() {
-    let mut document = room();
-    // Its box reaches into the ball of the room, which it does not touch.
-    let pearl = ShapeKind::from(crate::shape::sphere::Sphere { center: DVec3::new(0.6, 0.7, 0.6), radius: 0.3 });
-    let mut pearl = crate::scene::description::ObjectDescription { shape: pearl, ..Default::default() };
-    does(&mut document, &Edit::insert_tree(path("objects.3"), Tree::of(&mut pearl)));
-    let edit = document.drop_to_floor(&compiled(&document), 3).expect("the floor is below");
-    does(&mut document, &edit);
-    let ShapeKind::Sphere(pearl) = &document.description().objects[3].shape else { panic!("it is a ball") };
-    assert_eq!(pearl.center, DVec3::new(0.6, 0.3, 0.6), "to the last digit");
-    // No vertical ray meets an upright sheet.
-    let origin = DVec3::new(-0.9, 0.4, 0.9);
-    let sheet = ShapeKind::from(crate::shape::rectangle::Rectangle { origin, edge_u: DVec3::X * 0.2, edge_v: DVec3::Y * 0.5 });
-    let mut sheet = crate::scene::description::ObjectDescription { shape: sheet, ..Default::default() };
-    does(&mut document, &Edit::insert_tree(path("objects.4"), Tree::of(&mut sheet)));
-    let edit = document.drop_to_floor(&compiled(&document), 4).expect("the floor is below");
-    does(&mut document, &edit);
-    let ShapeKind::Rectangle(sheet) = &document.description().objects[4].shape else { panic!("it is a rectangle") };
-    assert_eq!(sheet.origin, DVec3::new(-0.9, 0.0, 0.9));
-}
-
 /// A room of 2.5 m with a ball on its floor, closed above.
 fn closed_room() -> Document {
     let mut document = room();
@@ -313,41 +256,4 @@ fn objects_that_are_added_at_a_wall_stand_on_the_floor_and_lamps_hang_over_it_fa
     // Where there is little room above, a lamp is lower.
     let low = Placement { at: DVec3::new(0.0, 2.1, 0.0), normal: DVec3::Y, scene_size: 5.0 };
     assert!((low.lamp_height(&scene) - 0.6 * 0.4).abs() < 1e-3, "{}", low.lamp_height(&scene));
-}
-
-#[test]
-fn a_shape_of_another_kind_keeps_place_and_size() {
-    let ball = [DVec3::new(-0.5, 0.0, -0.5), DVec3::new(0.5, 1.0, 0.5)];
-    let near = |a: [DVec3; 2], b: [DVec3; 2]| a[0].distance(b[0]) < 1e-9 && a[1].distance(b[1]) < 1e-9;
-    for kind in ["cuboid", "cylinder", "sphere_field"] {
-        let mut document = room();
-        let change = document.change_kind(&path("objects.1.shape"), ShapeKind::WHAT, kind);
-        let back = does(&mut document, &change);
-        let found = extent(&document, "ball");
-        assert!(
-            near(found, ball) || kind == "sphere_field" && found[0].cmpge(ball[0]).all() && found[1].cmple(ball[1]).all(),
-            "{kind} {found:?}"
-        );
-        does(&mut document, &back);
-        assert_eq!(document.text(), ROOM);
-    }
-    let mut document = room();
-    for kind in ["cuboid", "sphere", "rectangle", "cylinder", "triangle", "sphere", "disk", "cuboid"] {
-        let change = document.change_kind(&path("objects.1.shape"), ShapeKind::WHAT, kind);
-        does(&mut document, &change);
-        let [min, max] = extent(&document, "ball");
-        assert!(((min + max) / 2.0).distance(DVec3::new(0.0, 0.5, 0.0)) < 0.01, "{kind} {min} {max}");
-        assert!(((max - min).max_element() - 1.0).abs() < 0.02, "{kind} {min} {max}");
-    }
-    // A lamp goes on facing down.
-    let mut document = room();
-    let change = document.change_kind(&path("objects.2.shape"), ShapeKind::WHAT, "rectangle");
-    does(&mut document, &change);
-    let ShapeKind::Rectangle(lamp) = &document.description().objects[2].shape else { panic!("it is a rectangle") };
-    assert!(lamp.edge_u.cross(lamp.edge_v).distance(DVec3::NEG_Y * 0.64) < 1e-9, "{lamp:?}");
-    // What fills a cube is placed by transforms.
-    let mut document = room();
-    let change = document.change_kind(&path("objects.1.shape"), ShapeKind::WHAT, "isosurface");
-    does(&mut document, &change);
-    assert!(near(extent(&document, "ball"), ball), "{:?}", extent(&document, "ball"));
 }

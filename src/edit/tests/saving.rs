@@ -42,13 +42,13 @@ fn albedo(of: &str, albedo: Textured) -> Edit {
 fn values_change_where_they_stand() {
     assert_eq!(changed(&[number("camera.fov", 41.0)]), ["- fov = 40", "+ fov = 41"]);
     assert_eq!(changed(&[number("camera.fov", 41.5)]), ["- fov = 40", "+ fov = 41.5"]);
-    let eye = Edit::set(path("camera.eye"), OwnedValue::Vector(glam::DVec3::new(0.0, 1.25, 4.0)));
+    let eye = Edit::set(path("camera.eye"), OwnedValue::Vector(DVec3::new(0.0, 1.25, 4.0)));
     assert_eq!(changed(&[eye]), ["- eye = [0.0, 1.0, 4.0] # at the door", "+ eye = [0.0, 1.25, 4.0] # at the door"]);
     // The 0 that has no point stays so, and the others keep theirs.
-    let look = Edit::set(path("camera.look_at"), OwnedValue::Vector(glam::DVec3::new(0.1, 1.0, 2.0)));
+    let look = Edit::set(path("camera.look_at"), OwnedValue::Vector(DVec3::new(0.1, 1.0, 2.0)));
     assert_eq!(changed(&[look]), ["- look_at = [0.0, 1.0, 0]", "+ look_at = [0.1, 1.0, 2]"]);
     // An integer has no sign at 0.
-    let behind = Edit::set(path("camera.look_at"), OwnedValue::Vector(glam::DVec3::new(0.0, 1.0, -0.0)));
+    let behind = Edit::set(path("camera.look_at"), OwnedValue::Vector(DVec3::new(0.0, 1.0, -0.0)));
     assert_eq!(changed(&[behind]), ["- look_at = [0.0, 1.0, 0]", "+ look_at = [0.0, 1.0, -0.0]"]);
     let metal = Edit::set(path("materials.gold.conductor.roughness"), OwnedValue::TexturedNumber(Textured::Constant(1e-7)));
     assert_eq!(
@@ -179,7 +179,7 @@ fn lists_grow_and_shrink() {
         "material = \"gold\"\ntransform = [{ scale = 2.0 }, { translate = [0.0, 1.0, 0.0] }]\n",
     );
     let line = "- transform = [{ scale = 2.0 }, { translate = [0.0, 1.0, 0.0] }]";
-    let lift = Edit::insert_tree(path("objects.1.transform.2"), Tree::of(&mut Transform::Translate(glam::DVec3::X)));
+    let lift = Edit::insert_tree(path("objects.1.transform.2"), Tree::of(&mut Transform::Translate(DVec3::X)));
     assert_eq!(
         changed_of(&turned, &[lift]),
         [line, "+ transform = [{ scale = 2.0 }, { translate = [0.0, 1.0, 0.0] }, { translate = [1.0, 0.0, 0.0] }]"]
