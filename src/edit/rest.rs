@@ -9,7 +9,8 @@ use crate::{
     shape::Transform,
 };
 
-/// Starting points of the rays, which go down from half the height of an object's box, as fractions of its edges. The same columns tell from above where the object is.
+/// Places of vertical rays, as fractions of the edges of an object's box. From above they tell where the object is, and from half its
+/// height what is below.
 const PLACES: [f64; 5] = [0.01, 0.25, 0.5, 0.75, 0.99];
 /// Largest number of surfaces that a ray passes through.
 const MOST_PASSED: usize = 64;

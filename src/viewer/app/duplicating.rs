@@ -54,11 +54,7 @@ impl App {
     fn duplicate(&mut self, original: &Subject) -> bool {
         let Some(editor) = &mut self.editor else { return false };
         let Some((edit, copy)) = editor.document.duplicate(&original.path()) else { return false };
-        let is_made = self.edit(&edit);
-        if is_made {
-            self.selection.select(Subject::at(&copy));
-        }
-        is_made
+        self.edit_and_select(&edit, &copy)
     }
 
     /// The edit that moves the selected object or lamp.
@@ -75,11 +71,11 @@ impl App {
     /// The distance has two digits.
     fn aside(&self, original: &Subject) -> Option<Transform> {
         let scene = &self.session.opened.as_ref()?.scene;
-        let spheres = |objects: &[Object]| framing::around(objects.iter().map(|object| object.shape.bounding_sphere()));
+        let sphere = |object: &Object| object.shape.bounding_sphere();
         let lamps = &self.editor.as_ref()?.document.description().lamps;
         let (center, distance) = match original {
             Subject::Object(object) => {
-                let (center, radius) = spheres(scene.objects.get(scene.objects_of(*object))?)?;
+                let (center, radius) = framing::around(scene.objects.get(scene.objects_of(*object))?.iter().map(sphere))?;
                 (center, (RADII * radius).min(FARTHEST * scene.size))
             }
             Subject::Lamp(lamp) => (lamps.get(*lamp)?.position()?, LAMP * scene.size),
@@ -90,7 +86,7 @@ impl App {
         let axis = if right.x.abs() >= right.z.abs() { DVec3::X * right.x.signum() } else { DVec3::Z * right.z.signum() };
         let is_near = |other: DVec3, by: f64| other.distance(center + axis * by) < 0.5 * distance;
         let is_free = |by: &f64| {
-            let is_object = scene.objects.iter().any(|object| is_near(object.shape.bounding_sphere().0, *by));
+            let is_object = scene.objects.iter().map(sphere).any(|(at, _)| is_near(at, *by));
             !is_object && !lamps.iter().filter_map(LampDescription::position).any(|at| is_near(at, *by))
         };
         let by = (1..MOST_STEPS).map(|step| f64::from(step) * distance).find(is_free).unwrap_or(distance);

@@ -83,10 +83,13 @@ impl App {
         }
     }
 
-    pub fn edit_and_select(&mut self, edit: &Edit, path: &Path) {
-        if self.edit(edit) {
+    /// Makes an edit, and selects the part at a path. Returns whether the edit was made.
+    pub fn edit_and_select(&mut self, edit: &Edit, path: &Path) -> bool {
+        let is_made = self.edit(edit);
+        if is_made {
             self.selection.select(Subject::at(path));
         }
+        is_made
     }
 
     fn drop_to_floor(&mut self, subject: &Subject) {
