@@ -164,6 +164,7 @@ impl KeepOptions {
         }
         file::check(checkpoint).map_err(|error| error.to_string())?;
         let kept = resumed.file.read().map_err(|error| error.to_string())?;
+        let kept = if header.remarks.is_empty() { kept } else { kept.mixed() };
         Ok(Keeping::new(checkpoint, self.every(), header, Some(kept)))
     }
 }

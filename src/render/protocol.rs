@@ -127,12 +127,17 @@ pub struct Status {
     pub first_invalid: Option<SampleId>,
     /// Paths cut at [`RenderSettings::last_bounce`] in the absence of a cap.
     pub cut_paths: u64,
+    /// Whether the first samples are of another scene or program.
+    pub is_mixed: bool,
 }
 
 impl Status {
     /// The reason why the estimate is biased; `None` if it is not.
     pub fn bias(&self, settings: &RenderSettings) -> Option<String> {
-        settings.bias().or((self.cut_paths > 0).then(|| format!("{} paths cut", self.cut_paths)))
+        let cut = (self.cut_paths > 0).then(|| format!("{} paths cut", self.cut_paths));
+        let mixed = self.is_mixed.then(|| "first samples of another scene or program".to_owned());
+        let reasons: Vec<String> = settings.bias().or(cut).into_iter().chain(mixed).collect();
+        (!reasons.is_empty()).then(|| reasons.join(", "))
     }
 
     /// Root of the estimated relMSE.
@@ -215,5 +220,8 @@ mod tests {
         assert_eq!((whole.bias(&uncapped), cut.bias(&uncapped)), (None, Some("3 paths cut".to_owned())));
         assert_eq!((whole.bias(&capped), cut.bias(&capped)), (capped.bias(), capped.bias()));
         assert!(capped.bias().is_some_and(|why| why.contains('2')));
+        let [mixed, both] = [whole, cut].map(|status| Status { is_mixed: true, ..status }.bias(&uncapped));
+        assert_eq!(mixed.as_deref(), Some("first samples of another scene or program"));
+        assert_eq!(both.as_deref(), Some("3 paths cut, first samples of another scene or program"));
     }
 }

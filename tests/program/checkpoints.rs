@@ -109,9 +109,9 @@ fn a_scene_that_has_changed_is_noticed_and_anyway_is_labelled() {
         picture.save(shell.path("sky.png")).expect("it is written");
     };
     sky(200);
-    let text = "format = 1\n[camera]\neye = [0, 0, 0]\nlook_at = [0, 0, 1]\nfov = 60\nresolution = [16, 16]\n\
+    let scene = "format = 1\n[camera]\neye = [0, 0, 0]\nlook_at = [0, 0, 1]\nfov = 60\nresolution = [16, 16]\n\
                 [background]\nimage = \"sky.png\"\n";
-    fs::write(shell.path("sky.toml"), text).expect("it is written");
+    fs::write(shell.path("sky.toml"), scene).expect("it is written");
     done(&shell, &["render", "sky.toml", "-o", "a.exr", "--checkpoint", "a.nf", "--spp", "2"]);
     // The scene is in the file; only what it names must be there.
     fs::remove_file(shell.path("sky.toml")).expect("it is there");
@@ -121,7 +121,9 @@ fn a_scene_that_has_changed_is_noticed_and_anyway_is_labelled() {
     let told = refused(&shell, &resume);
     assert!(told.contains("sky.png has ") && told.contains("--anyway"), "{told}");
     let label = "of another scene or program";
-    assert!(done(&shell, &[&resume[..], &["--anyway"]].concat()).contains(label));
+    let mixed = shell.run(&[&resume[..], &["--anyway"]].concat());
+    assert!(text(&mixed.stderr).contains(label));
+    assert!(text(&mixed.stdout).contains("biased: first samples of another scene or program"), "{}", text(&mixed.stdout));
     let meta = exr::meta::MetaData::read_from_file(shell.path("b.exr"), false).expect("it has a header");
     let settings = &meta.headers[0].own_attributes.other[&exr::meta::attribute::Text::from(SETTINGS_KEY)];
     let exr::meta::attribute::AttributeValue::Text(settings) = settings else { panic!("no text") };

@@ -25,6 +25,7 @@ fn status(state: State) -> Status {
         invalid_samples: 4,
         first_invalid: None,
         cut_paths: 6,
+        is_mixed: false,
     }
 }
 

@@ -52,12 +52,19 @@ pub(in crate::render) struct KeptState {
     pub film: Film,
     pub count: PassCount,
     pub elapsed: Duration,
+    /// Whether it has samples of several scenes or programs.
+    pub is_mixed: bool,
 }
 
 impl KeptRender {
     /// Render time so far.
     pub fn elapsed(&self) -> Duration {
         self.state.elapsed
+    }
+
+    /// The same for a render that continues with another scene or program.
+    pub fn mixed(self) -> KeptRender {
+        KeptRender { state: KeptState { is_mixed: true, ..self.state }, ..self }
     }
 
     /// The state. Its memory is no longer reserved.
@@ -88,13 +95,13 @@ impl KeptFile {
     }
 
     fn read_state(&mut self) -> Result<KeptRender, RenderFileError> {
-        let Header { camera, counters, .. } = self.reader.header();
-        let (counters, resolution) = (*counters, camera.resolution);
+        let Header { camera, counters, remarks, .. } = self.reader.header();
+        let (counters, resolution, is_mixed) = (*counters, camera.resolution, !remarks.is_empty());
         // The worker reserves the memory of its films itself; until then it is this.
         let memory = Film::reserve_kept(resolution)?;
         let film = film_sections::read(&mut self.reader, resolution)?;
         let (count, elapsed) = figures(&counters)?;
-        Ok(KeptRender { state: KeptState { film, count, elapsed }, _memory: memory })
+        Ok(KeptRender { state: KeptState { film, count, elapsed, is_mixed }, _memory: memory })
     }
 }
 

@@ -48,6 +48,8 @@ pub(super) struct Session {
     region_estimate: Option<(Region, f64)>,
     /// What pixels share.
     sharing: Sharing,
+    /// Whether the first samples are of another scene or program.
+    is_mixed: bool,
     last_frame: Option<Instant>,
     /// Whether there are samples that no frame shows.
     stale: bool,
@@ -79,6 +81,7 @@ impl Session {
             rel_mse_estimate: None,
             region_estimate: None,
             sharing: Sharing::Nothing,
+            is_mixed: false,
             last_frame: None,
             stale: false,
             memory: [None, None],

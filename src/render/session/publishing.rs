@@ -66,6 +66,7 @@ impl Session {
             invalid_samples: self.film.invalid_samples(),
             first_invalid: self.count.invalid,
             cut_paths: self.count.cut_paths,
+            is_mixed: self.is_mixed,
         }
     }
 }

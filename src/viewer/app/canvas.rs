@@ -34,7 +34,7 @@ impl App {
         if let Some(pixel) = output.clicked {
             let lamp = output.area.and_then(|area| self.lamp_under(ui, &area));
             match lamp {
-                Some(lamp) => self.selection.select(Some(lamp)),
+                Some(lamp) => self.pick(Some(lamp)),
                 None => self.click(pixel),
             }
         }

@@ -25,9 +25,13 @@ impl App {
     /// Copies a part of the scene and selects the copy. That of an object or a lamp is put beside the original, as seen by the camera.
     pub fn duplicate_beside(&mut self, original: &Subject) {
         let by = self.aside(original);
-        if !self.duplicate(original) {
-            return;
+        if self.duplicate(original) {
+            self.put_aside(by);
         }
+    }
+
+    /// Moves the selected copy as a part of the step that made it.
+    pub fn put_aside(&mut self, by: Option<Transform>) {
         if let Some(edit) = by.and_then(|by| self.moved(&by))
             && self.edit(&edit)
         {
@@ -69,7 +73,7 @@ impl App {
 
     /// From an object or a lamp to the first place beside it where no other one is: along the horizontal axis that the image shows widest.
     /// The distance has two digits.
-    fn aside(&self, original: &Subject) -> Option<Transform> {
+    pub fn aside(&self, original: &Subject) -> Option<Transform> {
         let scene = &self.session.opened.as_ref()?.scene;
         let sphere = |object: &Object| object.shape.bounding_sphere();
         let lamps = &self.editor.as_ref()?.document.description().lamps;

@@ -34,7 +34,7 @@ impl App {
             asked = editor.outliner.show(ui, description, editor.revision, self.selection.subject.as_ref());
         });
         if let Some(subject) = asked.selected {
-            self.selection.select(Some(subject));
+            self.pick(Some(subject));
         }
         if let Some((subject, action)) = asked.action {
             self.act_on(subject, action);
@@ -92,7 +92,7 @@ impl App {
         let asked = inspected(editor, ui, &mut *part, &path, size);
         self.follow_inspector(asked);
         if user.inner.is_some() {
-            self.selection.select(user.inner);
+            self.pick(user.inner);
         }
     }
 
@@ -140,7 +140,7 @@ impl App {
                         Family::Material => Subject::Material(name),
                         Family::Texture => Subject::Texture(name),
                     };
-                    self.selection.select(Some(subject));
+                    self.pick(Some(subject));
                     continue;
                 }
             };

@@ -81,7 +81,7 @@ impl App {
     }
 
     /// Ends the step of an operation. A copy and its move become one step.
-    fn end_step(&mut self) {
+    pub fn end_step(&mut self) {
         self.selection.change = None;
         let has_moved = self.editor.as_mut().is_some_and(SceneEditor::end_drag);
         if has_moved && self.selection.copy_of.take().is_some() {

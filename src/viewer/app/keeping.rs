@@ -35,8 +35,13 @@ impl App {
 
     /// The remark in images of a render that was continued with another scene or program.
     pub fn mixed_remark(&self) -> Vec<(&'static str, String)> {
-        let mixed = &self.session.mixed;
+        let mixed = self.mixed();
         if mixed.is_empty() { Vec::new() } else { vec![(MIXED_KEY, mixed.join("; "))] }
+    }
+
+    /// How the image differs from one that was rendered in one go.
+    fn mixed(&self) -> &[String] {
+        if self.results.status.is_mixed { &self.session.mixed } else { &[] }
     }
 
     /// The render as it is, to be kept; or why it cannot be.
@@ -57,7 +62,7 @@ impl App {
             description: opened.description.clone(),
             target: Target { spp: max_spp, seconds: max_time.map(|time| time.as_secs_f64()), noise },
             scene: (path.clone(), self.background.loader.options_of(Some(&path))),
-            remarks: self.session.mixed.clone(),
+            remarks: self.mixed().to_vec(),
         })
     }
 

@@ -98,9 +98,9 @@ impl App {
             opened.name = catalogue::remember(&mut self.catalogue, &opened.name, path);
             self.preferences.change(|saved| recent::note(&mut saved.recent, path));
         }
-        let kept = self.window.kept_view.take().filter(|(path, ..)| opened.path.as_ref() == Some(path));
-        (session.camera, session.settings) =
-            kept.map_or((scene.camera, scene.settings), |(_, camera, settings)| (camera, settings));
+        let view = self.window.kept_view.take().filter(|(path, ..)| opened.path.as_ref() == Some(path));
+        let view = view.map_or((scene.camera, scene.settings), |(_, camera, settings)| (camera, settings));
+        (session.camera, session.settings) = opened.kept.as_ref().map_or(view, |kept| (kept.header.camera, kept.header.settings));
         // A new scene has no file, and goes on being edited as the one before.
         let paused = session.budget.paused && opened.path.is_none() && session.opened.is_some();
         session.budget = Budget { max_spp: scene.spp, steps: session.budget.steps, paused, ..Budget::default() };

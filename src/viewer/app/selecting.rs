@@ -14,7 +14,19 @@ impl App {
     pub fn select_at(&mut self, pixel: [u32; 2]) {
         let object = self.object_at(pixel);
         self.selection.clicked = Some(pixel);
-        self.selection.select(object.map(Subject::Object));
+        self.pick(object.map(Subject::Object));
+    }
+
+    /// Selects a part of the scene, or nothing, and ends the operation of the gizmo. A copy that has not moved is put beside its original.
+    pub fn pick(&mut self, subject: Option<Subject>) {
+        if self.selection.subject != subject && self.selection.gizmo.is_active() {
+            self.end_step();
+            if let Some(original) = self.selection.copy_of.take() {
+                let by = self.aside(&original);
+                self.put_aside(by);
+            }
+        }
+        self.selection.select(subject);
     }
 
     /// The place in the description of the object at a pixel of the picture.

@@ -12,7 +12,7 @@ use crate::viewer::instruments::{bounces::Bounces, compare::comparison::Comparis
 
 pub struct Session {
     pub opened: Option<OpenedScene>,
-    /// How the image of a render that was continued differs from one that was rendered in one go.
+    /// How the image of a render that was continued differs from one that was rendered in one go, while it is shown.
     pub mixed: Vec<String>,
     /// An edit of the scene that is not requested yet.
     pub waiting_edit: Option<Arc<SceneDescription>>,

@@ -95,6 +95,25 @@ fn another_edit_ends_the_move_of_a_copy() {
 }
 
 #[test]
+fn selecting_another_part_ends_the_move_of_a_copy() {
+    let mut window = window("cornell_spheres");
+    let at = seen(&mut window, ball());
+    click_at(&mut window, at);
+    for (moves, least) in [(&[][..], 0.7), (&[Key::X, Key::Num2], 1.9)] {
+        window.state_mut().selection.select(Some(Subject::Object(AMBER_BALL)));
+        edits(&mut window, "the copy", |w| w.key_press_modifiers(Modifiers::SHIFT, Key::D));
+        let copy = window.state().selection.object().expect("it is selected");
+        moves.iter().for_each(|key| press(&mut window, *key));
+        window.state_mut().pick(Some(Subject::Object(0)));
+        assert_eq!(window.state().selection.object(), Some(0));
+        let by = center(&window, copy).distance(center(&window, AMBER_BALL));
+        assert!(by > least, "{by}: it does not lie in its original");
+        undo(&mut window);
+        assert!(!window.state().has_unsaved_changes(), "a copy and its move are one step");
+    }
+}
+
+#[test]
 fn a_copy_made_in_the_list_lies_beside_its_original() {
     let mut window = window("cornell_spheres");
     let start = center(&window, AMBER_BALL);

@@ -13,7 +13,10 @@ fn continues(window: &mut Window, file: &Path) {
     wait(window, "the render", |app| app.session.opened.is_some() && app.results.status.spp > 0);
     let status = &window.state().results.status;
     assert!(status.elapsed.as_secs_f64() > seconds, "{:?} follows {seconds} s", status.elapsed);
-    assert_eq!(window.state().session.camera.resolution, [96, 64]);
+    let session = &window.state().session;
+    assert_eq!(session.camera.resolution, [96, 64]);
+    let scene_has_its_own = session.opened.as_ref().is_some_and(|opened| opened.scene.camera != session.camera);
+    assert!(scene_has_its_own, "by which it is tried what pixels share");
     assert!(window.state().dialogs.scene_error.is_none() && !window.state().has_unsaved_changes());
 }
 

@@ -13,12 +13,12 @@ impl Session {
     pub fn of_kept(generation: u64, request: RenderRequest, budget: &Budget, kept: KeptState) -> Session {
         let mut session = Session::new(generation, request, Publish::Sparse, None, budget, None);
         let failure = session.count.failure.take();
-        let KeptState { film, count, elapsed } = kept;
+        let KeptState { film, count, elapsed, is_mixed } = kept;
         // The budget may be reached already.
         session.rel_mse_estimate = rel_mse_estimate(&film);
         session.sharing = film.sharing;
         (session.film, session.count, session.elapsed) = (film, PassCount { failure, ..count }, elapsed);
-        session.stale = true;
+        (session.stale, session.is_mixed) = (true, is_mixed);
         session
     }
 
