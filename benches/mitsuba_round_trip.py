@@ -86,11 +86,11 @@ def compare(toml, arguments):
         ours = list(by_noisefall(toml, folder, arguments))
     z = z_scores(theirs, ours)
     of_image = z_scores([image.mean() for image in theirs], [image.mean() for image in ours])
-    ratio = np.mean(theirs) / np.mean(ours)
+    mean = f"mean {np.mean(theirs) / np.mean(ours):.4f} of ours" if np.any(ours) else "black"
     beyond = np.mean(np.abs(z) > LIMIT)
     agrees = abs(of_image) <= LIMIT and beyond <= MOST_BEYOND
     verdict = "agrees" if agrees else "differs" if not remarks else "differs, with remarks"
-    print(f"{toml.stem:24} mean {ratio:.4f} of ours, z = {of_image:+.2f}; {100 * beyond:.2f} % of blocks beyond {LIMIT}: {verdict}")
+    print(f"{toml.stem:24} {mean}, z = {of_image:+.2f}; {100 * beyond:.2f} % of blocks beyond {LIMIT}: {verdict}")
     for remark in remarks:
         print(f"    {remark.strip()}")
     sys.stdout.flush()
