@@ -135,7 +135,7 @@ impl App {
     }
 
     /// Whether the picture is, or will be, that of the document.
-    fn shows_document(&self) -> bool {
+    pub fn shows_document(&self) -> bool {
         let (Some(editor), Some(opened)) = (&self.editor, &self.session.opened) else { return false };
         self.is_compiling() || editor.document.description() == &*opened.description
     }

@@ -105,6 +105,7 @@ impl App {
     }
 
     fn take_saved(&mut self, path: &Path, written: Written) {
+        let has_error = !self.shows_document();
         let (Some(editor), Some(opened)) = (&mut self.editor, &mut self.session.opened) else { return };
         editor.document.note_written(written);
         self.dialogs.conflict = None;
@@ -115,6 +116,7 @@ impl App {
             self.preferences.change(|saved| recent::note(&mut saved.recent, path));
         }
         let left_out = if self.session.view_differs() { ". The view is not the scene's camera, and is not saved." } else { "" };
-        self.tell(format!("Saved {}{left_out}", path.display()), false);
+        let error = if has_error { ". The scene has an error: the file cannot be opened until that is mended." } else { "" };
+        self.tell(format!("Saved {}{error}{left_out}", path.display()), has_error);
     }
 }

@@ -68,6 +68,22 @@ fn saving_writes_the_changed_line_and_no_other_and_the_title_says_what_is_unsave
 }
 
 #[test]
+fn saving_a_scene_with_an_error_says_that_it_cannot_be_opened() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (mut window, path, _) = window_of_copy(folder.path());
+    let missing = Edit::set(Path::of("materials.amber.normal_map"), OwnedValue::Text("nowhere.png".to_owned()));
+    assert!(window.state_mut().edit(&missing));
+    wait(&mut window, "the error", |app| !app.shows_document());
+    save(&mut window);
+    let says = |window: &Window, what: &str| window.state().dialogs.notices.0.iter().any(|notice| notice.text.contains(what));
+    assert!(says(&window, &format!("Saved {}. The scene has an error", path.display())));
+    window.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+    wait(&mut window, "the scene before", |app| app.shows_document() && !app.is_compiling());
+    save(&mut window);
+    assert!(window.state().dialogs.notices.0.iter().any(|notice| notice.text == format!("Saved {}", path.display())));
+}
+
+#[test]
 fn the_view_of_the_window_is_saved_when_the_scene_is_given_it() {
     let folder = tempfile::tempdir().expect("a folder");
     let (mut window, path, text) = window_of_copy(folder.path());
