@@ -65,7 +65,7 @@ use self::{
 
 /// Interactive progressive path tracer.
 ///
-/// Without a command, opens the window on SCENE, or on the built-in Cornell box.
+/// Without a command, opens the window on SCENE, or on the built-in scene.
 #[derive(Parser)]
 #[command(name = "noisefall", version, args_conflicts_with_subcommands = true)]
 struct Arguments {

@@ -15,6 +15,7 @@ mod remark;
 pub mod remarks;
 pub mod spectrum;
 pub mod studio;
+mod tube;
 
 use std::path::Path;
 

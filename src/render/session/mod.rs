@@ -145,6 +145,11 @@ impl Session {
         self.film
     }
 
+    /// Whether the image is a series by bounces.
+    pub fn has_series(&self) -> bool {
+        self.film.has_series()
+    }
+
     /// Whether the next frame is a coarse one.
     pub fn is_coarse(&self) -> bool {
         self.coarse.is_some()

@@ -6,7 +6,8 @@
 //! interrupted. A new request starts an empty film; a new budget continues the current film.
 //!
 //! An image that was rendered before continues with its samples; the image that is being rendered starts over if it is requested
-//! again. A second image can be rendered beside the first. From then on both get the same time: the one that had less is next.
+//! again. A second image can be rendered beside the first. The one that had less time is next. A series by bounces, which is not compared,
+//! does not catch up with the time before it.
 mod handle;
 mod keeping;
 mod start;
@@ -70,7 +71,7 @@ struct Worker {
     budget: Budget,
     /// For the first image and the one beside it.
     sessions: [Option<Session>; 2],
-    /// Render time of both images when the later of them began.
+    /// Render time of both sides when a series began beside an image, or else zero.
     leads: [Duration; 2],
     /// Images to go back to.
     kept: KeptSessions,
@@ -123,7 +124,7 @@ impl Worker {
         }
     }
 
-    /// The next side: of those that are not done, the one with less time since both exist.
+    /// The next side: of those that are not done, the one with less time.
     fn next(&self) -> Option<usize> {
         let running = |session: &Session| session.state(&self.budget) == State::Running;
         let sides = self.sessions.iter().enumerate().filter_map(|(side, session)| Some((side, session.as_ref()?)));

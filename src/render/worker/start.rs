@@ -51,7 +51,7 @@ impl Worker {
             (_, RenderTask::Picture(request)) => Session::new(generation, request, self.publish, rate, &self.budget, film),
             (_, RenderTask::Series(request)) => Session::of_series(generation, request, rate, &self.budget),
         });
-        self.leads = self.sessions.each_ref().map(|session| session.as_ref().map_or(Duration::ZERO, Session::elapsed));
+        self.note_leads();
     }
 
     /// Continues an image from its checkpoint.
@@ -62,7 +62,14 @@ impl Worker {
         let state = kept.into_state();
         self.make_room(&RenderTask::Picture(request.clone()));
         self.sessions[0] = Some(Session::of_kept(generation, request, &self.budget, state));
-        self.leads = self.sessions.each_ref().map(|session| session.as_ref().map_or(Duration::ZERO, Session::elapsed));
+        self.note_leads();
+    }
+
+    fn note_leads(&mut self) {
+        let has_series = self.sessions.iter().flatten().any(Session::has_series);
+        let elapsed =
+            |session: &Option<Session>| session.as_ref().filter(|_| has_series).map_or(Duration::ZERO, Session::elapsed);
+        self.leads = self.sessions.each_ref().map(elapsed);
     }
 
     /// The session that has samples of a task: one that is kept, or that of the other side, which starts over.

@@ -35,32 +35,51 @@ fn advance(worker: &mut Worker, side: usize) {
     session.advance(&worker.threads, &worker.budget, worker.publish, &|| false);
 }
 
-#[test]
-fn of_two_pictures_the_one_that_had_less_time_goes_on_whatever_the_first_had_before() {
+/// A worker with an image of 20 ms, and something beside it.
+fn two_sides(second: RenderTask) -> Worker {
     let scene = Arc::new(built_in());
     let mut worker = worker(Publish::Sparse);
     assert_eq!(worker.next(), None);
     worker.start(0, 1, RenderTask::Picture(request(&scene, 64)));
     assert_eq!(worker.next(), Some(0));
-    while worker.sessions[0].as_ref().is_some_and(|session| session.elapsed() < Duration::from_millis(20)) {
+    while elapsed(&worker, 0) < Duration::from_millis(20) {
         advance(&mut worker, 0);
     }
-    let elapsed = |worker: &Worker, side: usize| worker.sessions[side].as_ref().map_or(Duration::ZERO, Session::elapsed);
-    let before = elapsed(&worker, 0);
-    worker.start(1, 2, RenderTask::Picture(request(&scene, 48)));
+    worker.start(1, 2, second);
     // One sample of all pixels a turn.
     worker.budget = Budget { paused: true, steps: 1000, ..Budget::default() };
+    worker
+}
+
+fn elapsed(worker: &Worker, side: usize) -> Duration {
+    worker.sessions[side].as_ref().map_or(Duration::ZERO, Session::elapsed)
+}
+
+/// Checks that the side with less time goes on, where that of the first side counts from here on.
+fn takes_turns(worker: &mut Worker, from: Duration) {
     let mut turns = [0, 0];
-    for _ in 0..40 {
-        let had = [elapsed(&worker, 0) - before, elapsed(&worker, 1)];
+    while turns.iter().any(|turns| *turns < 4) {
+        let had = [elapsed(worker, 0) - from, elapsed(worker, 1)];
         let next = worker.next().expect("neither is done");
         assert!(had[next] <= had[1 - next], "{next} has had {had:?}");
-        advance(&mut worker, next);
+        advance(worker, next);
         turns[next] += 1;
     }
-    assert!(turns.iter().all(|turns| *turns > 3), "{turns:?}");
+}
+
+#[test]
+fn an_image_beside_another_one_catches_up_with_its_time() {
+    let mut worker = two_sides(RenderTask::Picture(request(&Arc::new(built_in()), 48)));
+    takes_turns(&mut worker, Duration::ZERO);
     worker.budget = Budget { max_spp: Some(1), ..Budget::default() };
     assert_eq!(worker.next(), None, "both have what is asked for");
+}
+
+#[test]
+fn a_series_gets_the_same_time_whatever_the_image_had_before() {
+    let mut worker = two_sides(RenderTask::Series(request(&Arc::new(built_in()), 48)));
+    let before = elapsed(&worker, 0);
+    takes_turns(&mut worker, before);
 }
 
 #[test]

@@ -19,14 +19,19 @@ impl App {
         // The bar has room of its own: it would lie over what is at the right.
         let scroll = &mut ui.spacing_mut().scroll;
         scroll.floating_allocated_width = scroll.bar_width;
+        let height = ui.available_height();
+        ui.scope(|ui| {
+            ui.set_max_width(ui.available_width() - ui.spacing().scroll.allocated_width());
+            self.scene_and_tabs(ui);
+        });
         if self.window.panel == PanelTab::Edit {
-            let height = ui.available_height();
-            self.scene_and_tabs(ui, NOTES * height);
+            let notes = ScrollArea::vertical().id_salt("notes").max_height(NOTES * height).auto_shrink([false, true]);
+            notes.show(ui, |ui| scene::notes(ui, self.session.opened.as_ref()));
             // Its parts scroll by themselves.
             return self.editor_panel(ui);
         }
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-            self.scene_and_tabs(ui, f32::INFINITY);
+            scene::notes(ui, self.session.opened.as_ref());
             ui.add_enabled_ui(self.session.opened.is_some(), |ui| {
                 section(ui, "Sampling", |ui| self.sampling_panel(ui));
                 section(ui, "Stop", |ui| stop::show(ui, &mut self.session.budget, self.session.camera.resolution));
@@ -45,20 +50,13 @@ impl App {
         });
     }
 
-    /// Shows the scene, the tabs, and the notes of the scene in at most this height.
-    fn scene_and_tabs(&mut self, ui: &mut Ui, most_notes: f32) {
+    /// Shows the scene and the tabs, which stay where they are while the rest scrolls.
+    fn scene_and_tabs(&mut self, ui: &mut Ui) {
         ui.add_space(4.0);
         let opened = self.session.opened.as_ref();
         let request = scene::show(ui, opened, &self.catalogue);
         ui.add_space(4.0);
-        // Above the notes, so that they stay where they are from scene to scene.
         panel_tabs::show(ui, &mut self.window.panel);
-        if most_notes.is_finite() {
-            let notes = ScrollArea::vertical().id_salt("notes").max_height(most_notes).auto_shrink([false, true]);
-            notes.show(ui, |ui| scene::notes(ui, opened));
-        } else {
-            scene::notes(ui, opened);
-        }
         request.into_iter().for_each(|request| self.open_scene(request));
     }
 

@@ -28,7 +28,7 @@ impl SaveTarget {
             SaveTarget::Picture => "Save image",
             SaveTarget::Layers => "Save image with layers",
             SaveTarget::Progress => "Save progress",
-            SaveTarget::CurvesCsv => "Save figures",
+            SaveTarget::CurvesCsv => "Save curves",
             SaveTarget::CurvesSvg => "Save plot",
             SaveTarget::Path => "Save path",
         }

@@ -87,18 +87,20 @@ fn estimator_row(
     let doc = "How direct light is estimated. All estimators converge to the same image; they differ in noise.";
     row_with_note(ui, &RenderSettings::ESTIMATOR.label(), doc, |ui, label| {
         word_list(ui, label, estimator);
-        // Always something, so that no row below moves.
-        let text = match in_force {
-            Some(in_force) => in_force.to_string(),
-            None if estimator.connects() => {
-                let doc = "Also takes over the light of paths from lights that end nearby (Georgiev et al. 2012). Finds caustics in mirrors. Biased, but consistent.";
-                ui.checkbox(merging, "Merge vertices (biased)").on_hover_text(doc);
-                return;
-            }
-            None if *estimator == Estimator::Auto => "…".to_owned(),
-            None => " ".to_owned(),
-        };
-        elided(ui, ui.available_width(), RichText::new(text).weak());
+        // As high as a check box, so that no row below moves.
+        ui.horizontal(|ui| {
+            let text = match in_force {
+                Some(in_force) => in_force.to_string(),
+                None if estimator.connects() => {
+                    let doc = "Also takes over the light of paths from lights that end nearby (Georgiev et al. 2012). Finds caustics in mirrors. Biased, but consistent.";
+                    ui.checkbox(merging, "Merge vertices (biased)").on_hover_text(doc);
+                    return;
+                }
+                None if *estimator == Estimator::Auto => "…".to_owned(),
+                None => return,
+            };
+            elided(ui, ui.available_width(), RichText::new(text).weak());
+        });
     });
 }
 

@@ -95,6 +95,7 @@ fn foreign() -> Vec<Base> {
         base("ply-big", bytes("scene.ply", binary_ply(true))),
         base("stl", vec![text("scene.stl", STL)]),
         base("stl-binary", bytes("scene.stl", binary_stl())),
+        Base { focus: 1, ..base("curves", vec![text("scene.xml", CURVES), text("a.txt", POINTS)]) },
     ]
 }
 
@@ -203,6 +204,9 @@ const PART: &str = "<scene version=\"3.0.0\"><bsdf type=\"dielectric\" id=\"glas
 const PBRT: &str = include_str!("scene.pbrt");
 const INCLUDED: &str = "Material \"conductor\" \"spectrum eta\" \"metal-Cu-eta\" \"float roughness\" 0.1\nShape \"disk\"\n";
 const SPECTRUM: &str = "400 0.5\n550 0.7\n700 0.2\n";
+const CURVES: &str = "<scene version=\"3.0.0\"><shape type=\"bsplinecurve\"><string name=\"filename\" value=\"a.txt\"/></shape>\
+    <shape type=\"linearcurve\"><string name=\"filename\" value=\"a.txt\"/></shape></scene>\n";
+const POINTS: &str = "0 0 0 0.1\n1 0 0 0.2\n2 1 0 0.1\n3 1 1 0.3\n\n0 0 1 0.1\n1 0 2 1e-1\n2 -1 0 .1\n3 1e0 1 0.3\n4 1 1 0\n";
 const GLTF: &str = include_str!("scene.gltf");
 const CAMERAS: &str = include_str!("cameras.toml");
 const STUDY: &str = include_str!("study.csv");

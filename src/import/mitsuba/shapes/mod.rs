@@ -2,6 +2,7 @@
 mod analytic;
 mod attributes;
 mod cube;
+mod curves;
 mod disk;
 mod meshes;
 mod serialized;
@@ -29,6 +30,8 @@ const MOST_SHAPES: usize = 1 << 20;
 pub struct Placed<'a> {
     /// `to_world`, and that of the instance around it.
     pub map: DAffine3,
+    /// That of the instance alone.
+    pub around: DAffine3,
     /// Whether the shape asks for the other side as its front.
     pub flip: bool,
     /// What its material and its emission use.
@@ -54,6 +57,8 @@ fn family(kind: &str) -> Option<Translate> {
         "obj" => meshes::obj,
         "ply" => meshes::ply,
         "serialized" => serialized::serialized,
+        "bsplinecurve" => curves::splines,
+        "linearcurve" => curves::lines,
         _ => return None,
     })
 }
@@ -108,7 +113,7 @@ impl Import {
         uses.add(&emitted);
         element.ignore(&["silhouette_sampling_weight", "name"]);
         let map = *around * element.affine("to_world")?;
-        let placed = Placed { map, flip: element.flag("flip_normals", false)?, uses: &uses };
+        let placed = Placed { map, around: *around, flip: element.flag("flip_normals", false)?, uses: &uses };
         let Geometry { shape, map, flip } = translate(self, element, placed)?;
         self.description.objects.push(ObjectDescription {
             name: element.label().to_owned(),

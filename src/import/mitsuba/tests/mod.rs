@@ -1,4 +1,5 @@
 //! Whole scenes.
+mod curves;
 mod emitters;
 mod hostile;
 mod materials;

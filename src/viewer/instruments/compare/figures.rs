@@ -39,9 +39,12 @@ pub fn show(
     ui.add_space(4.0);
     if let Some(text) = incomparable(&sides) {
         ui.label(RichText::new(text).color(ui.warning()));
-    } else if let Some(first) = head_start(&sides) {
+    } else if let Some([more, less]) = head_start(&sides) {
         // More samples of the same points can be more efficient.
-        ui.weak(format!("No verdict: {first} had a head start. Restart (Ctrl+R) to give both the same time."));
+        ui.weak(match less.is_running {
+            true => format!("No verdict yet: {} catches up with the {:.0} s of {}.", less.letter, more.seconds, more.letter),
+            false => format!("No verdict: {} had more time. Restart (Ctrl+R) to give both the same.", more.letter),
+        });
     } else if sides.iter().all(|side| side.efficiency.is_some()) {
         let ratio = error_ratio.map(|ratio| efficiency_ratio(ratio, &sides, [a, b]));
         let (text, more) = verdict(ratio);
@@ -51,17 +54,17 @@ pub fn show(
     }
 }
 
-/// The side that had clearly more seconds than the other, if one had.
-fn head_start([a, b]: &[Side; 2]) -> Option<&'static str> {
+/// The side that had clearly more seconds than the other, if one had, and the other.
+fn head_start([a, b]: &[Side; 2]) -> Option<[&Side; 2]> {
     let (more, less) = if a.seconds > b.seconds { (a, b) } else { (b, a) };
-    (more.seconds > 1.1 * less.seconds + 0.5).then_some(more.letter)
+    (more.seconds > 1.1 * less.seconds + 0.5).then_some([more, less])
 }
 
 const HEADINGS: [(&str, &str); 8] = [
     ("", ""),
     ("settings", "Differences from the settings of the scene file, and what pixels share"),
     ("N", "Samples per pixel"),
-    ("time", "Render time. Both sides get equal time from the start of the comparison"),
+    ("time", "Render time. The side that had less goes first, so both get the same"),
     ("noise", "Estimated relative error: the root of relMSE, the mean of (x − r)²/(r² + 0.01 · mean r²)"),
     ("true error", "Relative error against the reference, if there is one"),
     ("efficiency", "1/(relMSE · seconds). Twice the efficiency gives the same error in half the time"),
@@ -74,6 +77,7 @@ struct Side {
     name: String,
     spp: u32,
     seconds: f64,
+    is_running: bool,
     noise: Option<f64>,
     truth: Option<f64>,
     efficiency: Option<f64>,
@@ -96,6 +100,7 @@ impl Side {
             name,
             spp: status.spp,
             seconds,
+            is_running: status.state == State::Running,
             noise: status.relative_noise(),
             truth: comparison.map(|comparison| comparison.rel_mse.sqrt()),
             efficiency: rel_mse.filter(|_| status.spp >= 2 && tells).map(|rel_mse| 1.0 / (rel_mse * seconds.max(1e-9))),
@@ -171,7 +176,7 @@ fn verdict(ratio: Option<LogRatio>) -> (String, String) {
         let cost = format!("{other} needs {ratio} times the time for the same error, which falls as 1/√time.");
         (format!("{better} is {interval}."), format!("{cost} {EXPLANATION}"))
     } else {
-        (format!("No difference yet: {better} is {interval}."), format!("The interval contains 1. {EXPLANATION}"))
+        (format!("No difference yet: {better} seems {interval}."), format!("The interval contains 1. {EXPLANATION}"))
     }
 }
 
@@ -252,7 +257,10 @@ mod tests {
         let (text, more) = verdict(ratio(1.0 / 12.0, 0.1));
         assert_eq!(text, "A is 12 times as efficient (95 % interval 9.9 to 15).");
         assert!(more.starts_with("B needs 12 times the time"), "{more}");
-        assert_eq!(verdict(ratio(1.2, 0.1)).0, "No difference yet: B is 1.20 times as efficient (95 % interval 0.99 to 1.46).");
+        assert_eq!(
+            verdict(ratio(1.2, 0.1)).0,
+            "No difference yet: B seems 1.20 times as efficient (95 % interval 0.99 to 1.46)."
+        );
         assert!(verdict(ratio(0.82, 0.1)).0.starts_with("A is 1.22 times as efficient (95 % interval 1.00 to "));
         assert!(verdict(None).0.starts_with("No difference yet"));
     }

@@ -96,8 +96,16 @@ impl Curve {
 
     /// Places with a positive error, which a logarithm needs.
     pub fn errors(&self, over: HorizontalAxis, error: impl Fn(&Moment) -> Option<f64>) -> Vec<(f64, f64)> {
-        let points = self.moments.iter().filter_map(|moment| Some((moment.over(over), error(moment)?)));
-        points.filter(|(x, y)| *x > 0.0 && *y > 0.0 && y.is_finite()).collect()
+        self.values(over, error).into_iter().filter(|(x, y)| *x > 0.0 && *y > 0.0 && y.is_finite()).collect()
+    }
+
+    /// Places with a value. What only a later run knows, such as errors against a reference that came after the curve, is of that run.
+    pub fn values(&self, over: HorizontalAxis, value: impl Fn(&Moment) -> Option<f64>) -> Vec<(f64, f64)> {
+        let of = |moments: &[Moment]| {
+            moments.iter().filter_map(|moment| Some((moment.over(over), value(moment)?))).collect::<Vec<_>>()
+        };
+        let own = of(&self.moments);
+        if own.is_empty() { self.later_run.as_deref().map(of).unwrap_or_default() } else { own }
     }
 
     /// Slope of the estimated error over moments that are about doublings, from 4 samples on.
@@ -140,6 +148,25 @@ mod tests {
         let alone = Moment::of(&frame, None);
         assert_eq!((alone.true_error, alone.bias, alone.estimated), (None, None, all.estimated));
         assert_eq!((all.over(HorizontalAxis::Samples), all.over(HorizontalAxis::Seconds)), (7.0, 1.5));
+    }
+
+    #[test]
+    fn errors_against_a_reference_that_came_later_are_those_of_the_later_run() {
+        let moment = |spp: u32, true_error| Moment {
+            spp,
+            seconds: f64::from(spp),
+            estimated: Some(0.5),
+            true_error,
+            bias: true_error,
+            sharing: Sharing::Nothing,
+        };
+        let mut curve = Curve::new(RenderSettings::default(), 1);
+        curve.record(1, moment(100, None));
+        curve.record(2, moment(8, Some(0.25)));
+        let over = HorizontalAxis::Samples;
+        assert_eq!(curve.errors(over, |moment| moment.estimated), [(100.0, 0.5)]);
+        assert_eq!(curve.errors(over, |moment| moment.true_error), [(8.0, 0.25)]);
+        assert_eq!(curve.values(over, |moment| moment.bias), [(8.0, 0.25)]);
     }
 
     #[test]

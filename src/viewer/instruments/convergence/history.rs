@@ -1,5 +1,5 @@
 //! Errors so far: a curve over samples and time for each setting of the same image.
-use std::sync::Arc;
+use std::sync::{Arc, Weak};
 
 use noisefall::{
     render::truth::Reference,
@@ -20,7 +20,7 @@ pub enum Quantity {
     Bias,
 }
 
-/// The curves of one picture: the same scene and camera. Those of other cameras are kept for a return.
+/// The curves of one picture: the same scene and camera. Those of other cameras, and of the scene before an edit, are kept for a return.
 #[derive(Default)]
 pub struct History {
     pub curves: Vec<Curve>,
@@ -33,14 +33,16 @@ pub struct History {
     earlier: Vec<Earlier>,
 }
 
-/// The curves of another camera.
+/// The curves of another picture.
 struct Earlier {
+    /// Alive as long as an undo can return to it.
+    scene: Weak<Scene>,
     camera: Camera,
     truth: Option<Arc<Reference>>,
     curves: Vec<Curve>,
 }
 
-/// A drag of the camera leaves as many short sets of curves: the shortest is dropped for a new one.
+/// A drag of the camera or of an object leaves as many short sets of curves: the shortest is dropped for a new one.
 const MOST_EARLIER: usize = 24;
 
 /// One curve for each colour: the oldest is dropped for a new one.
@@ -51,11 +53,8 @@ impl History {
     pub fn look_at(&mut self, scene: &Arc<Scene>, camera: &Camera, truth: Option<&Arc<Reference>>) {
         match self.subject.take() {
             Some((old, at)) if old.has_same_image(scene) && at == *camera => {}
-            Some((old, at)) if old.has_same_image(scene) => self.change_camera(at, camera),
-            _ => {
-                self.curves.clear();
-                self.earlier.clear();
-            }
+            Some((old, at)) => self.change_picture((&old, at), (scene, camera)),
+            None => {}
         }
         self.subject = Some((scene.clone(), *camera));
         if self.truth.as_ref().map(Arc::as_ptr) != truth.map(Arc::as_ptr) {
@@ -64,13 +63,14 @@ impl History {
         }
     }
 
-    /// Puts the curves of a camera away, and gets those of another one back.
-    fn change_camera(&mut self, from: Camera, to: &Camera) {
+    /// Puts the curves of a picture away, and gets those of another one back.
+    fn change_picture(&mut self, (old, from): (&Arc<Scene>, Camera), (scene, to): (&Arc<Scene>, &Camera)) {
         let curves = std::mem::take(&mut self.curves);
         if !curves.is_empty() {
-            self.earlier.push(Earlier { camera: from, truth: self.truth.take(), curves });
+            self.earlier.push(Earlier { scene: Arc::downgrade(old), camera: from, truth: self.truth.take(), curves });
         }
-        if let Some(at) = self.earlier.iter().position(|earlier| earlier.camera == *to) {
+        let is_of = |earlier: &Earlier| earlier.scene.upgrade().is_some_and(|of| of.has_same_image(scene));
+        if let Some(at) = self.earlier.iter().position(|earlier| earlier.camera == *to && is_of(earlier)) {
             let known = self.earlier.remove(at);
             (self.curves, self.truth) = (known.curves, known.truth);
         }
@@ -218,8 +218,11 @@ mod tests {
         moved.look_at(&scene, &scene.camera, None);
         assert_eq!((moved.curves.len(), moved.curves[0].moments[0].true_error), (1, None), "but no errors against another truth");
         let mut other = start();
-        other.look_at(&Arc::new(built_in()), &scene.camera, Some(&truth));
+        let edited = Arc::new(built_in());
+        other.look_at(&edited, &scene.camera, Some(&truth));
         assert!(other.curves.is_empty());
+        other.look_at(&scene, &scene.camera, Some(&truth));
+        assert_eq!(other.curves[0].moments[0].true_error, Some(0.1), "and with their scene, when an edit is undone");
     }
 
     #[test]

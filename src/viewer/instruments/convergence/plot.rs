@@ -1,5 +1,5 @@
 //! The plot of errors and its controls.
-use egui::{Color32, RichText, Ui};
+use egui::{Color32, Label, RichText, Ui};
 use egui_plot::{AxisHints, GridInput, GridMark, HLine, Line, LineStyle, Plot, PlotPoints, Points};
 
 use super::{colours::COLOURS, curve::Curve, curve::HorizontalAxis, history::History, history::Quantity};
@@ -54,10 +54,11 @@ const FIGURES: &str = "Samples per pixel, render time and estimated relative err
 fn legend(ui: &mut Ui, history: &History, latest: [Option<u64>; 2]) {
     for (number, curve) in history.curves.iter().enumerate() {
         let name = history.name(curve);
-        ui.horizontal(|ui| {
+        ui.horizontal_top(|ui| {
             style::swatch(ui, COLOURS[number % COLOURS.len()]);
             let text = RichText::new(&name);
-            style::elided(ui, 236.0, if latest.contains(&Some(curve.generation)) { text.strong() } else { text });
+            ui.set_max_width(256.0);
+            ui.add(Label::new(if latest.contains(&Some(curve.generation)) { text.strong() } else { text }).wrap());
         });
         ui.indent(number, |ui| ui.weak(figures(curve, history.over)).on_hover_text(FIGURES));
     }
@@ -98,7 +99,7 @@ fn buttons(ui: &mut Ui, history: &mut History, latest: [Option<u64>; 2]) -> Opti
 
 fn plot(ui: &mut Ui, history: &History) {
     if history.what == Quantity::Bias
-        && !history.curves.iter().flat_map(|curve| &curve.moments).any(|moment| moment.bias.is_some())
+        && history.curves.iter().all(|curve| curve.values(history.over, |moment| moment.bias).is_empty())
     {
         ui.label("The bias needs a reference: open a scene with [truth], or drop a reference EXR on the window.");
         return;
@@ -137,7 +138,7 @@ fn plot(ui: &mut Ui, history: &History) {
                     plot.points(Points::new(name, truth).color(colour).radius(2.2));
                 }
                 Quantity::Bias => {
-                    let bias = curve.moments.iter().filter_map(|moment| Some([moment.over(over).log10(), moment.bias?]));
+                    let bias = curve.values(over, |moment| moment.bias).into_iter().map(|(x, bias)| [x.log10(), bias]);
                     plot.line(Line::new(name, PlotPoints::from_iter(bias)).color(colour).width(1.8));
                 }
             }

@@ -13,8 +13,6 @@ pub struct Cell<'a> {
     pub surroundings: &'a Surroundings<'a>,
     /// Whether the value is a name that may be absent.
     pub is_optional_name: bool,
-    /// Why a typed value was refused.
-    pub refusal: Option<String>,
     pub request: Option<Request>,
 }
 
@@ -84,8 +82,8 @@ impl Cell<'_> {
         self.request = value.map(|value| Request::Set { path: self.path.clone(), value });
     }
 
-    fn numbers(&mut self, label: Id) -> Numbers<'_> {
-        Numbers { parameter: self.parameter, label, refused: &mut self.refusal }
+    fn numbers(&self, label: Id) -> Numbers<'_> {
+        Numbers { parameter: self.parameter, label }
     }
 
     fn colour(&mut self, ui: &mut Ui, label: Id, rgb: [f64; 3], range: &Range) -> Option<[f64; 3]> {

@@ -3,7 +3,7 @@ use egui::{Id, Slider, SliderClamping, Ui};
 use glam::DVec3;
 use noisefall::declare::{CountRange, Parameter, Problem, Range, Scale, Value, check_value, short};
 
-use crate::viewer::widgets::{number::tidy, typed_number::TypedNumber};
+use crate::viewer::widgets::{number::tidy, refusal, typed_number::TypedNumber};
 
 /// Largest range of a slider in powers of ten. Its field takes all numbers.
 const SLIDER_LEAST: f64 = 1e-3;
@@ -23,19 +23,11 @@ const FEW: u32 = 256;
 pub struct Numbers<'a> {
     pub parameter: &'a Parameter,
     pub label: Id,
-    /// Why a typed number was refused.
-    pub refused: &'a mut Option<String>,
 }
 
 impl Numbers<'_> {
     /// Shows a number, with a slider if its range is bounded. Returns the new number.
-    pub fn number(
-        &mut self,
-        ui: &mut Ui,
-        old: f64,
-        range: &Range,
-        value: &dyn for<'x> Fn(&'x mut f64) -> Value<'x>,
-    ) -> Option<f64> {
+    pub fn number(&self, ui: &mut Ui, old: f64, range: &Range, value: &dyn for<'x> Fn(&'x mut f64) -> Value<'x>) -> Option<f64> {
         let parameter = self.parameter;
         let mut new = old;
         if *range != Range::FINITE {
@@ -55,7 +47,7 @@ impl Numbers<'_> {
     }
 
     /// A whole number. Returns the new one.
-    pub fn count(&mut self, ui: &mut Ui, old: u32, range: &CountRange) -> Option<u32> {
+    pub fn count(&self, ui: &mut Ui, old: u32, range: &CountRange) -> Option<u32> {
         let parameter = self.parameter;
         let mut new = f64::from(old);
         let (least, most) = (f64::from(range.least), f64::from(range.most));
@@ -70,7 +62,7 @@ impl Numbers<'_> {
     }
 
     /// Two whole numbers, at least 1. Returns the new ones.
-    pub fn counts(&mut self, ui: &mut Ui, old: [u32; 2]) -> Option<[u32; 2]> {
+    pub fn counts(&self, ui: &mut Ui, old: [u32; 2]) -> Option<[u32; 2]> {
         let parameter = self.parameter;
         let range = CountRange::new(1, u32::MAX);
         let mut new = old.map(f64::from);
@@ -82,7 +74,7 @@ impl Numbers<'_> {
     }
 
     /// Channels of a colour. Returns the new ones.
-    pub fn colour(&mut self, ui: &mut Ui, old: [f64; 3], range: &Range) -> Option<[f64; 3]> {
+    pub fn colour(&self, ui: &mut Ui, old: [f64; 3], range: &Range) -> Option<[f64; 3]> {
         let parameter = self.parameter;
         let mut new = old;
         for channel in &mut new {
@@ -94,19 +86,19 @@ impl Numbers<'_> {
     }
 
     /// Three coordinates in a scene of this size. Returns the new ones.
-    pub fn metres(&mut self, ui: &mut Ui, old: DVec3, size: f64, check: &dyn Fn(DVec3) -> Option<Problem>) -> Option<DVec3> {
+    pub fn metres(&self, ui: &mut Ui, old: DVec3, size: f64, check: &dyn Fn(DVec3) -> Option<Problem>) -> Option<DVec3> {
         let new = self.three(ui, old, |_| size * 0.002, &|x| check(DVec3::splat(x)).map(message));
         Some(new).filter(|new| *new != old)
     }
 
     /// Three factors. Returns the new ones.
-    pub fn factors(&mut self, ui: &mut Ui, old: DVec3) -> Option<DVec3> {
+    pub fn factors(&self, ui: &mut Ui, old: DVec3) -> Option<DVec3> {
         let new = self.three(ui, old, |x| (0.01 * x.abs()).max(1e-9), &|_| None);
         Some(new).filter(|new| *new != old)
     }
 
     /// Two numbers. Returns the new ones.
-    pub fn pair(&mut self, ui: &mut Ui, old: [f64; 2]) -> Option<[f64; 2]> {
+    pub fn pair(&self, ui: &mut Ui, old: [f64; 2]) -> Option<[f64; 2]> {
         let parameter = self.parameter;
         let mut new = old;
         for number in &mut new {
@@ -116,7 +108,7 @@ impl Numbers<'_> {
     }
 
     /// The first three rows of a matrix; the last is fixed. Returns the new matrix.
-    pub fn matrix(&mut self, ui: &mut Ui, old: [[f64; 4]; 4]) -> Option<[[f64; 4]; 4]> {
+    pub fn matrix(&self, ui: &mut Ui, old: [[f64; 4]; 4]) -> Option<[[f64; 4]; 4]> {
         let parameter = self.parameter;
         let mut new = old;
         ui.vertical(|ui| {
@@ -131,7 +123,7 @@ impl Numbers<'_> {
         Some(new).filter(|new| *new != old)
     }
 
-    fn three(&mut self, ui: &mut Ui, old: DVec3, speed: impl Fn(f64) -> f64, check: &dyn Fn(f64) -> Option<String>) -> DVec3 {
+    fn three(&self, ui: &mut Ui, old: DVec3, speed: impl Fn(f64) -> f64, check: &dyn Fn(f64) -> Option<String>) -> DVec3 {
         let parameter = self.parameter;
         let mut new = old.to_array();
         for coordinate in &mut new {
@@ -143,7 +135,7 @@ impl Numbers<'_> {
     }
 
     fn field(
-        &mut self,
+        &self,
         ui: &mut Ui,
         number: &mut f64,
         (least, most): (f64, f64),
@@ -154,10 +146,8 @@ impl Numbers<'_> {
         let (range, Look { unit, width, is_whole }) = (least..=most, look);
         let (key, label) = (self.parameter.key, self.label);
         let field = TypedNumber { key, range, is_whole, speed, unit, width, label, check };
-        let (_, refusal) = field.show(ui, number);
-        if refusal.is_some() {
-            *self.refused = refusal;
-        }
+        let (response, refusal) = field.show(ui, number);
+        refusal.into_iter().for_each(|message| refusal::show_below(ui, &response, &message));
     }
 }
 

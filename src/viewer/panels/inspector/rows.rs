@@ -69,11 +69,8 @@ impl Parameters for Rows<'_> {
         let heading = heading(parameter, if is_optional_name { Mark::None } else { mark });
         let surroundings = self.surroundings;
         let row = self.ui.push_id(&path, |ui| {
-            let mut cell = Cell { parameter, path: &path, surroundings, is_optional_name, refusal: None, request: None };
+            let mut cell = Cell { parameter, path: &path, surroundings, is_optional_name, request: None };
             let is_removed = heading.row(ui, |ui, label| cell.show(ui, label, &value));
-            if let Some(refusal) = cell.refusal {
-                ui.colored_label(ui.visuals().error_fg_color, refusal);
-            }
             if is_removed { Some(Request::Remove { path: path.clone() }) } else { cell.request }
         });
         self.requests.extend(row.inner);

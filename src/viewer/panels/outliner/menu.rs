@@ -69,6 +69,11 @@ impl Menu {
         Menu { materials, has_background: description.background.is_some() }
     }
 
+    /// Whether there is nothing to choose for a part.
+    pub fn is_empty(entry: &Entry) -> bool {
+        matches!(entry.subject, Subject::Camera | Subject::Presentation)
+    }
+
     /// Shows the menu of a part, and returns what was chosen. The name of [`Action::Rename`] is the present one.
     pub fn show(&self, ui: &mut Ui, entry: &Entry) -> Option<Action> {
         let mut actions = Vec::new();

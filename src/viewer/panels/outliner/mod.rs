@@ -144,6 +144,9 @@ impl Outliner {
             asked.action = released.map(|action| (subject.clone(), action)).or(asked.action.take());
             asked.selected = asked.action.as_ref().map(|_| subject.clone()).or(asked.selected.take());
         }
+        if Menu::is_empty(entry) {
+            return;
+        }
         row.context_menu(|ui| {
             if let Some(action) = menu.show(ui, entry) {
                 match action {
