@@ -48,7 +48,10 @@ pub fn advise(
     stop: &(dyn Fn() -> bool + Sync),
 ) -> Result<Advice, StudyError> {
     let camera = Camera { resolution: study_size(camera.resolution), ..*camera };
-    let first = first_stage(settings, &threads.install(|| other_reuses(scene, &camera, settings)));
+    let first = threads.install(|| {
+        let all = first_stage(settings, &other_reuses(scene, &camera, settings));
+        rendered_otherwise(scene, &camera, all)
+    });
     let bench = Bench { scene, camera: &camera, threads, stop };
     let in_a_round = first.len() + MOST_OF_SECOND_STAGE;
     let seconds = sample_of_each(bench, &first)? * f64::from(SPP) * in_a_round as f64 / first.len() as f64;
@@ -77,6 +80,15 @@ fn other_reuses(scene: &Scene, camera: &Camera, settings: &RenderSettings) -> Ve
     let now = scene.sharing(&rays, &resolved(scene, &rays, settings));
     let possible = scene.possible_sharing(&rays, settings);
     possible.into_iter().filter(|sharing| *sharing != now).map(Sharing::reuse).collect()
+}
+
+/// The first settings, and those of the others that are rendered in another way: `auto` is not compared with the estimator that it chooses.
+fn rendered_otherwise(scene: &Scene, camera: &Camera, mut settings: Vec<RenderSettings>) -> Vec<RenderSettings> {
+    let rays = scene.rays(camera);
+    let in_force: Vec<RenderSettings> = settings.iter().map(|settings| resolved(scene, &rays, settings)).collect();
+    let mut kept = (0..settings.len()).map(|i| i == 0 || in_force[i] != in_force[0]);
+    settings.retain(|_| kept.next().unwrap_or(false));
+    settings
 }
 
 /// The time in seconds of one sample per pixel of every candidate. A warm-up sample before that does not count: it allocates

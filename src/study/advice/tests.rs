@@ -184,6 +184,17 @@ fn the_second_stage_adopts_the_best_of_the_first() {
 }
 
 #[test]
+fn auto_is_not_compared_with_the_estimator_that_it_chooses() {
+    let scene = crate::scene::built_in();
+    let camera = Camera { resolution: [32, 32], ..scene.camera };
+    let auto = RenderSettings { estimator: Estimator::Auto, ..IN_USE };
+    let kept = rendered_otherwise(&scene, &camera, first_stage(&auto, &[]));
+    let in_force = resolved(&scene, &scene.rays(&camera), &auto).estimator;
+    assert!(kept[0] == auto && kept.iter().all(|settings| settings.estimator != in_force));
+    assert_eq!(kept.len(), first_stage(&auto, &[]).len() - 1, "nothing else is left out");
+}
+
+#[test]
 fn sharing_is_tried_and_taken_over_where_it_stands_out() {
     let first = first_stage(&IN_USE, &[Reuse::On]);
     let shared = RenderSettings { reuse: Reuse::On, ..IN_USE };

@@ -13,7 +13,7 @@ pub fn differing(settings: &RenderSettings, in_use: &RenderSettings) -> Vec<Sett
 /// The differences from the settings in use, in the words of the window.
 pub fn difference(settings: &RenderSettings, in_use: &RenderSettings) -> String {
     let word = |setting| match setting {
-        Setting::Estimator => format!("estimator {}", settings.estimator.name()),
+        Setting::Estimator => settings.estimator.word().title.to_owned(),
         Setting::Sampler => settings.sampler.word().title.to_owned(),
         Setting::Roulette => settings.roulette.words(),
         Setting::Reuse if settings.reuse != Reuse::Auto => Sharing::asked(settings.reuse).name().to_owned(),

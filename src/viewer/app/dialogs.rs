@@ -11,13 +11,19 @@ use crate::viewer::dialogs::{
     tour::{self, TourRequest},
     unsaved::Leaving,
 };
+use crate::viewer::instruments::tabs::InstrumentTab;
 
 impl App {
     pub fn show_dialogs(&mut self, ctx: &egui::Context) {
         if self.dialogs.wait() {
             shield::show(ctx);
         }
-        let answer = save::show(ctx, &mut self.dialogs.save);
+        let mut bounces = self.window.tab == Some(InstrumentTab::Bounces);
+        let had_bounces = bounces;
+        let answer = save::show(ctx, &mut self.dialogs.save, &mut bounces);
+        if bounces != had_bounces {
+            self.window.tab = bounces.then_some(InstrumentTab::Bounces);
+        }
         if answer.is_none() && self.dialogs.save.is_none() {
             // The question where to save had no answer.
             self.window.leaving = None;

@@ -17,6 +17,7 @@ use noisefall::{
 };
 
 use super::state::App;
+use crate::viewer::instruments::tabs::InstrumentTab;
 
 impl App {
     /// Saves the picture on the screen with all layers that are known.
@@ -27,8 +28,8 @@ impl App {
             return;
         };
         let series = self.results.second_frame.clone().filter(|frame| frame.series.is_some());
-        if series.is_none() {
-            self.tell("The file has no bounces. Open Bounces (F4) before saving to include them.".to_owned(), false);
+        if series.is_none() && self.window.tab == Some(InstrumentTab::Bounces) {
+            self.tell("The file has no bounces: they have no sample yet. Save it again in a moment.".to_owned(), true);
         }
         let (threads, remarks) = (self.session.threads, self.mixed_remark());
         self.background.saver.save(path, move |path| write(&frame, series.as_ref(), &of, (threads, &remarks), path));

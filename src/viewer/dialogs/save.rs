@@ -54,8 +54,8 @@ pub enum OtherExport {
     Tev,
 }
 
-/// Shows the dialog until it is answered.
-pub fn show(ctx: &egui::Context, dialog: &mut Option<SaveDialog>) -> Option<SaveAnswer> {
+/// Shows the dialog until it is answered. `bounces` says whether the image is also rendered by number of bounces, which layers can have.
+pub fn show(ctx: &egui::Context, dialog: &mut Option<SaveDialog>, bounces: &mut bool) -> Option<SaveAnswer> {
     let SaveDialog { mut target, mut field, mut keeps_view } = dialog.take()?;
     let (mut open, mut save, mut cancelled, mut other) = (true, false, false, None);
     egui::Window::new(target.title())
@@ -64,7 +64,7 @@ pub fn show(ctx: &egui::Context, dialog: &mut Option<SaveDialog>) -> Option<Save
         .resizable(false)
         .anchor(Align2::CENTER_CENTER, [0.0, 0.0])
         .show(ctx, |ui| {
-            (save, cancelled) = dialog_body(ui, &mut target, &mut field, &mut keeps_view);
+            (save, cancelled) = dialog_body(ui, &mut target, &mut field, (&mut keeps_view, bounces));
             other = other_exports(ui, target);
         });
     if let Some(other) = other {
@@ -83,8 +83,8 @@ pub fn show(ctx: &egui::Context, dialog: &mut Option<SaveDialog>) -> Option<Save
     None
 }
 
-/// The choice whether an image has layers, which makes it an EXR.
-fn layers_choice(ui: &mut egui::Ui, target: &mut SaveTarget, field: &mut PathField) {
+/// The choice whether an image has layers, which makes it an EXR, and whether its bounces are among them.
+fn layers_choice(ui: &mut egui::Ui, target: &mut SaveTarget, field: &mut PathField, bounces: &mut bool) {
     let mut has_layers = *target == SaveTarget::Layers;
     if !has_layers && *target != SaveTarget::Picture {
         return;
@@ -98,6 +98,10 @@ fn layers_choice(ui: &mut egui::Ui, target: &mut SaveTarget, field: &mut PathFie
             field.path = PathBuf::from(&field.path).with_extension("exr").display().to_string();
         }
         field.refusal = None;
+    }
+    if has_layers {
+        let doc = "Adds the image of each number of bounces. Opens Bounces (F4), which renders them beside the image.";
+        ui.checkbox(bounces, "Bounces").on_hover_text(doc);
     }
 }
 
@@ -118,10 +122,15 @@ fn other_exports(ui: &mut egui::Ui, target: SaveTarget) -> Option<OtherExport> {
 }
 
 /// Returns whether to save, and whether to close. A file is replaced by the button that says so, never by Enter.
-fn dialog_body(ui: &mut egui::Ui, target: &mut SaveTarget, field: &mut PathField, keeps_view: &mut Option<bool>) -> (bool, bool) {
+fn dialog_body(
+    ui: &mut egui::Ui,
+    target: &mut SaveTarget,
+    field: &mut PathField,
+    (keeps_view, bounces): (&mut Option<bool>, &mut bool),
+) -> (bool, bool) {
     ui.set_width(460.0);
     ui.label(target.explanation());
-    layers_choice(ui, target, field);
+    layers_choice(ui, target, field, bounces);
     if let Some(keeps_view) = keeps_view {
         let doc = "Makes the view on the screen the camera of the scene. Otherwise the scene keeps its camera.";
         ui.checkbox(keeps_view, "Save this view as the scene's camera").on_hover_text(doc);

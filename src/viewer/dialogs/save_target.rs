@@ -40,7 +40,7 @@ impl SaveTarget {
                 "PNG stores the image as displayed (A of a comparison); EXR stores linear radiance. Both store the settings."
             }
             SaveTarget::Layers => {
-                "EXR with radiance, albedo, normal, depth, position, object, material, samples, and bounces if Bounces is open."
+                "EXR with radiance, albedo, normal, depth, position, object, material, samples and, if chosen, each number of bounces."
             }
             SaveTarget::Scene => {
                 "TOML. Comments and formatting of the file are kept; paths in the scene are relative to its folder."

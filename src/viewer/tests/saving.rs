@@ -1,5 +1,6 @@
 //! Saving images.
 use super::*;
+use crate::viewer::instruments::tabs::InstrumentTab;
 
 #[test]
 fn ctrl_e_saves_what_is_shown_where_the_path_field_says() {
@@ -30,15 +31,19 @@ fn an_image_with_layers_has_the_first_surfaces_beside_its_radiance() {
     window.get_by_role(Role::TextInput).set_text_value_accesskit(&path.display().to_string());
     window.run_steps(3);
     click(&mut window, "Layers");
+    window.get_by_role_and_label(Role::CheckBox, "Bounces").click_accesskit();
+    window.run_steps(2);
+    assert_eq!(window.state().window.tab, Some(InstrumentTab::Bounces));
+    let has_series = |app: &App| app.results.second_frame.as_ref().is_some_and(|frame| frame.series.is_some());
+    wait(&mut window, "the bounces", has_series);
     click(&mut window, "Save");
     wait(&mut window, "the file", |app| app.window.last_saved.is_some());
     let path = path.with_extension("exr");
     assert_eq!(image_file::read(&path).expect("it is an EXR").width, 96);
     let meta = exr::meta::MetaData::read_from_file(&path, false).expect("it has a header");
     let names: Vec<String> = meta.headers[0].channels.list.iter().map(|channel| channel.name.to_string()).collect();
-    assert!(["Normal.X", "Depth.Z", "IndexOB.X", "SampleCount.X"].iter().all(|name| names.iter().any(|known| known == name)));
-    let notices = &window.state().dialogs.notices.0;
-    assert!(notices.iter().any(|notice| notice.text.contains("no bounces")), "the note stays");
+    let wanted = ["Normal.X", "Depth.Z", "IndexOB.X", "SampleCount.X", "Bounce0.R"];
+    assert!(wanted.iter().all(|name| names.iter().any(|known| known == name)), "{names:?}");
 }
 
 #[test]
