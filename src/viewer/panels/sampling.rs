@@ -16,6 +16,9 @@ use crate::viewer::widgets::{
     style::{choices, controls, elided, row, row_with_note},
 };
 
+/// Height of the line below the estimator, points.
+const HIGHEST_NOTE: f32 = 20.0;
+
 /// Shows which side of a comparison the panel edits, and lets the user change it. The row stays where nothing is compared, so that no
 /// other row moves.
 pub fn side_choice(ui: &mut Ui, edits_second: Option<&mut bool>) {
@@ -87,8 +90,9 @@ fn estimator_row(
     let doc = "How direct light is estimated. All estimators converge to the same image; they differ in noise.";
     row_with_note(ui, &RenderSettings::ESTIMATOR.label(), doc, |ui, label| {
         word_list(ui, label, estimator);
-        // As high as a check box, so that no row below moves.
         ui.horizontal(|ui| {
+            // As high as a check box, so that no row below moves.
+            ui.set_min_height(ui.spacing().interact_size.y.max(HIGHEST_NOTE));
             let text = match in_force {
                 Some(in_force) => in_force.to_string(),
                 None if estimator.connects() => {

@@ -43,11 +43,13 @@ fn rows_of_the_panel_stay_where_they_are() {
     window.run_steps(3);
     let before = rows(&window);
     type Change = fn(&mut App);
-    let changes: [(&str, Change); 9] = [
+    let changes: [(&str, Change); 11] = [
         ("a comparison", |app| app.start_comparison(RenderSettings { seed: 3, ..app.session.settings })),
         ("a fixed roulette", |app| app.session.settings.roulette = Roulette::fixed(0.5)),
         ("no roulette", |app| app.session.settings.roulette = Roulette::Off),
         ("no sharing", |app| app.session.settings.reuse = Reuse::Off),
+        ("paths from both ends", |app| app.session.settings.estimator = Estimator::Bidirectional),
+        ("an estimator by trial", |app| app.session.settings.estimator = Estimator::Auto),
         ("a cap", |app| app.session.settings.max_bounces = Some(3)),
         ("a lens", |app| app.session.camera.lens = Some(Lens { radius: 0.1, focus: 3.0 })),
         ("a parallel projection", |app| app.session.camera.projection = Projection::orthographic(3.0)),

@@ -55,10 +55,15 @@ fn legend(ui: &mut Ui, history: &History, latest: [Option<u64>; 2]) {
     for (number, curve) in history.curves.iter().enumerate() {
         let name = history.name(curve);
         ui.horizontal_top(|ui| {
-            style::swatch(ui, COLOURS[number % COLOURS.len()]);
+            ui.vertical(|ui| {
+                ui.add_space(2.0);
+                style::swatch(ui, COLOURS[number % COLOURS.len()]);
+            });
             let text = RichText::new(&name);
-            ui.set_max_width(256.0);
-            ui.add(Label::new(if latest.contains(&Some(curve.generation)) { text.strong() } else { text }).wrap());
+            ui.vertical(|ui| {
+                ui.set_max_width(236.0);
+                ui.add(Label::new(if latest.contains(&Some(curve.generation)) { text.strong() } else { text }).wrap());
+            });
         });
         ui.indent(number, |ui| ui.weak(figures(curve, history.over)).on_hover_text(FIGURES));
     }
