@@ -19,7 +19,7 @@ const DETAILS: [[u32; 2]; 6] = [[48, 16], [24, 8], [12, 4], [8, 2], [4, 1], [3, 
 /// Vertices of the curves of a small file, and the number of its bytes that allow another one. Many curves have fewer sides.
 const MOST_VERTICES: usize = 1 << 20;
 const BYTES_OF_VERTEX: usize = 8;
-/// Bytes of a file. So many control points would have too many vertices.
+/// Most bytes of a file.
 const LARGEST_FILE: u64 = 256 << 20;
 
 /// The coordinate v at a place along a curve, in segments.
@@ -71,8 +71,11 @@ fn curves(import: &mut Import, element: Element, placed: Placed, family: &Family
     let file = import.shared_model(&key, &name, |import| {
         let error = |message: String| element.error(format!("the curves cannot be read: {message}"), help);
         let mut bytes = Vec::new();
-        let read = open_regular(&path).and_then(|file| file.take(LARGEST_FILE).read_to_end(&mut bytes));
-        read.map_err(|reason| error(reason.to_string()))?;
+        let read = open_regular(&path).and_then(|file| file.take(LARGEST_FILE + 1).read_to_end(&mut bytes));
+        let length = read.map_err(|reason| error(reason.to_string()))?;
+        if length as u64 > LARGEST_FILE {
+            return Err(error(format!("the file is larger than {} MB", LARGEST_FILE >> 20)));
+        }
         let curves = parse(&String::from_utf8_lossy(&bytes), &map).map_err(error)?;
         let most = MOST_VERTICES.max(bytes.len() / BYTES_OF_VERTEX);
         let (model, sides) = mesh(&curves, family, most).map_err(error)?;
