@@ -8,14 +8,14 @@ use crate::model::Model;
 /// A point of a curve: x, y, z and the radius of the tube around it, m.
 pub type CurvePoint = DVec4;
 
-/// A uniform cubic B-spline at t in 0..1 between the middle two of four points.
+/// A uniform cubic B-spline (de Boor 1972, with equal distances of knots) at t in 0..1 between the middle two of four points.
 pub fn spline(p: &[CurvePoint; 4], t: f64) -> CurvePoint {
     let (s, t2, t3) = (1.0 - t, t * t, t * t * t);
     let weights = [s * s * s, 3.0 * t3 - 6.0 * t2 + 4.0, 3.0 * (t + t2 - t3) + 1.0, t3];
     p.iter().zip(weights).map(|(p, weight)| *p * (weight / 6.0)).sum()
 }
 
-/// A cubic Bézier curve at t in 0..1.
+/// A cubic Bézier curve at t in 0..1, by the polynomials of Bernstein.
 pub fn bezier(p: &[CurvePoint; 4], t: f64) -> CurvePoint {
     let s = 1.0 - t;
     let weights = [s * s * s, 3.0 * s * s * t, 3.0 * s * t * t, t * t * t];

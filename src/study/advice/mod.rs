@@ -85,9 +85,9 @@ fn other_reuses(scene: &Scene, camera: &Camera, settings: &RenderSettings) -> Ve
 /// The first settings, and those of the others that are rendered in another way: `auto` is not compared with the estimator that it chooses.
 fn rendered_otherwise(scene: &Scene, camera: &Camera, mut settings: Vec<RenderSettings>) -> Vec<RenderSettings> {
     let rays = scene.rays(camera);
-    let in_force: Vec<RenderSettings> = settings.iter().map(|settings| resolved(scene, &rays, settings)).collect();
-    let mut kept = (0..settings.len()).map(|i| i == 0 || in_force[i] != in_force[0]);
-    settings.retain(|_| kept.next().unwrap_or(false));
+    let in_use = settings[0];
+    let in_force = resolved(scene, &rays, &in_use);
+    settings.retain(|settings| *settings == in_use || resolved(scene, &rays, settings) != in_force);
     settings
 }
 

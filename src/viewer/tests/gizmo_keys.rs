@@ -9,11 +9,18 @@ use super::{
     *,
 };
 
-#[test]
-fn the_gizmo_moves_the_object_by_keys_and_escape_takes_it_back() {
+/// A window in whose image the amber ball was clicked.
+fn window_with_ball() -> Window {
     let mut window = window("cornell_spheres");
     let at = seen(&mut window, ball());
     click_at(&mut window, at);
+    window
+}
+
+#[test]
+fn the_gizmo_moves_the_object_by_keys_and_escape_takes_it_back() {
+    let mut window = window_with_ball();
+    let at = seen(&mut window, ball());
     let (start, tool) = (center(&window, AMBER_BALL), window.state().window.tool);
     window.hover_at(at - vec2(0.0, 120.0));
     window.run_steps(2);
@@ -48,9 +55,7 @@ fn the_gizmo_moves_the_object_by_keys_and_escape_takes_it_back() {
 
 #[test]
 fn a_copy_follows_the_pointer_until_it_is_put_down() {
-    let mut window = window("cornell_spheres");
-    let at = seen(&mut window, ball());
-    click_at(&mut window, at);
+    let mut window = window_with_ball();
     let count = description(&window).objects.len();
     edits(&mut window, "the copy", |w| w.key_press_modifiers(Modifiers::SHIFT, Key::D));
     let copy = window.state().selection.object().expect("it is selected");
@@ -78,9 +83,7 @@ fn a_copy_follows_the_pointer_until_it_is_put_down() {
 
 #[test]
 fn another_edit_ends_the_move_of_a_copy() {
-    let mut window = window("cornell_spheres");
-    let at = seen(&mut window, ball());
-    click_at(&mut window, at);
+    let mut window = window_with_ball();
     let count = description(&window).objects.len();
     for moves in [&[][..], &[Key::X, Key::Num2]] {
         window.state_mut().selection.select(Some(Subject::Object(AMBER_BALL)));
@@ -96,9 +99,7 @@ fn another_edit_ends_the_move_of_a_copy() {
 
 #[test]
 fn selecting_another_part_ends_the_move_of_a_copy() {
-    let mut window = window("cornell_spheres");
-    let at = seen(&mut window, ball());
-    click_at(&mut window, at);
+    let mut window = window_with_ball();
     for (moves, least) in [(&[][..], 0.7), (&[Key::X, Key::Num2], 1.9)] {
         window.state_mut().selection.select(Some(Subject::Object(AMBER_BALL)));
         edits(&mut window, "the copy", |w| w.key_press_modifiers(Modifiers::SHIFT, Key::D));

@@ -144,7 +144,7 @@ fn add_lines(mesh: &mut TubeMesh, points: &[CurvePoint], _: u32, v: Coordinate<'
     }
     for (segment, [a, b]) in points.array_windows().enumerate() {
         let step = (b - a).truncate();
-        // The cone that touches both balls does so beside their centres.
+        // The cone that touches both balls (Han et al. 2019, generalized tubes) does so beside their centres, by the sine of its half angle.
         let sin = (a.w - b.w) / step.length();
         if sin.abs() < 1.0 {
             let cos = (1.0 - sin * sin).sqrt();
