@@ -9,10 +9,13 @@ use noisefall::{
     integrator::{Features, features},
     math::SimdLevel,
     render::{Display, Frame, image_file::save},
-    scene::Scene,
+    scene::{Estimator, Scene},
 };
 
-use crate::picture::scene;
+use crate::{
+    picture::{LUMINANCE, picture, scene, settings},
+    statistics::assert_within,
+};
 
 const SIDE: u32 = 96;
 /// Texels of the images.
@@ -209,4 +212,32 @@ fn normal_maps_tilt_normals_along_u_and_against_v() {
         let [u, v] = place.along.map(DVec3::normalize);
         u * TILT.x - v * TILT.y + place.normal * TILT.z
     });
+}
+
+/// A lamp lights a wall over a mirror whose normals lean by 15°: paths from the camera and paths from the lamp meet it at cosines
+/// that differ by a factor of 2 (Veach 1997, section 5.3).
+#[test]
+fn light_paths_and_camera_paths_agree_at_a_mirror_with_tilted_normals() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mesh = folder.path().join("tilted.obj");
+    let (sin, cos) = 15.0_f64.to_radians().sin_cos();
+    let text = format!("v -1 0 1\nv 1 0 1\nv 1 0 -1\nv -1 0 -1\nvn {sin} {cos} 0\nf 1//1 2//1 3//1\nf 1//1 3//1 4//1\n");
+    std::fs::write(&mesh, text).expect("it is written");
+    let scene = scene(&format!(
+        "camera = {{ eye = [-0.5, 0.8, 0], look_at = [1.5, 0.8, 0], fov = 30, resolution = [16, 16] }}
+        materials.grey.lambertian.albedo = 0.5
+        materials.silver.mirror.reflectance = 0.9
+        [[objects]]
+        shape.mesh.path = '{}'
+        material = 'silver'
+        [[objects]]
+        shape.rectangle = {{ origin = [1.5, 0, -2], edge_u = [0, 0, 4], edge_v = [0, 2, 0] }}
+        material = 'grey'
+        [[objects]]
+        shape.rectangle = {{ origin = [-2, 2, -0.5], edge_u = [1, 0, 0], edge_v = [0, 0, 1] }}
+        emission.radiance = 5.0",
+        mesh.display()
+    ));
+    let mean = |estimator| picture(&scene, settings(estimator), LUMINANCE, 1024).whole();
+    assert_within(mean(Estimator::Bidirectional).z_from(mean(Estimator::Path)), "bidirectional and path");
 }

@@ -4,7 +4,11 @@ mod attributes;
 mod cube;
 mod curves;
 mod disk;
+mod ellipsoids;
+mod level_set;
 mod meshes;
+mod ply_values;
+mod sdf_grid;
 mod serialized;
 
 use glam::DAffine3;
@@ -45,10 +49,14 @@ pub struct Geometry {
     pub flip: bool,
 }
 
-type Translate = fn(&mut Import, Element, Placed) -> Result<Geometry, SceneError>;
+/// How a shape is translated.
+enum Translate {
+    ToOne(fn(&mut Import, Element, Placed) -> Result<Geometry, SceneError>),
+    ToMany(fn(&mut Import, Element, Placed) -> Result<Vec<Geometry>, SceneError>),
+}
 
 fn family(kind: &str) -> Option<Translate> {
-    Some(match kind {
+    Some(Translate::ToOne(match kind {
         "sphere" => analytic::sphere,
         "cylinder" => analytic::cylinder,
         "rectangle" => analytic::rectangle,
@@ -59,8 +67,10 @@ fn family(kind: &str) -> Option<Translate> {
         "serialized" => serialized::serialized,
         "bsplinecurve" => curves::splines,
         "linearcurve" => curves::lines,
+        "sdfgrid" => sdf_grid::sdf_grid,
+        "ellipsoids" | "ellipsoidsmesh" => return Some(Translate::ToMany(ellipsoids::ellipsoids)),
         _ => return None,
-    })
+    }))
 }
 
 impl Import {
@@ -96,11 +106,6 @@ impl Import {
             let message = format!("the shape `{}`, which Noisefall does not render", element.kind());
             return Err(element.error(message, "replace it by a mesh, or remove it"));
         };
-        if self.description.objects.len() >= MOST_OBJECTS {
-            return Err(
-                element.error(format!("the scene has more than {MOST_OBJECTS} objects"), "merge meshes, or use fewer instances")
-            );
-        }
         refuse_media(element)?;
         for (_, sensor) in element.objects(&["sensor"])? {
             self.remark(sensor, "nothing", "it measures nothing");
@@ -114,16 +119,24 @@ impl Import {
         element.ignore(&["silhouette_sampling_weight", "name"]);
         let map = *around * element.affine("to_world")?;
         let placed = Placed { map, around: *around, flip: element.flag("flip_normals", false)?, uses: &uses };
-        let Geometry { shape, map, flip } = translate(self, element, placed)?;
-        self.description.objects.push(ObjectDescription {
+        let geometries = match translate {
+            Translate::ToOne(translate) => vec![translate(self, element, placed)?],
+            Translate::ToMany(translate) => translate(self, element, placed)?,
+        };
+        if self.description.objects.len() + geometries.len() > MOST_OBJECTS {
+            return Err(
+                element.error(format!("the scene has more than {MOST_OBJECTS} objects"), "merge meshes, or use fewer instances")
+            );
+        }
+        self.description.objects.extend(geometries.into_iter().map(|Geometry { shape, map, flip }| ObjectDescription {
             name: element.label().to_owned(),
             shape,
-            material: Some(surface.material),
-            emission,
+            material: Some(surface.material.clone()),
+            emission: emission.clone(),
             flip,
             transform: described(&map),
             motion: Vec::new(),
-        });
+        }));
         Ok(())
     }
 }

@@ -1,4 +1,5 @@
 //! Whole scenes.
+mod clouds_and_grids;
 mod curves;
 mod emitters;
 mod hostile;
