@@ -96,6 +96,8 @@ fn foreign() -> Vec<Base> {
         base("stl", vec![text("scene.stl", STL)]),
         base("stl-binary", bytes("scene.stl", binary_stl())),
         Base { focus: 1, ..base("curves", vec![text("scene.xml", CURVES), text("a.txt", POINTS)]) },
+        Base { focus: 1, ..base("ellipsoids", vec![text("scene.xml", CLOUD), text("a.ply", ELLIPSOIDS)]) },
+        Base { focus: 1, ..base("sdfgrid", vec![text("scene.xml", GRID), ("a.vol", Structure::Bytes, volume())]) },
     ]
 }
 
@@ -123,6 +125,20 @@ fn ours() -> Vec<Base> {
         renders::kept(),
         renders::samples(),
     ]
+}
+
+/// A grid of distances from the middle of the unit cube.
+fn volume() -> Vec<u8> {
+    const SIDE: u32 = 3;
+    let place = |i: u32| f64::from(i) / f64::from(SIDE - 1) - 0.5;
+    let distance = |i: u32| {
+        let [x, y, z] = [i % SIDE, i / SIDE % SIDE, i / SIDE / SIDE].map(place);
+        ((x * x + y * y + z * z).sqrt() - 0.4) as f32
+    };
+    let counts = [1, SIDE, SIDE, SIDE, 1].map(u32::to_le_bytes).concat();
+    let bounds = [0.0_f32, 0.0, 0.0, 1.0, 1.0, 1.0].map(f32::to_le_bytes).concat();
+    let values = (0..SIDE.pow(3)).flat_map(|i| distance(i).to_le_bytes()).collect();
+    [b"VOL\x03".to_vec(), counts, bounds, values].concat()
 }
 
 fn png_file() -> File {
@@ -207,6 +223,13 @@ const SPECTRUM: &str = "400 0.5\n550 0.7\n700 0.2\n";
 const CURVES: &str = "<scene version=\"3.0.0\"><shape type=\"bsplinecurve\"><string name=\"filename\" value=\"a.txt\"/></shape>\
     <shape type=\"linearcurve\"><string name=\"filename\" value=\"a.txt\"/></shape></scene>\n";
 const POINTS: &str = "0 0 0 0.1\n1 0 0 0.2\n2 1 0 0.1\n3 1 1 0.3\n\n0 0 1 0.1\n1 0 2 1e-1\n2 -1 0 .1\n3 1e0 1 0.3\n4 1 1 0\n";
+const CLOUD: &str =
+    "<scene version=\"3.0.0\"><shape type=\"ellipsoids\"><string name=\"filename\" value=\"a.ply\"/></shape></scene>\n";
+const ELLIPSOIDS: &str = "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\n\
+    property float scale_0\nproperty float scale_1\nproperty float scale_2\nproperty float rot_0\nproperty float rot_1\n\
+    property float rot_2\nproperty float rot_3\nend_header\n0 0 0 -1 -2 -1 1 0 0 0\n1 0 0.5 0 -1 -3 0.5 0 1 0\n";
+const GRID: &str =
+    "<scene version=\"3.0.0\"><shape type=\"sdfgrid\"><string name=\"filename\" value=\"a.vol\"/></shape></scene>\n";
 const GLTF: &str = include_str!("scene.gltf");
 const CAMERAS: &str = include_str!("cameras.toml");
 const STUDY: &str = include_str!("study.csv");

@@ -6,8 +6,8 @@ use glam::{UVec3, Vec3};
 use crate::model::Model;
 
 /// Cells along the longest side of a grid that smaller grids are divided into, and most of them in a cell.
-const FINE: u32 = 128;
-const FINEST: u32 = 32;
+const FINE: u32 = 64;
+const FINEST: u32 = 16;
 /// The six tetrahedra of a cube around its diagonal, by the order of the axes along their edges (Kuhn 1960).
 const ORDERS: [[usize; 3]; 6] = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
 
@@ -91,16 +91,13 @@ impl LevelSet {
 impl Builder<'_> {
     /// Adds the surface in a cube of the fine grid.
     fn add_cube(&mut self, cube: UVec3) {
-        let corner = |at: UVec3| (at, self.grid.interpolated(at.as_vec3() / self.fine as f32));
-        let value: HashMap<UVec3, f32> = points(UVec3::splat(2)).map(|step| corner(cube + step)).collect();
-        let tetrahedra = ORDERS.map(|order| {
-            let mut at = cube;
-            let mut next = |axis: usize| {
-                at[axis] += 1;
-                (at, value[&at])
-            };
-            [(cube, value[&cube]), next(order[0]), next(order[1]), next(order[2])]
-        });
+        let corner = |step: UVec3| {
+            let at = cube + step;
+            (at, self.grid.interpolated(at.as_vec3() / self.fine as f32))
+        };
+        let corners: Vec<Corner> = points(UVec3::splat(2)).map(corner).collect();
+        // Corners are numbered with a bit for each axis.
+        let tetrahedra = ORDERS.map(|[a, b, _]| [0, 1 << a, 1 << a | 1 << b, 7].map(|number: usize| corners[number]));
         tetrahedra.into_iter().for_each(|corners| self.add_tetrahedron(corners));
     }
 
