@@ -35,7 +35,10 @@ pub fn ellipsoids(import: &mut Import, element: Element, placed: Placed) -> Resu
     });
     let error = |message: String, help: &str| Err(element.error(format!("`{}`: {message}", path.display()), help));
     if let Some(place) = wrong {
-        return error(format!("ellipsoid {place} has no size or place"), "scales are logarithms, and rotations are not zero");
+        return error(
+            format!("ellipsoid {} has no size or place", place + 1),
+            "scales are logarithms, and rotations are not zero",
+        );
     }
     if read.is_none() || count == 0 {
         return error("there are no ellipsoids".to_owned(), "a PLY with x y z, scale_0 to scale_2 and rot_0 to rot_3");

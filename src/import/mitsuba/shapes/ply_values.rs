@@ -1,14 +1,17 @@
 //! Values of PLY files that a mesh does not have.
-use std::{collections::HashMap, path::Path};
+use std::{collections::HashMap, io::Read, path::Path};
 
 use super::super::tree::Element;
-use crate::{file::open_regular, math::colour::linear_from_srgb, scene::SceneError};
+use crate::{file::open_regular, math::colour::linear_from_srgb, model::LARGEST_FILE, scene::SceneError};
 
 /// The bytes of a file.
 pub fn read_file(element: Element, path: &Path) -> Result<Vec<u8>, SceneError> {
     let mut bytes = Vec::new();
-    let read = open_regular(path).and_then(|mut file| std::io::Read::read_to_end(&mut file, &mut bytes));
-    read.map_err(|error| element.error(format!("the file cannot be read: {error}"), "check the file"))?;
+    let read = open_regular(path).and_then(|file| file.take(LARGEST_FILE + 1).read_to_end(&mut bytes));
+    let length = read.map_err(|error| element.error(format!("the file cannot be read: {error}"), "check the file"))?;
+    if length as u64 > LARGEST_FILE {
+        return Err(element.error(format!("the file is larger than {} MB", LARGEST_FILE >> 20), "split it"));
+    }
     Ok(bytes)
 }
 

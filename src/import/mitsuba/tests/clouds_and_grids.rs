@@ -43,7 +43,7 @@ fn ellipsoids_without_size_are_refused() {
     let good = "0 0 0 0 0 0 1 0 0 0 1 0 0 0\n";
     for bad in ["0 0 0 0 0 0 1 0 0 0 0 0 0 0\n", "0 0 0 0 0 0 1 0 0 900 1 0 0 0\n", "nan 0 0 0 0 0 1 0 0 0 1 0 0 0\n"] {
         let report = cloud(&format!("{good}{bad}"), "").err().map(|error| error.report()).unwrap_or_default();
-        assert!(report.contains("ellipsoid 1 has no size or place"), "{report}");
+        assert!(report.contains("ellipsoid 2 has no size or place"), "{report}");
     }
     assert!(cloud(good, "").is_err(), "one of two is missing");
 }
