@@ -97,9 +97,17 @@ pub trait Words: Copy + PartialEq + 'static {
     fn words() -> &'static [(Word, Self)];
 }
 
-/// Gives the values of an enum without data their words: name in files, title in the window, one sentence.
+/// Declares an enum without data with the words of its values: name in files, title in the window, one sentence.
 macro_rules! words {
-    ($Type:ident { $($Variant:ident: $name:literal, $title:literal, $doc:literal;)+ }) => {
+    (
+        $(#[$meta:meta])*
+        pub enum $Type:ident { $($(#[$attribute:meta])* $Variant:ident: $name:literal, $title:literal, $doc:literal;)+ }
+    ) => {
+        $(#[$meta])*
+        pub enum $Type {
+            $(#[doc = $doc] $(#[$attribute])* $Variant),+
+        }
+
         impl $Type {
             /// All values, in the order in which they are offered.
             pub const ALL: [$Type; [$($name),+].len()] = [$($Type::$Variant),+];

@@ -102,18 +102,11 @@ impl From<&Picture> for Texels {
     }
 }
 
-/// Encoding of the numbers of a PNG, JPEG, TGA, WebP or BMP. EXR and HDR are always linear.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Encoding {
-    /// The sRGB curve: for colours.
-    #[default]
-    Srgb,
-    /// Linear: for heights, normals, masks.
-    Linear,
-}
-
 crate::declare::words! {
-    Encoding {
+    /// Encoding of the numbers of a PNG, JPEG, TGA, WebP or BMP. EXR and HDR are always linear.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub enum Encoding {
+        #[default]
         Srgb: "srgb", "sRGB", "sRGB transfer function: colours.";
         Linear: "linear", "Linear", "Linear values: heights, normals, masks.";
     }

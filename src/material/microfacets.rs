@@ -7,18 +7,11 @@ use crate::{
     math::{F, Lanes, V},
 };
 
-/// A distribution of microfacet normals in a scene description.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Distribution {
-    /// GGX.
-    #[default]
-    Ggx,
-    /// Beckmann.
-    Beckmann,
-}
-
 words! {
-    Distribution {
+    /// A distribution of microfacet normals in a scene description.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub enum Distribution {
+        #[default]
         Ggx: "ggx", "GGX", "A sharp peak with a wide glow.";
         Beckmann: "beckmann", "Beckmann", "Normally distributed slopes: no glow around the highlight.";
     }

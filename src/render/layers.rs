@@ -21,29 +21,10 @@ use crate::{
     memory::{self, Reservation, TooMuch},
 };
 
-/// A layer of an EXR file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Layer {
-    /// The image by number of bounces.
-    Bounces,
-    /// Albedo of the first surface.
-    Albedo,
-    /// Shading normal of the first surface.
-    Normal,
-    /// Distance of the first surface.
-    Depth,
-    /// Position of the first surface.
-    Position,
-    /// Number of the first object.
-    Object,
-    /// Number of the first material.
-    Material,
-    /// Samples per pixel.
-    Samples,
-}
-
 crate::declare::words! {
-    Layer {
+    /// A layer of an EXR file.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Layer {
         Bounces: "bounces", "Bounces", "Light of each number of bounces.";
         Albedo: "albedo", "Albedo", "Albedo of the first surface.";
         Normal: "normal", "Normal", "Shading normal of the first surface.";

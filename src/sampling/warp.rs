@@ -7,23 +7,14 @@ use serde::{Deserialize, Serialize};
 
 use crate::math::{F, Lanes, Pick, V, trig::sin_cos_eighth};
 
-/// How the next direction is sampled over the hemisphere at a diffuse vertex.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Directions {
-    /// Uniformly: p(ω) = 1/2π.
-    Uniform,
-    /// In proportion to the cosine: p(ω) = cos θ/π.
-    Cosine,
-    /// In proportion to BSDF times cosine; at a diffuse surface this is the cosine.
-    #[default]
-    Bsdf,
-}
-
 crate::declare::words! {
-    Directions {
+    /// How the next direction is sampled over the hemisphere at a diffuse vertex.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+    #[serde(rename_all = "lowercase")]
+    pub enum Directions {
         Uniform: "uniform", "Uniform", "p(ω_i) = 1 / 2π: uniform over the hemisphere.";
         Cosine: "cosine", "Cosine", "p(ω_i) = cos θ / π: cancels the cosine of the equation, so there is less noise.";
+        #[default]
         Bsdf: "bsdf", "BSDF", "p(ω_i) in proportion to f cos θ, which at a diffuse surface is the cosine.";
     }
 }

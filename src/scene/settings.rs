@@ -55,26 +55,15 @@ pub enum InjectedFault {
     OneBounceMore,
 }
 
-/// What neighbouring pixels share.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Reuse {
-    /// What a short trial of the scene shows to pay, if anything. The integrator itself treats it as [`Reuse::Off`].
-    #[default]
-    Auto,
-    /// Path suffixes beyond the first surface, wherever that is possible (Bekaert, Sbert and Halton 2002).
-    On,
-    /// Bright samples, which are replayed.
-    Bright,
-    /// Path suffixes, and what is bright in the rest of a sample.
-    Both,
-    /// Nothing: every pixel on its own.
-    Off,
-}
-
 crate::declare::words! {
-    Reuse {
+    /// What neighbouring pixels share.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+    #[serde(rename_all = "lowercase")]
+    pub enum Reuse {
+        /// The integrator itself treats it as [`Reuse::Off`].
+        #[default]
         Auto: "auto", "Auto", "Shares what a short trial of the scene finds most efficient. The trial runs once per scene.";
+        /// Bekaert, Sbert and Halton 2002.
         On: "on", "Paths", "Reuses each path in a 4 × 4 block of pixels, weighted by multiple importance sampling.";
         Bright: "bright", "Bright samples", "Replays bright samples, such as those of caustics, in a 4 × 4 block of pixels, weighted by multiple importance sampling.";
         Both: "both", "Both", "Reuses each path, and replays samples that are bright without the reused light.";

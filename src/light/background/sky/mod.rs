@@ -53,17 +53,10 @@ pub struct Sky {
     pub zenith: DVec3,
 }
 
-/// Models of a clear sky.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SkyModel {
-    /// Preetham, Shirley and Smits 1999.
-    Preetham,
-    /// Hosek and Wilkie 2012 and 2013.
-    Hosek,
-}
-
 words! {
-    SkyModel {
+    /// Models of a clear sky.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum SkyModel {
         Preetham: "preetham", "Preetham", "Preetham, Shirley and Smits 1999, in W/(m² sr).";
         Hosek: "hosek", "Hosek", "Hosek and Wilkie 2012 and 2013, in the unit of Mitsuba 3.";
     }
