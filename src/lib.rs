@@ -64,6 +64,7 @@ pub mod measure;
 pub mod memory;
 #[doc(hidden)]
 pub mod model;
+mod parallel;
 pub mod progress;
 #[doc(hidden)]
 pub mod quote;

@@ -1,14 +1,12 @@
 //! PNG, JPEG, TGA, WebP and BMP, by the `image` crate.
 //!
 //! The size in the header is checked, and the memory of the whole decoder is reserved, before any pixel is decoded.
-use std::io::{BufRead, Seek};
-
 use ::image::{
     ImageDecoder, Limits,
     codecs::{bmp::BmpDecoder, jpeg::JpegDecoder, png::PngDecoder, tga::TgaDecoder, webp::WebPDecoder},
 };
 
-use super::{Encoding, ImageFormatError, LONGEST_SIDE, Picture, Pixel, check_length, check_size, length, pixels, room};
+use super::{Encoding, ImageFormatError, LONGEST_SIDE, Picture, Pixel, Source, check_length, check_size, length, pixels, room};
 use crate::{
     math::colour::linear_from_srgb,
     memory::{Reservation, reserve},
@@ -26,30 +24,30 @@ const TGA: u64 = 2;
 /// Stands for the length of files that can hold any number of pixels. Its product with the densest pixels does not overflow.
 const ANY_LENGTH: u64 = u32::MAX as u64;
 
-pub(super) fn png<P: Pixel>(mut file: impl BufRead + Seek, encoding: Encoding) -> Result<Picture<P>, ImageFormatError> {
-    let (width, height) = size_of_png(&mut file)?;
+pub(super) fn png<P: Pixel>(file: &mut dyn Source, encoding: Encoding) -> Result<Picture<P>, ImageFormatError> {
+    let (width, height) = size_of_png(file)?;
     check_size(width.into(), height.into())?;
-    let length = length(&mut file)?;
+    let length = length(file)?;
     decode(PngDecoder::with_limits(file, limits(CHUNKS)).map_err(ImageFormatError::broken)?, [0, length], encoding)
 }
 
-pub(super) fn jpeg<P: Pixel>(mut file: impl BufRead + Seek, encoding: Encoding) -> Result<Picture<P>, ImageFormatError> {
-    let (_file, length) = whole(&mut file)?;
+pub(super) fn jpeg<P: Pixel>(file: &mut dyn Source, encoding: Encoding) -> Result<Picture<P>, ImageFormatError> {
+    let (_file, length) = whole(file)?;
     decode(JpegDecoder::new(file).map_err(ImageFormatError::broken)?, [JPEG, length], encoding)
 }
 
-pub(super) fn tga<P: Pixel>(mut file: impl BufRead + Seek, encoding: Encoding) -> Result<Picture<P>, ImageFormatError> {
-    let length = length(&mut file)?;
+pub(super) fn tga<P: Pixel>(file: &mut dyn Source, encoding: Encoding) -> Result<Picture<P>, ImageFormatError> {
+    let length = length(file)?;
     decode(TgaDecoder::new(file).map_err(ImageFormatError::broken)?, [TGA, length], encoding)
 }
 
-pub(super) fn webp<P: Pixel>(mut file: impl BufRead + Seek, encoding: Encoding) -> Result<Picture<P>, ImageFormatError> {
-    let _file = whole(&mut file)?;
+pub(super) fn webp<P: Pixel>(file: &mut dyn Source, encoding: Encoding) -> Result<Picture<P>, ImageFormatError> {
+    let _file = whole(file)?;
     decode(WebPDecoder::new(file).map_err(ImageFormatError::broken)?, [WEBP, ANY_LENGTH], encoding)
 }
 
-pub(super) fn bmp<P: Pixel>(mut file: impl BufRead + Seek, encoding: Encoding) -> Result<Picture<P>, ImageFormatError> {
-    let length = length(&mut file)?;
+pub(super) fn bmp<P: Pixel>(file: &mut dyn Source, encoding: Encoding) -> Result<Picture<P>, ImageFormatError> {
+    let length = length(file)?;
     decode(BmpDecoder::new(file).map_err(ImageFormatError::broken)?, [0, length], encoding)
 }
 
@@ -110,7 +108,7 @@ fn linear<P: Pixel>(
 }
 
 /// Reserves memory for a file that its decoder reads as a whole, into a buffer that grows by doubling; and the length of the file.
-fn whole(file: &mut impl Seek) -> Result<(Reservation, u64), ImageFormatError> {
+fn whole(file: &mut dyn Source) -> Result<(Reservation, u64), ImageFormatError> {
     let length = length(file)?;
     Ok((reserve(BYTES, 2 * length)?, length))
 }
@@ -124,7 +122,7 @@ fn limits(bytes: u64) -> Limits {
 }
 
 /// Width and height of the header chunk, which the standard puts first (PNG, third edition, sections 5.6 and 11.2.1).
-fn size_of_png(file: &mut impl BufRead) -> Result<(u32, u32), ImageFormatError> {
+fn size_of_png(file: &mut dyn Source) -> Result<(u32, u32), ImageFormatError> {
     let mut start = [0; 24];
     file.read_exact(&mut start).map_err(|_| ImageFormatError::broken("the file ends within its header"))?;
     let number = |at: usize| u32::from_be_bytes([start[at], start[at + 1], start[at + 2], start[at + 3]]);

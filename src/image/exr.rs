@@ -1,19 +1,17 @@
 //! OpenEXR, by the `exr` crate.
-use std::io::{BufRead, Seek};
-
 use ::exr::{
     meta::{BlockDescription, MetaData, header::Header},
     prelude::{ReadChannels, ReadLayers, read},
 };
 
-use super::{ImageFormatError, Picture, Pixel, check_length, check_size, length, room};
+use super::{ImageFormatError, Picture, Pixel, Source, check_length, check_size, length, room};
 
 /// Blocks are decompressed in parallel, each in its own memory.
 const UNPACKING: u64 = 32 << 20;
 
-pub(super) fn decode<P: Pixel>(mut file: impl BufRead + Seek) -> Result<Picture<P>, ImageFormatError> {
-    let length = length(&mut file)?;
-    let headers = MetaData::read_from_buffered(&mut file, false).map_err(ImageFormatError::broken)?.headers;
+pub(super) fn decode<P: Pixel>(file: &mut dyn Source) -> Result<Picture<P>, ImageFormatError> {
+    let length = length(file)?;
+    let headers = MetaData::read_from_buffered(&mut *file, false).map_err(ImageFormatError::broken)?.headers;
     for header in &headers {
         check_size(header.layer_size.width() as u64, header.layer_size.height() as u64)?;
         check_tiles(header)?;

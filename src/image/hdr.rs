@@ -4,9 +4,9 @@
 //! without the half step that Radiance itself adds: black is then 0, and other readers agree.
 //!
 //! The `image` crate reads this format too, but it does not apply the exposure and has no limit for the length of a header line.
-use std::io::{BufRead, Read, Seek};
+use std::io::{BufRead, Read};
 
-use super::{ImageFormatError, Picture, Pixel, check_size, length, pixels, room};
+use super::{ImageFormatError, Picture, Pixel, Source, check_size, length, pixels, room};
 
 /// Maximum length of a header line.
 const LONGEST_LINE: u64 = 4096;
@@ -15,10 +15,10 @@ const PACKED_WIDTHS: std::ops::RangeInclusive<usize> = 8..=0x7fff;
 
 type Rgbe = [u8; 4];
 
-pub(super) fn decode<P: Pixel>(mut file: impl BufRead + Seek) -> Result<Picture<P>, ImageFormatError> {
-    let length = length(&mut file)?;
-    let exposure = exposure(&mut file)?;
-    let (width, height) = size(&text_line(&mut file)?)?;
+pub(super) fn decode<P: Pixel>(file: &mut dyn Source) -> Result<Picture<P>, ImageFormatError> {
+    let length = length(file)?;
+    let exposure = exposure(file)?;
+    let (width, height) = size(&text_line(file)?)?;
     check_size(width.into(), height.into())?;
     // A row has a pixel or more, and old runs are of any length.
     if 4 * u64::from(height) > length {
@@ -28,14 +28,14 @@ pub(super) fn decode<P: Pixel>(mut file: impl BufRead + Seek) -> Result<Picture<
     let mut radiance = pixels(width as usize * height as usize)?;
     let mut row = vec![[0; 4]; width as usize];
     for _ in 0..height {
-        read_row(&mut file, &mut row)?;
+        read_row(file, &mut row)?;
         radiance.extend(row.iter().map(|rgbe| P::of(linear(*rgbe, exposure))));
     }
     Ok(Picture { width, height, radiance })
 }
 
 /// Reads the header up to its empty line, and returns the factor by which the values were multiplied.
-fn exposure(file: &mut impl BufRead) -> Result<f64, ImageFormatError> {
+fn exposure(file: &mut dyn Source) -> Result<f64, ImageFormatError> {
     let mut exposure = 1.0;
     loop {
         let line = text_line(file)?;
@@ -63,7 +63,7 @@ fn size(line: &str) -> Result<(u32, u32), ImageFormatError> {
     size.ok_or_else(|| ImageFormatError::broken(format!("its size is `{line}`, not `-Y height +X width`")))
 }
 
-fn text_line(file: &mut impl BufRead) -> Result<String, ImageFormatError> {
+fn text_line(file: &mut dyn Source) -> Result<String, ImageFormatError> {
     let mut line = Vec::new();
     file.take(LONGEST_LINE).read_until(b'\n', &mut line)?;
     if line.pop() != Some(b'\n') {
@@ -72,13 +72,17 @@ fn text_line(file: &mut impl BufRead) -> Result<String, ImageFormatError> {
     Ok(String::from_utf8_lossy(&line).trim_end().to_owned())
 }
 
-fn bytes<const N: usize>(file: &mut impl BufRead) -> Result<[u8; N], ImageFormatError> {
+fn bytes<const N: usize>(file: &mut dyn Source) -> Result<[u8; N], ImageFormatError> {
     let mut bytes = [0; N];
-    file.read_exact(&mut bytes).map_err(|_| ImageFormatError::broken("the file ends within its pixels"))?;
+    read(file, &mut bytes)?;
     Ok(bytes)
 }
 
-fn read_row(file: &mut impl BufRead, row: &mut [Rgbe]) -> Result<(), ImageFormatError> {
+fn read(file: &mut dyn Source, bytes: &mut [u8]) -> Result<(), ImageFormatError> {
+    file.read_exact(bytes).map_err(|_| ImageFormatError::broken("the file ends within its pixels"))
+}
+
+fn read_row(file: &mut dyn Source, row: &mut [Rgbe]) -> Result<(), ImageFormatError> {
     let first: Rgbe = bytes(file)?;
     match first {
         [2, 2, high, low] if high < 128 && PACKED_WIDTHS.contains(&row.len()) => {
@@ -93,15 +97,19 @@ fn read_row(file: &mut impl BufRead, row: &mut [Rgbe]) -> Result<(), ImageFormat
 
 /// Reads one run-length encoded channel of a row: a byte above 128 repeats the next byte; any other is the number of literal
 /// bytes that follow.
-fn read_channel(file: &mut impl BufRead, row: &mut [Rgbe], channel: usize) -> Result<(), ImageFormatError> {
+fn read_channel(file: &mut dyn Source, row: &mut [Rgbe], channel: usize) -> Result<(), ImageFormatError> {
     let mut done = 0;
     while done < row.len() {
         let [count] = bytes(file)?;
         let (length, repeated) = if count > 128 { (count - 128, Some(bytes::<1>(file)?)) } else { (count, None) };
         let run = row.get_mut(done..done + usize::from(length)).filter(|run| !run.is_empty());
-        for pixel in run.ok_or_else(|| ImageFormatError::broken("a run leaves its row"))? {
-            [pixel[channel]] = repeated.map_or_else(|| bytes(file), Ok)?;
+        let run = run.ok_or_else(|| ImageFormatError::broken("a run leaves its row"))?;
+        let mut values = [0; 128];
+        match repeated {
+            Some([value]) => values.fill(value),
+            None => read(file, &mut values[..run.len()])?,
         }
+        run.iter_mut().zip(values).for_each(|(pixel, value)| pixel[channel] = value);
         done += usize::from(length);
     }
     Ok(())
@@ -109,7 +117,7 @@ fn read_channel(file: &mut impl BufRead, row: &mut [Rgbe], channel: usize) -> Re
 
 /// Reads a row pixel by pixel; `first` has been read already. Mantissas 1, 1, 1 repeat the previous pixel; the exponent is the
 /// count. Consecutive repetitions are the digits of one count in base 256.
-fn read_pixels(file: &mut impl BufRead, first: Rgbe, row: &mut [Rgbe]) -> Result<(), ImageFormatError> {
+fn read_pixels(file: &mut dyn Source, first: Rgbe, row: &mut [Rgbe]) -> Result<(), ImageFormatError> {
     let (mut done, mut digit, mut next) = (0usize, 0, first);
     loop {
         if let [1, 1, 1, count] = next {

@@ -168,14 +168,14 @@ pub fn read(path: &Path, encoding: Encoding) -> Result<Picture, PictureError> {
 
 fn read_as<P: Pixel>(path: &Path, encoding: Encoding) -> Result<Picture<P>, PictureError> {
     let file = open_regular(path).map_err(ImageFormatError::from);
-    let picture = file.and_then(|file| decode(BufReader::new(file), encoding));
+    let picture = file.and_then(|file| decode(&mut BufReader::new(file), encoding));
     picture.map_err(|problem| PictureError { path: path.to_owned(), problem })
 }
 
 /// The same for a file that can be in memory.
 fn read_named<P: Pixel>(file: &NamedFile, encoding: Encoding) -> Result<Picture<P>, PictureError> {
     let Some(bytes) = file.content::<Vec<u8>>() else { return read_as(file.path(), encoding) };
-    decode(Cursor::new(&bytes[..]), encoding).map_err(|problem| PictureError { path: file.path().to_owned(), problem })
+    decode(&mut Cursor::new(&bytes[..]), encoding).map_err(|problem| PictureError { path: file.path().to_owned(), problem })
 }
 
 /// Reads an image of radiances, which must be finite and not negative. Small negative values become 0: other programs write them
@@ -233,9 +233,14 @@ pub fn looks_like(start: &[u8]) -> Option<&'static str> {
     KINDS.iter().find(|(magic, _)| start.starts_with(magic)).map(|(_, kind)| *kind)
 }
 
-fn decode<P: Pixel>(mut file: impl BufRead + Seek, encoding: Encoding) -> Result<Picture<P>, ImageFormatError> {
+/// A file, or its bytes in memory. Decoders take a reference to it: their code is large, and is compiled once for all.
+trait Source: BufRead + Seek {}
+
+impl<S: BufRead + Seek> Source for S {}
+
+fn decode<P: Pixel>(file: &mut dyn Source, encoding: Encoding) -> Result<Picture<P>, ImageFormatError> {
     let mut start = Vec::new();
-    (&mut file).take(18).read_to_end(&mut start)?;
+    (&mut *file).take(18).read_to_end(&mut start)?;
     file.rewind()?;
     match start.as_slice() {
         [0x89, b'P', b'N', b'G', ..] => decoded::png(file, encoding),
@@ -271,7 +276,7 @@ fn check_length(width: u64, height: u64, length: u64) -> Result<(), ImageFormatE
 }
 
 /// The length of a file, bytes. It is at its beginning afterwards.
-fn length(file: &mut impl Seek) -> Result<u64, ImageFormatError> {
+fn length(file: &mut dyn Source) -> Result<u64, ImageFormatError> {
     let length = file.seek(SeekFrom::End(0))?;
     file.rewind()?;
     Ok(length)

@@ -5,7 +5,7 @@ use super::{Encoding, ImageFormatError, Opacity, Picture, Texels, check_length, 
 use crate::declare::Resources;
 
 fn read(bytes: &[u8]) -> Result<Picture, ImageFormatError> {
-    decode(Cursor::new(bytes), Encoding::Linear)
+    decode(&mut Cursor::new(bytes), Encoding::Linear)
 }
 
 fn hdr(header: &str, pixels: &[u8]) -> Vec<u8> {
@@ -84,7 +84,7 @@ fn pngs_of_any_depth_and_channels_are_read() {
     assert_eq!(radiance(&png(2, 1, ColorType::Grayscale, BitDepth::One, &[0b0100_0000])), [[0.0; 3], [1.0; 3]]);
     assert_eq!(radiance(&png(1, 1, ColorType::Rgb, BitDepth::Sixteen, &[0, 1, 255, 255, 0, 0])), [[1.0 / 65535.0, 1.0, 0.0]]);
     let grey: Result<Picture, ImageFormatError> =
-        decode(Cursor::new(png(1, 1, ColorType::Grayscale, BitDepth::Eight, &[188])), Encoding::Srgb);
+        decode(&mut Cursor::new(png(1, 1, ColorType::Grayscale, BitDepth::Eight, &[188])), Encoding::Srgb);
     assert!((grey.expect("it is a picture").radiance[0][1] - 0.502_886).abs() < 1e-6);
 }
 
@@ -92,7 +92,7 @@ fn pngs_of_any_depth_and_channels_are_read() {
 fn opacity_is_linear_and_1_without_a_channel() {
     use png::{BitDepth, ColorType};
     let opacities = |bytes: &[u8]| -> Vec<f32> {
-        let picture: Picture<Opacity> = decode(Cursor::new(bytes), Encoding::Srgb).expect("it is a picture");
+        let picture: Picture<Opacity> = decode(&mut Cursor::new(bytes), Encoding::Srgb).expect("it is a picture");
         picture.radiance.iter().map(|Opacity(x)| *x).collect()
     };
     assert_eq!(opacities(&png(2, 1, ColorType::Rgba, BitDepth::Eight, &[255, 0, 51, 51, 1, 2, 3, 255])), [0.2, 1.0]);
@@ -124,7 +124,7 @@ fn an_exr_whose_tiles_are_much_larger_than_the_image_is_refused() {
     let at = bytes.windows(name.len()).position(|window| window == name).expect("it has tiles") + name.len() + 4;
     // The highest byte of the width.
     bytes[at + 3] = 0x10;
-    let Err(error) = decode::<[f32; 4]>(Cursor::new(bytes), Encoding::Srgb) else { panic!("it is read") };
+    let Err(error) = decode::<[f32; 4]>(&mut Cursor::new(bytes), Encoding::Srgb) else { panic!("it is read") };
     assert!(error.to_string().contains("tiles of 268435520 × 64 pixels"), "{error}");
 }
 
@@ -163,7 +163,7 @@ fn formats_without_loss_are_read_as_they_were_written() {
     for bytes in [&tga, &webp] {
         let picture = read(bytes).expect("it is a picture");
         assert_eq!((picture.width, picture.height, &picture.radiance), (4, 2, &linear));
-        let curved: Picture = decode(Cursor::new(bytes), Encoding::Srgb).expect("it is a picture");
+        let curved: Picture = decode(&mut Cursor::new(bytes), Encoding::Srgb).expect("it is a picture");
         assert!((curved.radiance[2][0] - 0.132_868).abs() < 1e-6, "{:?}", curved.radiance[2]);
         assert!(matches!(read(&bytes[..bytes.len() / 2]), Err(ImageFormatError::Unreadable(_))), "the file is cut");
     }
@@ -218,7 +218,7 @@ fn other_files_are_not_taken_for_a_tga() {
 #[test]
 fn texels_are_the_same_colours_and_nothing_else() {
     let bytes = hdr(&format!("{HEADER}\n-Y 1 +X 2\n"), &[128, 64, 0, 129, 7, 7, 7, 0]);
-    let texels: Picture<[f32; 4]> = decode(Cursor::new(bytes), Encoding::Linear).expect("it is a picture");
+    let texels: Picture<[f32; 4]> = decode(&mut Cursor::new(bytes), Encoding::Linear).expect("it is a picture");
     assert_eq!(texels.radiance, [[1.0, 0.5, 0.0, 0.0], [0.0; 4]]);
     let picture = Picture { width: 2, height: 1, radiance: vec![[1.0, 0.5, 0.0], [0.0; 3]] };
     let copied = Texels::from(&picture);

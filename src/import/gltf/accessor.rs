@@ -1,14 +1,13 @@
 //! Accessors: columns of numbers in the buffers.
-use rayon::prelude::*;
-
 use super::{
     buffers::Buffers,
     bytes::Slice,
     document::{Accessor, Document, Index, Sparse, element},
     refusal::Found,
 };
+use crate::parallel::in_parts;
 
-/// Elements that a thread decodes at a time, at least.
+/// Elements that a thread decodes at a time.
 const AT_ONCE: usize = 1 << 12;
 /// Elements whose bytes are read from disk at a time.
 const BLOCK: usize = 1 << 22;
@@ -130,20 +129,22 @@ impl<'a> Column<'a> {
         number: impl Fn([u8; B]) -> T + Sync,
     ) -> Found<Vec<[T; N]>>
     where
-        T: Send,
+        T: Copy + Default + Send,
     {
-        let (stride, count) = (self.stride, picks.len());
-        let mut all = Vec::with_capacity(count);
-        for start in (0..count).step_by(BLOCK) {
-            let block = start..count.min(start + BLOCK);
-            let [first, last] = [block.start, block.end - 1].map(|place| picks.at(place));
+        let stride = self.stride;
+        let mut all = vec![[T::default(); N]; picks.len()];
+        for (block, numbers) in all.chunks_mut(BLOCK).enumerate() {
+            let start = block * BLOCK;
+            let [first, last] = [start, start + numbers.len() - 1].map(|place| picks.at(place));
             let length = ((last - first) * stride + N * B) as u64;
             let bytes = self.bytes.borrowed().part((first * stride) as u64, length).ok_or("it ends too early")?.read()?;
-            let element = |place: usize| -> [T; N] {
-                let codes = bytes[(picks.at(place) - first) * stride..][..N * B].as_chunks::<B>().0;
-                std::array::from_fn(|i| number(codes[i]))
-            };
-            all.par_extend(block.into_par_iter().with_min_len(AT_ONCE).map(element));
+            in_parts(numbers.as_flattened_mut(), AT_ONCE * N, &|part, numbers| {
+                for (place, element) in (start + part / N..).zip(numbers.as_chunks_mut::<N>().0) {
+                    let codes = bytes[(picks.at(place) - first) * stride..][..N * B].as_chunks::<B>().0;
+                    *element = std::array::from_fn(|i| number(codes[i]));
+                }
+                true
+            });
         }
         Ok(all)
     }

@@ -4,15 +4,16 @@
 //! value from the same place then finds the error.
 use std::io::{Read, Take};
 
-use rayon::prelude::*;
-
 use super::{
     super::{Model, ModelFormatError},
     header::{Element, Kind, Layout},
     slots::{FIRST_COLOUR, NUMBERS, OPACITY, Slots, linear},
     values::Values,
 };
-use crate::progress::{Cancelled, Progress};
+use crate::{
+    parallel::in_parts,
+    progress::{Cancelled, Progress},
+};
 
 /// Bytes that are read at a time, about.
 pub const BLOCK: usize = 1 << 22;
@@ -20,11 +21,18 @@ pub const BLOCK: usize = 1 << 22;
 const ROWS: usize = 1 << 14;
 
 /// Rows that are read block by block.
-pub struct Rows<R> {
+pub struct Rows<'a> {
     /// From the next row to the end of the file.
-    pub bytes: Take<R>,
+    pub bytes: Take<&'a mut dyn Read>,
     /// Bytes of a block, about; a row at least.
     pub block: usize,
+}
+
+impl<'a> Rows<'a> {
+    /// The rows of the next `length` bytes.
+    pub fn new(bytes: &'a mut dyn Read, length: u64, block: usize) -> Rows<'a> {
+        Rows { bytes: bytes.take(length), block }
+    }
 }
 
 /// Offset and type of a number in a row, if it is there.
@@ -75,7 +83,7 @@ impl Columns {
 pub fn vertices<V: Values>(
     element: &Element,
     slots: &Slots,
-    rows: &mut Rows<impl Read>,
+    rows: &mut Rows,
     progress: &Progress,
 ) -> Result<Option<Model>, ModelFormatError> {
     let Some(columns) = Columns::of(slots) else { return Ok(None) };
@@ -107,7 +115,7 @@ pub fn vertices<V: Values>(
 pub fn triangles<V: Values>(
     element: &Element,
     vertices: u64,
-    rows: &mut Rows<impl Read>,
+    rows: &mut Rows,
     progress: &Progress,
 ) -> Result<Option<Vec<[u32; 3]>>, ModelFormatError> {
     let Some((count_kind, item)) = polygons(element) else { return Ok(None) };
@@ -142,7 +150,7 @@ pub fn polygons(element: &Element) -> Option<(Kind, Kind)> {
 }
 
 /// The number of rows, if the file has the bytes for them.
-fn count_in(element: &Element, size: usize, rows: &Rows<impl Read>) -> Option<usize> {
+fn count_in(element: &Element, size: usize, rows: &Rows) -> Option<usize> {
     let fits = element.count.checked_mul(size as u64)? <= rows.bytes.limit();
     usize::try_from(element.count).ok().filter(|_| fits)
 }
@@ -156,7 +164,7 @@ fn part<T>(list: &mut Option<Vec<T>>, from: usize, to: usize) -> &mut [T] {
 fn in_blocks(
     count: usize,
     size: usize,
-    rows: &mut Rows<impl Read>,
+    rows: &mut Rows,
     progress: &Progress,
     mut decode: impl FnMut(usize, usize, &[u8]) -> bool,
 ) -> Result<bool, Cancelled> {
@@ -175,7 +183,8 @@ fn in_blocks(
 
 /// Decodes rows on all threads into a list, which may be empty. False if one of them is not valid.
 fn fill<T: Send>(into: &mut [T], rows: &[u8], size: usize, decode: impl Fn(&[u8]) -> Option<T> + Sync) -> bool {
-    into.par_chunks_mut(ROWS).zip(rows.par_chunks(ROWS * size)).all(|(into, rows)| {
-        into.iter_mut().zip(rows.chunks_exact(size)).all(|(into, row)| decode(row).map(|value| *into = value).is_some())
+    in_parts(into, ROWS, &|first, into| {
+        let rows = rows[first * size..].chunks_exact(size);
+        into.iter_mut().zip(rows).all(|(into, row)| decode(row).map(|value| *into = value).is_some())
     })
 }

@@ -10,8 +10,6 @@ mod strips;
 mod values;
 mod write;
 
-use std::io::Read;
-
 pub(super) use self::header::is_ply;
 use self::{
     bulk::{BLOCK, Rows},
@@ -80,13 +78,14 @@ fn read_vertices<V: Values>(
     progress: &Progress,
 ) -> Result<(), ModelFormatError> {
     let slots = slots(element);
-    if let Some(bytes) = values.bytes_left() {
+    if let Some(mut bytes) = values.bytes_left() {
         reserve_vertices(element, &slots, room)?;
-        let mut rows = Rows { bytes: bytes.take(bytes.len() as u64), block: BLOCK };
+        let length = bytes.len() as u64;
+        let mut rows = Rows::new(&mut bytes, length, BLOCK);
         if let Some(vertices) = bulk::vertices::<V>(element, &slots, &mut rows, progress)? {
             *model = Model { triangles: std::mem::take(&mut model.triangles), ..vertices };
-            let length = bytes.len() as u64 - rows.bytes.limit();
-            return values.skip(Kind::U8, length);
+            let read = length - rows.bytes.limit();
+            return values.skip(Kind::U8, read);
         }
     }
     let is_there: [bool; NUMBERS] = std::array::from_fn(|number| slots.iter().any(|(_, slot)| *slot == Some(number)));
@@ -141,14 +140,15 @@ fn read_faces<V: Values>(
     room: &mut Reservation,
     progress: &Progress,
 ) -> Result<(), ModelFormatError> {
-    if let Some(bytes) = values.bytes_left() {
-        let mut rows = Rows { bytes: bytes.take(bytes.len() as u64), block: BLOCK };
+    if let Some(mut bytes) = values.bytes_left() {
+        let length = bytes.len() as u64;
+        let mut rows = Rows::new(&mut bytes, length, BLOCK);
         if let Some(found) = bulk::triangles::<V>(element, vertices, &mut rows, progress)? {
             room.grow(format_args!("{} triangles", found.len()), size_of_val(&found[..]) as u64)?;
             // Strips may come first.
             triangles.extend(found);
-            let length = bytes.len() as u64 - rows.bytes.limit();
-            return values.skip(Kind::U8, length);
+            let read = length - rows.bytes.limit();
+            return values.skip(Kind::U8, read);
         }
     }
     for index in 0..element.count {

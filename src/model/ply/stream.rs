@@ -33,7 +33,7 @@ fn in_blocks(
         return Ok(None);
     }
     file.seek(SeekFrom::Start(header.end as u64))?;
-    let mut rows = Rows { bytes: file.take(length.saturating_sub(header.end as u64)), block };
+    let mut rows = Rows::new(file, length.saturating_sub(header.end as u64), block);
     if big_endian {
         elements::<Binary<true>>(&header, &mut rows, progress)
     } else {
@@ -51,11 +51,7 @@ fn is_of_rows(element: &Element) -> bool {
     }
 }
 
-fn elements<V: Values>(
-    header: &Header,
-    rows: &mut Rows<impl Read>,
-    progress: &Progress,
-) -> Result<Option<Model>, ModelFormatError> {
+fn elements<V: Values>(header: &Header, rows: &mut Rows, progress: &Progress) -> Result<Option<Model>, ModelFormatError> {
     let mut model = Model::default();
     let mut room = Reservation::none();
     let vertices = header.element("vertex").map_or(0, |element| element.count);
