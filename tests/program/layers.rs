@@ -17,7 +17,7 @@ const LAYERS: [&[&str]; 13] = [
     &["texture"],
     &["sampling", "image", "model"],
     &["declare"],
-    &["math", "file", "memory", "progress", "quote"],
+    &["math", "file", "memory", "parallel", "progress", "quote"],
 ];
 
 /// The folders of the window, from the top down.
