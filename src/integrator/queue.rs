@@ -5,8 +5,11 @@
 use crate::math::{F, Lanes, M, MAX_LANES, U, V};
 
 /// Columns of numbers. The record type that made the queue knows their meaning.
+///
+/// Its memory is allocated with its first record: most scenes leave most queues empty. A queue without records cannot be read.
 pub struct Queue {
     columns: Vec<f32>,
+    count: usize,
     stride: usize,
     len: usize,
 }
@@ -15,8 +18,21 @@ impl Queue {
     /// An empty queue.
     pub fn new(columns: usize, capacity: usize) -> Queue {
         // Registers are loaded and stored whole, so the last one may reach past the end.
-        let stride = capacity + MAX_LANES;
-        Queue { columns: vec![0.0; columns * stride], stride, len: 0 }
+        Queue { columns: Vec::new(), count: columns, stride: capacity + MAX_LANES, len: 0 }
+    }
+
+    /// Makes room for records.
+    #[inline(always)]
+    pub fn open(&mut self) {
+        if self.columns.is_empty() {
+            self.allocate();
+        }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn allocate(&mut self) {
+        self.columns = vec![0.0; self.count * self.stride];
     }
 
     /// Number of records.
@@ -177,6 +193,7 @@ macro_rules! record {
                     return;
                 }
                 let whole = count == L::N;
+                queue.open();
                 let mut column = 0;
                 $(
                     Field::append(self.$field, keep, whole, queue, column);

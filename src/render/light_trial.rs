@@ -11,7 +11,7 @@ use super::{
     trial::{relative_excess, relative_variances},
 };
 use crate::{
-    integrator::{Batch, Interrupted, Work, trace},
+    integrator::{Batch, Batches, Interrupted, Work, trace},
     math::SimdLevel,
     sampling::Sampler,
     scene::{Camera, Estimator, RenderSettings, Reuse, Scene},
@@ -74,19 +74,21 @@ fn small_image(
     settings: &RenderSettings,
     interrupted: &(dyn Fn() -> bool + Sync),
 ) -> Result<(Vec<Estimate>, u64), Interrupted> {
-    let rays = scene.rays(camera);
+    let (rays, batches) = (scene.rays(camera), Batches::of_pool());
     let splats = SplatFilm::new(camera.resolution);
     let areas: Vec<Area> = Area::tiles(camera.resolution).collect();
-    let sample = |area: &Area| {
-        let (mut batch, mut tile) = (Batch::default(), Tile::new(area.origin, area.size));
+    let sampled = |batch: &mut Batch, area: &Area| {
+        let mut tile = Tile::new(area.origin, area.size);
+        batch.rays = 0;
         for sample in 0..SPP {
             let work = Work::tile(scene, &rays, settings, area.origin, area.size, sample);
-            trace(SimdLevel::best(), &work, &mut batch, interrupted)?;
+            trace(SimdLevel::best(), &work, batch, interrupted)?;
             tile.add(batch.radiance());
             splats.add(rays.filter, &batch.splats);
         }
         Ok((tile, batch.rays))
     };
+    let sample = |area: &Area| batches.with(|batch| sampled(batch, area));
     let mut tiles = areas.par_iter().map(sample).collect::<Result<Vec<(Tile, u64)>, Interrupted>>()?;
     let paths = u64::from(SPP) * camera.resolution.map(u64::from).iter().product::<u64>();
     for (place, (tile, _)) in tiles.iter_mut().enumerate() {

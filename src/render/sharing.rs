@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use super::{light_trial::estimator_unless, threads::PassJob, tile::Tile};
 use crate::{
-    integrator::{Batch, Interrupted, TILE, Work, thresholds, trace},
+    integrator::{Batch, Batches, Interrupted, TILE, Work, thresholds, trace},
     math::SimdLevel,
     measure::{Floor, relative},
     scene::{CameraRays, RenderSettings, Reuse, Scene, Sharing},
@@ -76,7 +76,9 @@ fn best(scene: &Scene, interrupted: &(dyn Fn() -> bool + Sync)) -> Result<Sharin
     let settings = RenderSettings { estimator: scene.settings.estimator, ..Default::default() };
     let rays = scene.rays(&scene.camera);
     let possible = scene.possible_sharing(&rays, &settings);
-    let trial = |sharing: Sharing| trial(scene, &rays, &RenderSettings { reuse: sharing.reuse(), ..settings }, interrupted);
+    let batches = Batches::of_pool();
+    let trial =
+        |sharing: Sharing| trial(scene, &rays, &RenderSettings { reuse: sharing.reuse(), ..settings }, &batches, interrupted);
     let mut best = (Sharing::Nothing, trial(Sharing::Nothing)?);
     if possible.contains(&Sharing::Suffixes) {
         let suffixes = trial(Sharing::Suffixes)?;
@@ -148,17 +150,19 @@ fn trial(
     scene: &Scene,
     rays: &CameraRays,
     settings: &RenderSettings,
+    batches: &Batches,
     interrupted: &(dyn Fn() -> bool + Sync),
 ) -> Result<Trial, Interrupted> {
     let [width, height] = scene.camera.resolution;
-    let tile = |batch: &mut Batch, (seed, [x, y]): (u32, [f64; 2])| {
+    let tile = |(seed, [x, y]): (u32, [f64; 2])| {
         let origin = [(width, x), (height, y)].map(|(side, part)| (f64::from(side) * part) as u32 / TILE * TILE);
         let size = [TILE.min(width - origin[0]), TILE.min(height - origin[1])];
         let settings = RenderSettings { seed, ..*settings };
-        sampled(batch, PassJob { scene, rays, settings: &settings }, Tile::new(origin, size), interrupted)
+        let job = PassJob { scene, rays, settings: &settings };
+        batches.with(|batch| sampled(batch, job, Tile::new(origin, size), interrupted))
     };
     let places: Vec<_> = SEEDS.into_iter().flat_map(|seed| PLACES.map(|place| (seed, place))).collect();
-    let tiles = places.into_par_iter().with_max_len(1).map_init(Batch::default, tile).collect::<Result<Vec<_>, Interrupted>>()?;
+    let tiles = places.into_par_iter().with_max_len(1).map(tile).collect::<Result<Vec<_>, Interrupted>>()?;
     let image = |tiles: &[(Vec<[f64; 3]>, u64)]| tiles.iter().flat_map(|(means, _)| means.iter().copied()).collect();
     let (first, second) = tiles.split_at(PLACES.len());
     Ok(Trial { images: [image(first), image(second)], rays: tiles.iter().map(|(_, rays)| *rays as f64).sum() })

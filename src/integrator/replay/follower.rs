@@ -81,8 +81,11 @@ impl Follower {
         let Nearest { t, primitive, .. } = nearest;
         let object = (primitive.0 != MISS).then(|| work.scene.owners[primitive.0 as usize]);
         let interaction = object.map(|_| interact::<One, VARIED>(One, work, &path, M(true), &nearest, None));
-        let media = paths.media(One, only(at));
-        let transmittance = if VARIED && work.has_media() { transmittance(One, work, media, t) } else { V::splat(One, WHITE) };
+        let transmittance = if VARIED && work.has_media() {
+            transmittance(One, work, paths.media(One, only(at)), t)
+        } else {
+            V::splat(One, WHITE)
+        };
         let throughput = carried(work, batch, batch.bounce, &path);
         let emission = hit_emitter::<VARIED>(work, &path, interaction).map(|(radiance, place)| {
             let weight = emitter_hit_weight_of(work, batch, at, &path, place);

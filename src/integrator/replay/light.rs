@@ -43,7 +43,7 @@ pub(super) fn sampled_light(
     };
     let Some(at) = queued else { return light };
     let shadow = Shadow::read(One, &batch.shadows.shadows, at.start);
-    let media = batch.shadows.media(One, at);
+    let media = if work.has_media() { batch.shadows.media(One, at) } else { U(0) };
     let left = crossings_left(One, work, &batch.crossings, M(true), &shadow, batch.bounce);
     let end_of = |shadow: &Shadow<One>| arriving(One, work, (M(true), left), shadow, media, batch.bounce + 1, &mut 0);
     let arriving = end_of(&shadow);
