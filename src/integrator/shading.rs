@@ -82,7 +82,7 @@ impl<'a, L: Lanes, K: Shade> Shading<'a, L, K> {
         let lobe = if K::GLOSSY && work.heeds_lobes() { Some(self.lobe(l)) } else { None };
         let at = ReferencePoint { p: hit.p, n: vertex.n, transmits: if K::TRANSMITS { l.first(L::N) } else { l.first(0) }, lobe };
         let sample_light = if K::DETAILED { call_sample_light } else { sample_light };
-        let sample = sample_light(l, work, &at, &coordinates.stream, hit.slot, *reflection);
+        let sample = sample_light(l, work, &at, &coordinates.stream, coordinates.direction, hit.slot, *reflection);
         let wi = vertex.frame.local_from_world(sample.wi);
         let (mut f_cos, pdf) = bsdf.eval(vertex.wo, wi);
         if let Some(shadowing) = &self.normal_shadowing {

@@ -52,7 +52,12 @@ fn random(i: u32) -> F<One> {
 
 fn coordinates(i: u32) -> LightCoordinates<One> {
     let n = 5 * i;
-    LightCoordinates { choice: random(n), cell: (random(n + 1), random(n + 2)), place: (random(n + 3), random(n + 4)) }
+    LightCoordinates {
+        choice: random(n),
+        cell: (random(n + 1), random(n + 2)),
+        place: (random(n + 3), random(n + 4)),
+        sky: (random(n + 3), random(n + 4)),
+    }
 }
 
 #[test]

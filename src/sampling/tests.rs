@@ -1,7 +1,7 @@
 //! Samplers and warps: distributions against pdfs, strata, and coordinates that do not depend on the order of evaluation.
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
-use super::{Dimension, Directions, Sampler, Stream};
+use super::{Dimension, Directions, Sampler, Stream, warp};
 use crate::math::{F, One, U, colour};
 
 /// Every test statistic here must have at least this probability; seeds are fixed.
@@ -26,6 +26,19 @@ fn chi_squared(observed: &[f64], expected: &[f64]) -> f64 {
 fn the_camera_and_three_surfaces_are_near() {
     assert!(Dimension::TIME.is_near() && Dimension::direction(3).is_near());
     assert!(!Dimension::direction(4).is_near());
+}
+
+/// Behind a wall through the normal, which hides half of the sky, exactly one of the two sees the sky.
+#[test]
+fn opposite_points_are_as_even_as_the_points_and_on_opposite_sides_of_the_normal() {
+    for index in 0..100_000 {
+        let u = stream(Sampler::Independent, 1, index / 1000, index % 1000).two(Dimension::direction(1));
+        let opposite = warp::opposite(u);
+        assert_eq!([warp::opposite(opposite).0.0, warp::opposite(opposite).1.0], [u.0.0, u.1.0]);
+        assert!([opposite.0.0, opposite.1.0].iter().all(|x| *x > 0.0 && *x < 1.0 && *x != 0.5));
+        let [a, b] = [u, opposite].map(warp::cosine_hemisphere);
+        assert!((a.x * b.x).0 < 0.0 && (a.y * b.y).0 < 0.0, "{index}");
+    }
 }
 
 #[test]

@@ -48,6 +48,14 @@ impl Directions {
     }
 }
 
+/// The point half of the unit square away in both coordinates, around its edges. By [`cosine_hemisphere`] the two are on opposite sides of
+/// the normal, and the nearer one is to it the farther is the other.
+#[inline(always)]
+pub fn opposite<L: Lanes>((u, v): (F<L>, F<L>)) -> (F<L>, F<L>) {
+    let shifted = |x: F<L>| x.lt(x.splat(0.5)).pick(x + 0.5, x - 0.5);
+    (shifted(u), shifted(v))
+}
+
 /// Uniform over the unit disk: x, y and the squared radius.
 ///
 /// Maps squares around the centre to circles, so that neighbours stay neighbours and strata stay compact (P. Shirley and K. Chiu,

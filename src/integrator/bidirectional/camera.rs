@@ -27,6 +27,7 @@ use crate::{
     light::ReferencePoint,
     material::Stage,
     math::{Lanes, Pick},
+    sampling::Dimension,
 };
 
 /// Runs the stage.
@@ -114,7 +115,9 @@ fn queue_light_sample<L: Lanes>(
     let transmits = if stage.transmits() { l.first(L::N) } else { l.first(0) };
     let point = ReferencePoint { p: hit.p, n: hit.n, transmits, lobe: None };
     let stream = work.stream(l, hit.slot);
-    let sample = call_sample_light(l, work, &point, &stream, hit.slot, reflection);
+    let is_read = work.scene.lights.have_even_sky();
+    let direction = if is_read { stream.two(Dimension::direction(reflection)) } else { (l.f(0.0), l.f(0.0)) };
+    let sample = call_sample_light(l, work, &point, &stream, direction, hit.slot, reflection);
     let Evaluated { f_cos, pdf: bsdf_pdf, reverse } = evaluate(l, work, stage, hits, at, [*back, sample.wi]);
     let radiance = hit.throughput * f_cos * sample.radiance * (1.0 / sample.pdf);
     let keep = *live & sample.pdf.above(0.0) & radiance.max_component().above(0.0);

@@ -50,6 +50,8 @@ impl Surrounding for Constant {
 pub struct ConstantRadiance(pub [f32; 3]);
 
 impl Radiant for ConstantRadiance {
+    const IS_EVEN: bool = true;
+
     #[inline(always)]
     fn radiance<L: Lanes>(&self, l: L, _: V<L>) -> V<L> {
         V::splat(l, self.0)

@@ -77,6 +77,9 @@ pub trait Radiant {
     /// Whether samples read the coordinates of a cell.
     const HAS_CELLS: bool = false;
 
+    /// Whether samples are distributed like those of a diffuse surface.
+    const IS_EVEN: bool = false;
+
     /// Radiance from the unit direction `d`.
     fn radiance<L: Lanes>(&self, l: L, d: V<L>) -> V<L>;
 
@@ -142,6 +145,14 @@ impl Background {
             R::HAS_CELLS
         }
         in_background!(self, background => has_cells(background))
+    }
+
+    /// Whether samples are distributed like those of a diffuse surface.
+    pub fn is_even(&self) -> bool {
+        fn is_even<R: Radiant>(_: &R) -> bool {
+            R::IS_EVEN
+        }
+        in_background!(self, background => is_even(background))
     }
 }
 

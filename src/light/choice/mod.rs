@@ -159,6 +159,11 @@ impl Lights {
         self.background.as_ref().is_some_and(Background::has_cells)
     }
 
+    /// Whether the background is sampled like a diffuse surface.
+    pub fn have_even_sky(&self) -> bool {
+        self.background.as_ref().is_some_and(Background::is_even)
+    }
+
     /// A direction towards a light.
     #[inline(always)]
     pub fn sample<L: Lanes>(
@@ -190,7 +195,7 @@ impl Lights {
         if let Some(background) = &self.background
             && sky.any()
         {
-            let (wi, pdf) = background.sample(l, at, u.cell, u.place);
+            let (wi, pdf) = background.sample(l, at, u.cell, u.sky);
             sample.wi = sky.pick(wi, sample.wi);
             sample.radiance = sky.pick(background.radiance(l, wi), sample.radiance);
             sample.pdf = sky.pick(pdf, sample.pdf);

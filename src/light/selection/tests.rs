@@ -175,7 +175,7 @@ fn reference_point(random: &mut Random, set: &Set) -> ReferencePoint<One> {
 
 fn coordinates(random: &mut Random) -> LightCoordinates<One> {
     let [choice, a, b] = [0; 3].map(|_| F(random.next() as f32));
-    LightCoordinates { choice, cell: (a, b), place: (a, b) }
+    LightCoordinates { choice, cell: (a, b), place: (a, b), sky: (a, b) }
 }
 
 #[test]
@@ -230,7 +230,8 @@ fn all_same<L: Lanes>(l: L, selection: &Selection, cases: &[Case], one: &[(U<One
             }),
         };
         let place = (real(&|c| c.1.place.0.0), real(&|c| c.1.place.1.0));
-        let (target, pmf) = selection.choose(l, &at, &LightCoordinates { choice: real(&|c| c.1.choice.0), cell: place, place });
+        let (target, pmf) =
+            selection.choose(l, &at, &LightCoordinates { choice: real(&|c| c.1.choice.0), cell: place, place, sky: place });
         let again = selection.probability(l, &at, !target.is(MISS), target);
         for (lane, (target_of_one, pmf_of_one)) in one.iter().enumerate() {
             assert_eq!(target.to_array()[lane], target_of_one.0);
