@@ -1,6 +1,4 @@
 //! The queues of one thread, which hold the paths of a batch between stages.
-use std::sync::{Mutex, PoisonError};
-
 use super::{
     bright_samples::Found,
     crossings::Crossings,
@@ -72,23 +70,6 @@ impl Batch {
     /// The paths of this bounce.
     pub(super) fn current(&self) -> &PathQueues {
         &self.paths[(self.bounce & 1) as usize]
-    }
-}
-
-/// A batch for each thread of the current pool, allocated when the thread first needs it.
-pub struct Batches(Vec<Mutex<Option<Batch>>>);
-
-impl Batches {
-    /// Those of the pool that calls this.
-    pub fn of_pool() -> Self {
-        Batches((0..rayon::current_num_threads()).map(|_| Mutex::default()).collect())
-    }
-
-    /// Runs a task of the pool with the batch of its thread.
-    pub fn with<T>(&self, task: impl FnOnce(&mut Batch) -> T) -> T {
-        let thread = rayon::current_thread_index().unwrap_or(0);
-        let mut batch = self.0[thread].lock().unwrap_or_else(PoisonError::into_inner);
-        task(batch.get_or_insert_default())
     }
 }
 

@@ -52,7 +52,7 @@ pub use self::fault::trace;
 #[cfg(not(test))]
 pub use self::tile_sample::trace;
 pub use self::{
-    batch::{Batch, Batches},
+    batch::Batch,
     bright::thresholds,
     bright_samples::{Replays, Thresholds},
     collision::{clear_fraction, is_blind},

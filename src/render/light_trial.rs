@@ -11,8 +11,9 @@ use super::{
     trial::{relative_excess, relative_variances},
 };
 use crate::{
-    integrator::{Batch, Batches, Interrupted, Work, trace},
+    integrator::{Batch, Interrupted, Work, trace},
     math::SimdLevel,
+    parallel::PerThread,
     sampling::Sampler,
     scene::{Camera, Estimator, RenderSettings, Reuse, Scene},
 };
@@ -74,10 +75,11 @@ fn small_image(
     settings: &RenderSettings,
     interrupted: &(dyn Fn() -> bool + Sync),
 ) -> Result<(Vec<Estimate>, u64), Interrupted> {
-    let (rays, batches) = (scene.rays(camera), Batches::of_pool());
+    let (rays, batches) = (scene.rays(camera), PerThread::<Batch>::new(rayon::current_num_threads()));
     let splats = SplatFilm::new(camera.resolution);
     let areas: Vec<Area> = Area::tiles(camera.resolution).collect();
-    let sampled = |batch: &mut Batch, area: &Area| {
+    let sample = |area: &Area| {
+        let batch = &mut *batches.get();
         let mut tile = Tile::new(area.origin, area.size);
         batch.rays = 0;
         for sample in 0..SPP {
@@ -88,7 +90,6 @@ fn small_image(
         }
         Ok((tile, batch.rays))
     };
-    let sample = |area: &Area| batches.with(|batch| sampled(batch, area));
     let mut tiles = areas.par_iter().map(sample).collect::<Result<Vec<(Tile, u64)>, Interrupted>>()?;
     let paths = u64::from(SPP) * camera.resolution.map(u64::from).iter().product::<u64>();
     for (place, (tile, _)) in tiles.iter_mut().enumerate() {

@@ -1,8 +1,5 @@
 //! Takes the samples of one tile on one thread.
-use std::{
-    panic::{AssertUnwindSafe, catch_unwind},
-    sync::PoisonError,
-};
+use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use super::{
     area::Area,
@@ -65,8 +62,7 @@ impl Threads {
         let PassJob { scene, rays, settings } = job;
         let Area { origin, size } = tile.area();
         let mut count = PassCount::default();
-        let thread = rayon::current_thread_index().unwrap_or(0);
-        let mut buffers = self.buffers[thread].lock().unwrap_or_else(PoisonError::into_inner);
+        let mut buffers = self.buffers.get();
         (buffers.batch.rays, buffers.batch.cut_paths) = (0, 0);
         let mut known = tile.thresholds().take();
         while let Some(samples) = tile.next().filter(|_| !interrupted()) {

@@ -5,9 +5,10 @@ use rayon::prelude::*;
 
 use super::{light_trial::estimator_unless, threads::PassJob, tile::Tile};
 use crate::{
-    integrator::{Batch, Batches, Interrupted, TILE, Work, thresholds, trace},
+    integrator::{Batch, Interrupted, TILE, Work, thresholds, trace},
     math::SimdLevel,
     measure::{Floor, relative},
+    parallel::PerThread,
     scene::{CameraRays, RenderSettings, Reuse, Scene, Sharing},
 };
 
@@ -76,7 +77,7 @@ fn best(scene: &Scene, interrupted: &(dyn Fn() -> bool + Sync)) -> Result<Sharin
     let settings = RenderSettings { estimator: scene.settings.estimator, ..Default::default() };
     let rays = scene.rays(&scene.camera);
     let possible = scene.possible_sharing(&rays, &settings);
-    let batches = Batches::of_pool();
+    let batches = PerThread::new(rayon::current_num_threads());
     let trial =
         |sharing: Sharing| trial(scene, &rays, &RenderSettings { reuse: sharing.reuse(), ..settings }, &batches, interrupted);
     let mut best = (Sharing::Nothing, trial(Sharing::Nothing)?);
@@ -150,7 +151,7 @@ fn trial(
     scene: &Scene,
     rays: &CameraRays,
     settings: &RenderSettings,
-    batches: &Batches,
+    batches: &PerThread<Batch>,
     interrupted: &(dyn Fn() -> bool + Sync),
 ) -> Result<Trial, Interrupted> {
     let [width, height] = scene.camera.resolution;
@@ -159,7 +160,7 @@ fn trial(
         let size = [TILE.min(width - origin[0]), TILE.min(height - origin[1])];
         let settings = RenderSettings { seed, ..*settings };
         let job = PassJob { scene, rays, settings: &settings };
-        batches.with(|batch| sampled(batch, job, Tile::new(origin, size), interrupted))
+        sampled(&mut batches.get(), job, Tile::new(origin, size), interrupted)
     };
     let places: Vec<_> = SEEDS.into_iter().flat_map(|seed| PLACES.map(|place| (seed, place))).collect();
     let tiles = places.into_par_iter().with_max_len(1).map(tile).collect::<Result<Vec<_>, Interrupted>>()?;

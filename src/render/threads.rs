@@ -1,18 +1,17 @@
 //! The render threads and their input.
-use std::sync::{Mutex, PoisonError};
-
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 
 use crate::{
     integrator::{Batch, Interrupted, Segments, Terms, Work, thresholds, trace, trace_counting},
     math::SimdLevel,
+    parallel::PerThread,
     scene::{CameraRays, RenderSettings, Scene},
 };
 
 /// The render threads, each with its queues.
 pub struct Threads {
     pub(super) pool: ThreadPool,
-    pub(super) buffers: Vec<Mutex<Buffers>>,
+    pub(super) buffers: PerThread<Buffers>,
     pub(super) level: SimdLevel,
 }
 
@@ -39,13 +38,13 @@ impl Threads {
     /// Starts `count` threads, or one per core if `count` is 0. Fails if the system refuses to start them.
     pub fn new(count: usize, level: SimdLevel) -> Result<Threads, ThreadPoolBuildError> {
         let pool = ThreadPoolBuilder::new().num_threads(count).thread_name(|i| format!("render {i}")).build()?;
-        let buffers = (0..pool.current_num_threads()).map(|_| Mutex::default()).collect();
+        let buffers = PerThread::new(pool.current_num_threads());
         Ok(Threads { pool, buffers, level })
     }
 
     /// The number of threads.
     pub fn count(&self) -> usize {
-        self.buffers.len()
+        self.pool.current_num_threads()
     }
 
     /// Runs a task on the pool, so that rayon's parallel iterators in it use these threads.
@@ -55,8 +54,7 @@ impl Threads {
 
     /// Traces a sample of a tile on a thread of the pool, with what its pixels share; `result` gets their radiance.
     pub(super) fn trace<T>(&self, work: &Work, result: impl FnOnce(&[[f32; 4]]) -> T) -> T {
-        let thread = rayon::current_thread_index().unwrap_or(0);
-        let Buffers { batch, .. } = &mut *self.buffers[thread].lock().unwrap_or_else(PoisonError::into_inner);
+        let Buffers { batch, .. } = &mut *self.buffers.get();
         let traced = thresholds(self.level, work, batch, &|| false).and_then(|thresholds| {
             let work = Work { thresholds: thresholds.as_ref(), ..*work };
             trace(self.level, &work, batch, &|| false)
@@ -72,8 +70,7 @@ impl Threads {
         interrupted: &dyn Fn() -> bool,
         result: impl FnOnce(&[[f32; 4]], Segments) -> T,
     ) -> Result<T, Interrupted> {
-        let thread = rayon::current_thread_index().unwrap_or(0);
-        let Buffers { batch, .. } = &mut *self.buffers[thread].lock().unwrap_or_else(PoisonError::into_inner);
+        let Buffers { batch, .. } = &mut *self.buffers.get();
         trace_counting(self.level, work, batch, interrupted).map(|segments| result(batch.radiance(), segments))
     }
 }
