@@ -76,7 +76,8 @@ impl SampleJob {
     pub fn run(&self, shots: &[Shot]) -> Result<ExitCode, Failure> {
         let infinite = self.scene.infinite_variance(&self.settings);
         let missing = self.scene.lacks_light_paths(&self.settings);
-        let warnings = self.scene.warnings().iter().chain(&infinite).chain(&missing);
+        let unmerged = self.scene.lacks_merging(&self.settings);
+        let warnings = self.scene.warnings().iter().chain(&infinite).chain(&missing).chain(&unmerged);
         warnings.for_each(|warning| tell(&format!("note: {warning}")));
         let written = "interrupted: writing the samples so far (interrupt again to stop at once)";
         let stop = stop_signal(if self.is_sequence { DROPPED } else { written })?;

@@ -27,6 +27,7 @@ mod direction_sample;
 mod extent;
 mod flat;
 mod fraction;
+mod holds;
 mod identity;
 mod instance;
 mod isosurface;

@@ -40,10 +40,10 @@ impl Crossings {
 }
 
 impl Work<'_> {
-    /// Whether crossings count, and some surface can be crossed.
+    /// See [`Scene::counts_crossings`](crate::scene::Scene::counts_crossings).
     #[inline(always)]
     pub(super) fn counts_crossings(&self) -> bool {
-        self.settings.count_crossings && self.settings.max_bounces.is_some() && self.has_passages()
+        self.scene.counts_crossings(self.settings)
     }
 }
 

@@ -61,6 +61,7 @@ fn coordinates<L: Lanes>(l: L, work: &Work, slot: U<L>, surface: u32, decisions:
     if decisions == Decisions::Middle {
         return [l.f(0.5); 2];
     }
+    let surface = if decisions == Decisions::RandomFromLight { surface + Dimension::LIGHT_PATH } else { surface };
     let stream = work.stream(l, slot);
     let part = if work.has_blends() { stream.one(Dimension::blend(surface)) } else { l.f(0.5) };
     [stream.one(Dimension::opacity(surface)), part]

@@ -44,6 +44,7 @@ mod tests;
 mod tile_sample;
 mod trace;
 mod variation;
+mod visible_fraction;
 mod weight;
 mod work;
 

@@ -34,7 +34,7 @@ pub fn text(id: &PathId, replay: &Replay) -> String {
     if let Some(both_ends) = &replay.both_ends {
         text += &path_strategies::text(id.scene, both_ends);
     } else if let Some(alone) = replay.alone {
-        let reason = if id.settings.merges() {
+        let reason = if id.scene.merges(id.settings) {
             "vertices are merged with those of other pixels' paths (--merging off lists all strategies)"
         } else {
             "pixels share light with their neighbours (--reuse off stops that)"

@@ -54,8 +54,11 @@ pub(super) fn resolved_unless(
         let best = catch_unwind(AssertUnwindSafe(|| best(scene, interrupted))).unwrap_or(Ok(Sharing::Nothing))?;
         Ok(*known.get_or_init(|| best))
     };
-    let settings =
-        &RenderSettings { estimator: estimator_unless(scene, settings, interrupted)?, merging: settings.merges(), ..*settings };
+    let settings = &RenderSettings {
+        estimator: estimator_unless(scene, settings, interrupted)?,
+        merging: scene.merges(settings),
+        ..*settings
+    };
     if settings.reuse != Reuse::Auto {
         return Ok(*settings);
     }

@@ -16,6 +16,7 @@ mod infinite_variance;
 mod lamp;
 mod legend;
 mod light_paths;
+mod light_starts;
 mod load;
 mod locate;
 mod material_instance;
@@ -61,7 +62,8 @@ pub use self::{
     estimator::{Estimator, power_heuristic},
     lamp::LampInstance,
     legend::Legend,
-    light_paths::{EstimatorInForce, LightStarts},
+    light_paths::EstimatorInForce,
+    light_starts::LightStarts,
     load::{LARGEST_FILE, load, load_watched, read_text},
     material_instance::{BY_SIDE, BlendParts, MaterialInstance, Properties},
     object::Object,
@@ -201,6 +203,12 @@ impl Scene {
             && !self.traces_light_paths(settings)
     }
 
+    /// Whether crossings of surfaces count as bounces, and some surface can be crossed.
+    #[inline]
+    pub fn counts_crossings(&self, settings: &RenderSettings) -> bool {
+        settings.count_crossings && settings.max_bounces.is_some() && !self.surfaces.are_opaque()
+    }
+
     /// Whether lights are chosen by what glossy surfaces reflect of them.
     pub fn heeds_lobes(&self) -> bool {
         self.lights.heed_lobes() && self.surfaces.glossy
@@ -221,7 +229,11 @@ impl Scene {
         if self.surfaces.media.is_empty() {
             return 0;
         }
-        let mut around: Vec<_> = self.media_around(p, time).collect();
+        self.nested_media(self.media_around(p, time).collect())
+    }
+
+    /// The media inside of objects around a point, with their numbers, as paths carry them.
+    fn nested_media(&self, mut around: Vec<(usize, &Object)>) -> u32 {
         // The outermost first: a medium that fills all but a sphere lies around every one within a sphere.
         let reach = |object: &Object| if object.flip { f64::INFINITY } else { object.shape.bounding_sphere().1 };
         around.sort_by(|a, b| reach(b.1).total_cmp(&reach(a.1)));

@@ -79,7 +79,7 @@ impl Sharing {
 impl Scene {
     /// What pixels share with these settings. [`Reuse::Auto`] is still undecided and counts as nothing.
     pub fn sharing(&self, rays: &CameraRays, settings: &RenderSettings) -> Sharing {
-        if settings.merges() && self.traces_light_paths(settings) {
+        if self.merges(settings) {
             return Sharing::Merged;
         }
         let asked = Sharing::asked(settings.reuse);

@@ -62,7 +62,8 @@ fn settings(scene: &Scene, estimator: Estimator) -> RenderSettings {
     RenderSettings { estimator, reuse: Reuse::Off, adaptive: false, ..scene.settings }
 }
 
-fn sum(terms: &[StrategyTerm]) -> [f32; 3] {
+/// The sum of what the sample of the pixel finds.
+pub fn sum(terms: &[StrategyTerm]) -> [f32; 3] {
     let own = terms.iter().filter(|term| term.t >= 2);
     own.fold([0.0; 3], |sum, term| [0, 1, 2].map(|c| sum[c] + term.contribution[c]))
 }

@@ -129,7 +129,8 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
 fn print_notes(scene: &Scene, settings: &RenderSettings, reference: Option<&Reference>, resolution: [u32; 2]) {
     let mismatch = reference.and_then(|truth| truth.mismatch(resolution));
     let (infinite, missing) = (scene.infinite_variance(settings), scene.lacks_light_paths(settings));
-    let notes = mismatch.iter().chain(scene.warnings()).chain(&infinite).chain(&missing);
+    let unmerged = scene.lacks_merging(settings);
+    let notes = mismatch.iter().chain(scene.warnings()).chain(&infinite).chain(&missing).chain(&unmerged);
     notes.for_each(|note| tell(&format!("note: {note}")));
 }
 

@@ -40,7 +40,8 @@ impl Import {
         // Only the volumetric ones do not count the passage through masks.
         let counts = depth.is_some() && !element.kind().contains("vol");
         self.description.render.settings.count_crossings = counts;
-        self.description.render.settings.estimator = Estimator::Mis;
+        let both_ends = element.kind() == "bdpt";
+        self.description.render.settings.estimator = if both_ends { Estimator::Bidirectional } else { Estimator::Mis };
         if let Some(start) = element.integer("rr_depth")? {
             let start = u32::try_from(start).unwrap_or(0).min(1 << 16);
             self.description.render.settings.roulette = Roulette::by_throughput_from(start);

@@ -5,7 +5,7 @@ use crate::{
         Filter,
         filter::{gaussian::Gaussian, tent::Tent},
     },
-    scene::{Camera, SceneError},
+    scene::{Camera, Estimator, SceneError},
 };
 
 /// pbrt's defaults.
@@ -146,7 +146,8 @@ fn integrator(import: &mut Import, entity: &Entity) -> Result<(), SceneError> {
         import.remark(entity, "no regularization", "caustics are brighter, and noisier");
     }
     match entity.kind.as_str() {
-        "path" | "volpath" | "bdpt" | "mlt" | "simplepath" | "simplevolpath" | "lightpath" | "randomwalk" => {}
+        "bdpt" => import.description.render.settings.estimator = Estimator::Bidirectional,
+        "path" | "volpath" | "mlt" | "simplepath" | "simplevolpath" | "lightpath" | "randomwalk" => {}
         "sppm" => import.remark(entity, "path tracing", "photons are not blurred; caustics are noisier"),
         "ambientocclusion" | "function" => {
             entity.ignore(&["cossample", "maxdistance", "function", "filename", "skipbad", "imagefilename"]);

@@ -45,7 +45,8 @@ pub(super) fn arrive_from_lights<L: Lanes, O: Observer<L>>(
         if !hit.any() {
             continue;
         }
-        let interaction = interact::<L, true>(l, work, &arrival.path, hit, nearest, None);
+        let rows = if work.has_blends() { Some(first_hits.rows(l, at.start)) } else { None };
+        let interaction = interact::<L, true>(l, work, &arrival.path, hit, nearest, rows);
         let (slot, cos) = (arrival.path.slot, finite(interaction.cos));
         observer.arrived(PathStart::Light, hit, &arrival, &interaction, cos);
         // The numbers of the first surface depend on its type: see `light.rs`.
@@ -80,13 +81,13 @@ pub(super) fn arrive_from_camera<L: Lanes, O: Observer<L>>(
         let nearest = &arrival.nearest;
         let path = &arrival.path;
         let partial = end.partial(l, path.slot);
-        let (n, transmits) = end.before(l, path.slot);
+        let (n, transmits, self_lit) = end.before(l, path.slot);
         let mut others = partial;
         if work.settings.estimator.traces_only_caustics() {
             // Only behind a surface with a single direction, where `v` is 0, there is another strategy than a light sample.
             others.c = partial.v.above(0.0).pick(l.f(0.0), partial.c);
         }
-        let weigher = HitWeigher { first, partial: others, at: ReferencePoint { p: path.o, n, transmits, lobe: None } };
+        let weigher = HitWeigher { first, partial: others, self_lit, at: ReferencePoint { p: path.o, n, transmits, lobe: None } };
         let miss = nearest.primitive.is(MISS);
         if let Some(background) = &work.scene.lights.background
             && (at.live & miss).any()
@@ -102,7 +103,8 @@ pub(super) fn arrive_from_camera<L: Lanes, O: Observer<L>>(
         if !hit.any() {
             continue;
         }
-        let interaction = interact::<L, true>(l, work, path, hit, nearest, None);
+        let rows = if work.has_blends() { Some(first_hits.rows(l, at.start)) } else { None };
+        let interaction = interact::<L, true>(l, work, path, hit, nearest, rows);
         let cos = finite(interaction.cos);
         observer.arrived(PathStart::Camera, hit, &arrival, &interaction, cos);
         let emits = hit & work.scene.lights.emitters.emits(interaction.place.primitive);
@@ -138,8 +140,9 @@ struct HitWeigher<L: Lanes> {
     /// The camera sees the lights directly, and no other strategy finds that.
     first: bool,
     partial: Partial<L>,
-    /// The vertex before.
+    /// The vertex before, and the lanes where it samples no light with a surface.
     at: ReferencePoint<L>,
+    self_lit: M<L>,
 }
 
 impl<L: Lanes> HitWeigher<L> {
@@ -176,7 +179,7 @@ impl<L: Lanes> HitWeigher<L> {
     fn weight(&self, of_sample: F<L>, density: F<L>) -> F<L> {
         let Partial { v, c } = self.partial;
         // A product of 0 with an infinite pdf says that there is no other strategy.
-        let by_sample = v.above(0.0).pick(of_sample * v, v.splat(0.0));
+        let by_sample = (v.above(0.0) & !self.self_lit).pick(of_sample * v, v.splat(0.0));
         1.0 / (1.0 + by_sample + density * c)
     }
 }

@@ -6,7 +6,7 @@ use super::{
     connect::{Connector, finish_connections},
     observer::{Observer, PathStart},
     radius::merged_paths,
-    scatter::{Evaluated, depth, evaluate, media_towards, scatter},
+    scatter::{Evaluated, are_self_lit, depth, evaluate, media_towards, scatter},
 };
 use crate::{
     integrator::{
@@ -87,8 +87,10 @@ pub(super) fn shade_camera_paths<L: Lanes, O: Observer<L>>(
             partial.c = is_only_strategy.pick(l.f(0.0), partial.c);
             let slot = vertex.hit.slot;
             let end = &mut state.ends[1];
+            let transmits = l.first(if stage.transmits() { L::N } else { 0 });
+            let self_lit = are_self_lit(l, *stage, hits, at);
             end.put_partial(keep, slot, partial);
-            end.put_before(keep, slot, vertex.hit.n, l.f(if stage.transmits() { 1.0 } else { 0.0 }));
+            end.put_before(keep, slot, vertex.hit.n, transmits, self_lit);
             Path { o: scattered.o, d: scattered.d, throughput: survival.throughput, slot }.push(keep, &mut next.paths);
             if work.has_media() {
                 Inside { media: scattered.media }.push(keep, &mut next.media);
@@ -120,7 +122,8 @@ fn queue_light_sample<L: Lanes>(
     let sample = call_sample_light(l, work, &point, &stream, direction, hit.slot, reflection);
     let Evaluated { f_cos, pdf: bsdf_pdf, reverse } = evaluate(l, work, stage, hits, at, [*back, sample.wi]);
     let radiance = hit.throughput * f_cos * sample.radiance * (1.0 / sample.pdf);
-    let keep = *live & sample.pdf.above(0.0) & radiance.max_component().above(0.0);
+    let allowed = *live & (work.scene.lights.are_lamps(sample.target) | !are_self_lit(l, stage, hits, at));
+    let keep = allowed & sample.pdf.above(0.0) & radiance.max_component().above(0.0);
     let height = sample.wi.dot(hit.n);
     let o = height.above(0.0).pick(hit.p, hit.p - hit.n * depth(l, stage, hits, at));
     let partial = if work.settings.estimator.connects() { partial.sum(height.abs(), reverse, merged) } else { l.f(0.0) };

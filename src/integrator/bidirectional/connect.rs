@@ -15,6 +15,7 @@ use crate::{
         queue::Register,
         queues::HitQueues,
         slots::SLOTS,
+        visible_fraction::{Way, visible_fraction},
         work::Work,
     },
     material::Stage,
@@ -163,9 +164,11 @@ fn finish<L: Lanes, O: Observer<L>>(
             continue;
         }
         *rays += faces.count() as u64;
-        let nearest = work.scene.shapes.closest(l, faces, o, d, work.time(l, connection.slot));
-        let same = nearest.primitive.equals(end.primitive) & nearest.element.equals(end.element);
-        let seen = faces & same & nearest.t.ge(distance * NEARLY);
+        let place = Some([end.primitive, end.element]);
+        let way = Way { o, d, distance: distance * NEARLY, end: place, slot: connection.slot };
+        let fraction = visible_fraction(l, work, faces, &way, reflection, rays);
+        let seen = fraction.above(0.0);
+        let contribution = seen.pick(contribution * fraction, contribution);
         let from_camera = end.partial.sum(connection.pdf * leaving * per_area, pdf, merged);
         let from_light = connection.partial * (reverse * cos * per_area);
         let weight = 1.0 / (1.0 + from_camera + from_light);

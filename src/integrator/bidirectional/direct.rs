@@ -6,12 +6,12 @@ use super::{
     strategy::weight_of,
 };
 use crate::{
-    geometry::{MISS, Nearest, PrimitiveRef},
+    geometry::MISS,
     integrator::{
         batch::{Batch, add},
-        interaction::emission_texture,
         light_paths::{paths::LightPaths, records::DirectSample},
-        media::transmittance,
+        records::Shadow,
+        shadow::{Arriving, arriving},
         work::Work,
     },
     light::LightRays,
@@ -28,37 +28,32 @@ pub(super) fn test_light_samples<L: Lanes, O: Observer<L>>(
     observer: &mut O,
 ) {
     let (scene, lights) = (work.scene, &work.scene.lights);
+    let reflection = batch.bounce + 1;
     for at in state.direct.registers(l) {
         let sample = DirectSample::read(l, &state.direct, at.start);
-        let time = work.time(l, sample.slot);
-        let nearest = scene.shapes.closest(l, at.live, sample.o, sample.d, time);
-        let (arrives, Nearest { t, primitive, element }) = lights.arrives(l, sample.target, sample.o, nearest);
-        let seen = at.live & arrives;
-        let mut light = sample.radiance;
-        if work.has_media() {
-            light = light * transmittance(l, work, at.live.pick(sample.media, l.u(0)), t);
-        }
+        let DirectSample { o, d, radiance, target, slot, .. } = sample;
+        let media = at.live.pick(sample.media, l.u(0));
+        let open = (at.live, l.f(f32::INFINITY));
+        let shadow = Shadow { o, d, radiance, target, slot };
+        let Arriving { seen, light, t } = arriving(l, work, open, &shadow, media, reflection, &mut batch.rays);
         let mut density = l.f(0.0);
         let mut of_sample = sample.pdf;
         let mut by_direction = sample.bsdf_pdf / sample.pdf;
         let mut light_pdf = sample.pdf;
-        let emits = seen & lights.emitters.emits(primitive);
-        if emits.any() {
-            let place = PrimitiveRef { primitive: emits.pick(primitive, l.u(0)), element: emits.pick(element, l.u(0)), time };
-            let point = scene.shapes.surface_point(l, &place, sample.o + sample.d * emits.pick(t, l.f(0.0)));
-            density = emits.pick(rays.density_at_surface(l, lights, &scene.shapes, emits, &place, &point), density);
-            light_pdf = emits.pick(sample.pdf * (sample.d.dot(point.n_geometric).abs() / (t * t)), light_pdf);
-            if lights.emitters.vary() {
-                light = light * emission_texture(l, scene, emits, place, point);
-            }
+        let on_surface = seen & target.below(lights.surface_count());
+        if on_surface.any() {
+            let place = lights.place(l, on_surface.pick(target, l.u(0)), work.time(l, slot));
+            let point = scene.shapes.surface_point(l, &place, o + d * on_surface.pick(t, l.f(0.0)));
+            density = on_surface.pick(rays.density_at_surface(l, lights, &scene.shapes, on_surface, &place, &point), density);
+            light_pdf = on_surface.pick(sample.pdf * (d.dot(point.n_geometric).abs() / (t * t)), light_pdf);
         }
-        let sky = seen & sample.target.is(MISS);
+        let sky = seen & target.is(MISS);
         if sky.any() {
-            density = sky.pick(rays.density_of_background(l, lights, sample.d), density);
+            density = sky.pick(rays.density_of_background(l, lights, d), density);
         }
-        let lamps = seen & lights.are_lamps(sample.target);
+        let lamps = seen & lights.are_lamps(target);
         if lamps.any() {
-            let (of_lamps, far) = rays.density_of_lamps(l, lights, lamps, sample.target);
+            let (of_lamps, far) = rays.density_of_lamps(l, lights, lamps, target);
             density = lamps.pick(of_lamps, density);
             of_sample = lamps.pick(sample.pdf * far.pick(l.f(1.0), t * t), of_sample);
             by_direction = lamps.pick(l.f(0.0), by_direction);
@@ -67,7 +62,7 @@ pub(super) fn test_light_samples<L: Lanes, O: Observer<L>>(
         let (s, t) = (l.u(1), batch.bounce + 2);
         let weight = weight_of(work, s, t, weight);
         observer.found(at.live, &Term { s, t, light, weight, seen, light_pdf });
-        add(&mut batch.radiance, seen, sample.slot, light * weight);
+        add(&mut batch.radiance, seen, slot, light * weight);
     }
     batch.rays += state.direct.len() as u64;
     state.direct.clear();

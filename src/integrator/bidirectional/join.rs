@@ -6,6 +6,7 @@ use crate::{
     integrator::{
         batch::Batch,
         light_paths::{paths::LightPaths, records::CameraRay, splat::Splat},
+        visible_fraction::{Way, visible_fraction},
         work::Work,
     },
     math::{Lanes, MAX_LANES},
@@ -16,10 +17,12 @@ use crate::{
 pub(super) fn join<L: Lanes, O: Observer<L>>(l: L, work: &Work, batch: &mut Batch, state: &mut LightPaths, observer: &mut O) {
     for at in state.joins.registers(l) {
         let CameraRay { o, d, distance, slot, x, y, light } = CameraRay::read(l, &state.joins, at.start);
-        let nearest = work.scene.shapes.closest(l, at.live, o, d, work.time(l, slot));
-        let (u, v) = work.stream(l, slot).two(Dimension::cell(Dimension::LIGHT_PATH + batch.bounce + 1));
-        let seen = at.live & nearest.t.ge(distance);
-        observer.joined(seen, [x, y]);
+        let surface = Dimension::LIGHT_PATH + batch.bounce + 1;
+        let way = Way { o, d, distance, end: None, slot };
+        let fraction = visible_fraction(l, work, at.live, &way, surface, &mut batch.rays);
+        let (u, v) = work.stream(l, slot).two(Dimension::cell(surface));
+        let (seen, light) = (fraction.above(0.0), light * fraction);
+        observer.joined(fraction, [x, y]);
         let [x, y, u, v] = [x.to_array(), y.to_array(), u.to_array(), v.to_array()];
         let [r, g, b] = [light.x.to_array(), light.y.to_array(), light.z.to_array()];
         let mut lanes = seen.bits();

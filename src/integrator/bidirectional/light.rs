@@ -4,7 +4,7 @@ use fearless_simd_macros::simd;
 use super::{
     observer::{Observer, PathStart, Term},
     radius::merged_paths,
-    scatter::{Evaluated, depth, evaluate, media_towards, scatter},
+    scatter::{Evaluated, are_self_lit, depth, evaluate, media_towards, scatter},
     strategy::weight_of,
 };
 use crate::{
@@ -26,7 +26,7 @@ use crate::{
     },
     light::{LightRays, ReferencePoint},
     material::Stage,
-    math::{F, Lanes, Pick, U, V},
+    math::{F, Lanes, M, Pick, U, V},
     sampling::Dimension,
 };
 
@@ -55,7 +55,7 @@ pub(super) fn shade_light_paths<L: Lanes, O: Observer<L>>(
         for at in hits.registers(l) {
             let mut vertex = state.ends[0].read(l, hits, at);
             if *bounce == 0 && others == Others::All {
-                vertex.partial = at_first_surface(l, work, rays, state, *stage, &vertex);
+                vertex.partial = at_first_surface(l, work, rays, state, *stage, are_self_lit(l, *stage, hits, at), &vertex);
             }
             let [r, g, b, _] = l.rows(&state.fluxes, vertex.hit.slot);
             let light = vertex.hit.throughput * V { x: r, y: g, z: b };
@@ -97,6 +97,7 @@ fn at_first_surface<L: Lanes>(
     rays: &LightRays,
     state: &LightPaths,
     stage: Stage,
+    self_lit: M<L>,
     PathVertex { live, hit, back, .. }: &PathVertex<L>,
 ) -> Partial<L> {
     let lights = &work.scene.lights;
@@ -108,7 +109,7 @@ fn at_first_surface<L: Lanes>(
     let lamps = *live & lights.are_lamps(light);
     let sky = light.is(MISS);
     let place = PrimitiveRef { primitive: sky.pick(l.u(MISS), primitive), element, time: work.time(l, hit.slot) };
-    let mut pdf = lights.pdf(l, &work.scene.shapes, &at, *back, &place);
+    let mut pdf = self_lit.pick(l.f(0.0), lights.pdf(l, &work.scene.shapes, &at, *back, &place));
     let mut finds_light = l.f(1.0);
     if lamps.any() {
         pdf = lamps.pick(pdf_of_lamps(l, work, rays, &at, lamps, light), pdf);
@@ -121,14 +122,7 @@ fn at_first_surface<L: Lanes>(
 
 /// The pdf of light samples of lamps, in the unit of the light density: per area across the ray, or for directional lamps none.
 #[inline(always)]
-fn pdf_of_lamps<L: Lanes>(
-    l: L,
-    work: &Work,
-    rays: &LightRays,
-    at: &ReferencePoint<L>,
-    lamps: crate::math::M<L>,
-    light: U<L>,
-) -> F<L> {
+fn pdf_of_lamps<L: Lanes>(l: L, work: &Work, rays: &LightRays, at: &ReferencePoint<L>, lamps: M<L>, light: U<L>) -> F<L> {
     let lights = &work.scene.lights;
     let (_, far) = rays.density_of_lamps(l, lights, lamps, light);
     let distance = lights.distance_of_lamps(l, lamps, light, at.p);

@@ -52,8 +52,8 @@ pub(in crate::integrator) trait Observer<L: Lanes> {
     /// Strategies find light. With t = 1, [`Observer::joined`] tells what is visible.
     fn found(&mut self, _lanes: M<L>, _term: &Term<L>) {}
 
-    /// Vertices that were joined with the camera are visible at these places of the image.
-    fn joined(&mut self, _seen: M<L>, _place: [F<L>; 2]) {}
+    /// These fractions of the light of vertices that were joined with the camera arrive at these places of the image.
+    fn joined(&mut self, _fraction: F<L>, _place: [F<L>; 2]) {}
 }
 
 impl<L: Lanes> Observer<L> for () {}

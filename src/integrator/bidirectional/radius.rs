@@ -19,7 +19,7 @@ pub(super) fn radius(work: &Work) -> f32 {
 
 /// The number η of `merge.rs`, N π r²; 0 if nothing is merged.
 pub(super) fn merged_paths(work: &Work) -> f32 {
-    if !work.settings.merges() {
+    if !work.scene.merges(work.settings) {
         return 0.0;
     }
     let (radius, [width, height]) = (radius(work), work.size);

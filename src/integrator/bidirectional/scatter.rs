@@ -14,6 +14,7 @@ use crate::{
     },
     material::{Bsdf, Local, Shade, Stage, in_stage},
     math::{F, Frame, Lanes, M, Pick, U, V},
+    scene::surface::{SELF_LIT, is_set},
 };
 
 /// A BSDF for two directions.
@@ -81,6 +82,12 @@ pub(super) fn scatter<L: Lanes>(
 #[inline(always)]
 pub(super) fn depth<L: Lanes>(l: L, stage: Stage, hits: &HitQueues, at: Register<L>) -> F<L> {
     if stage.transmits() { Detail::read(l, &hits.details, at.start).error * 2.0 } else { l.f(0.0) }
+}
+
+/// Lanes that sample no surface that emits light: see [`SELF_LIT`].
+#[inline(always)]
+pub(super) fn are_self_lit<L: Lanes>(l: L, stage: Stage, hits: &HitQueues, at: Register<L>) -> M<L> {
+    if stage.transmits() { is_set(Detail::read(l, &hits.details, at.start).surface, SELF_LIT) } else { l.first(0) }
 }
 
 /// Media around the ways from a register of hits in the directions `d`.

@@ -57,7 +57,7 @@ fn trace_light_paths<L: Lanes, O: Observer<L>>(
         if interrupted() {
             return Err(Interrupted);
         }
-        intersect(l, work, batch, Decisions::Random);
+        intersect(l, work, batch, Decisions::RandomFromLight);
         arrive_from_lights(l, work, batch, state, observer);
         shade_light_paths(l, work, rays, batch, state, observer);
         join(l, work, batch, state, observer);
@@ -78,7 +78,7 @@ fn trace_camera_paths<L: Lanes, O: Observer<L>>(
 ) -> Result<(), Interrupted> {
     let last_bounce = work.settings.last_bounce();
     let cut_short = work.settings.max_bounces != Some(last_bounce);
-    if work.settings.merges() {
+    if work.scene.merges(work.settings) {
         prepare(work, state);
     }
     spawn(l, work, batch);

@@ -2,8 +2,13 @@
 use super::partial::Partial;
 use crate::{
     integrator::{queue::Register, queues::HitQueues, records::Hit, shared::put, slots::SLOTS},
-    math::{F, Lanes, M, U, V},
+    math::{Lanes, M, Pick, U, V},
 };
+
+/// Light passes at the vertex before, and lights were sampled on both of its sides.
+const TRANSMITS: f32 = 1.0;
+/// The same, but no light with a surface was sampled.
+const SELF_LIT: f32 = 2.0;
 
 /// Paths from one end, by slot.
 pub struct PathState {
@@ -13,7 +18,7 @@ pub struct PathState {
     back: Vec<[f32; 4]>,
     /// Primitive and triangle.
     places: Vec<[f32; 4]>,
-    /// The normal of the vertex before, and whether light passes there.
+    /// The normal of the vertex before, and [`TRANSMITS`] or [`SELF_LIT`].
     before: Vec<[f32; 4]>,
 }
 
@@ -72,15 +77,17 @@ impl PathState {
 
     /// Stores the surfaces that paths leave.
     #[inline(always)]
-    pub fn put_before<L: Lanes>(&mut self, lanes: M<L>, slot: U<L>, n: V<L>, transmits: F<L>) {
-        put(lanes, slot, n, transmits, &mut self.before);
+    pub fn put_before<L: Lanes>(&mut self, lanes: M<L>, slot: U<L>, n: V<L>, transmits: M<L>, self_lit: M<L>) {
+        let zero = n.x.splat(0.0);
+        let sides = self_lit.pick(n.x.splat(SELF_LIT), transmits.pick(n.x.splat(TRANSMITS), zero));
+        put(lanes, slot, n, sides, &mut self.before);
     }
 
-    /// The normals of the vertices before, and the lanes where light passes there.
+    /// The normals of the vertices before, the lanes where light passes there, and those that sample no surface that emits light.
     #[inline(always)]
-    pub fn before<L: Lanes>(&self, l: L, slot: U<L>) -> (V<L>, M<L>) {
-        let [x, y, z, transmits] = l.rows(&self.before, inside(slot));
-        (V { x, y, z }, transmits.above(0.0))
+    pub fn before<L: Lanes>(&self, l: L, slot: U<L>) -> (V<L>, M<L>, M<L>) {
+        let [x, y, z, sides] = l.rows(&self.before, inside(slot));
+        (V { x, y, z }, sides.above(0.0), sides.above(TRANSMITS))
     }
 }
 

@@ -42,7 +42,7 @@ pub struct StrategyTerm {
     /// Number of vertices from the camera, z₀ at its lens included.
     pub t: u32,
     /// Pdf of the vertices with respect to area, in m⁻² each, and per steradian for light from far away, summed over the paths of all pixels
-    /// that could find the same. Delta directions and roulette count as 1. `None` for a background that the camera sees.
+    /// that could find the same. Delta directions, roulette, opacity and blends count as 1. `None` for a background that the camera sees.
     pub pdf: Option<f64>,
     /// The estimate of this strategy alone: the light of the path over its pdf.
     pub unweighted: [f32; 3],
@@ -60,7 +60,7 @@ pub struct StrategyTerm {
 /// pixels: with them only the batch is traced.
 pub(super) fn both_ends(work: &Work, batch: &mut Batch) -> Option<BothEnds> {
     let rays = work.scene.light_rays(work.settings)?;
-    if work.settings.merges() {
+    if work.scene.merges(work.settings) {
         let finished = trace_both_ends(One, work, rays, batch, &|| false, &mut ());
         debug_assert_eq!(finished, Ok(()));
         return None;
@@ -225,12 +225,12 @@ impl Observer<One> for Recorder<'_, '_> {
         });
     }
 
-    fn joined(&mut self, seen: M<One>, [x, y]: [F<One>; 2]) {
+    fn joined(&mut self, fraction: F<One>, [x, y]: [F<One>; 2]) {
         let Some(term) = self.both.strategies.last_mut() else { return };
-        if seen.0 {
+        term.contribution = term.contribution.map(|x| x * fraction.0);
+        if fraction.0 > 0.0 {
+            term.unweighted = term.unweighted.map(|x| x * fraction.0);
             (term.visible, term.place) = (true, Some([x.0, y.0]));
-        } else {
-            term.contribution = [0.0; 3];
         }
     }
 }

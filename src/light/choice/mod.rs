@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
-pub use self::rays::{LightRays, RayCoordinates, RaySample};
+pub use self::rays::{LightRays, LightStart, RayCoordinates, RaySample};
 use super::{
     background::Background,
     bound::Bound,
@@ -21,7 +21,7 @@ use super::{
 };
 use crate::{
     geometry::{MISS, Motion, PrimitiveRef, Shape, Shapes},
-    math::{F, Lanes, Pick, U, V},
+    math::{F, Lanes, One, Pick, U, V},
 };
 
 /// All lights of a scene: the emitting primitives 0, 1, 2, …, every triangle of emitting meshes, the lamps without surface, and the
@@ -132,6 +132,17 @@ impl Lights {
         }
         let [primitive, element, ..] = l.rows(&self.places, light);
         PrimitiveRef { primitive: primitive.bits(), element: element.bits(), time }
+    }
+
+    /// Number of lights with a surface.
+    #[inline(always)]
+    pub fn surface_count(&self) -> u32 {
+        self.count as u32
+    }
+
+    /// The primitive of each light with a surface.
+    pub fn primitives(&self) -> impl Iterator<Item = u32> {
+        (0..self.count as u32).map(|light| self.place(One, U(light), F(0.0)).primitive.0)
     }
 
     /// Whether there are no lights.

@@ -18,9 +18,14 @@ use crate::{
     },
 };
 
+/// The media around a light at which paths start, as they carry them, or why none starts there.
+pub type LightStart = Result<u32, &'static str>;
+
 /// The choice among the lights of a scene, and the disk of light from far away.
 pub struct LightRays {
     choice: AliasTable,
+    /// The media around the lights as bits, in the first column; empty if there are none around any.
+    media: Vec<[f32; 4]>,
     /// The bounding sphere of the scene.
     center: [f32; 3],
     radius: f32,
@@ -51,6 +56,8 @@ pub struct RaySample<L: Lanes> {
     pub inverse_density: F<L>,
     /// The light: see [`super::LightSample::target`].
     pub light: U<L>,
+    /// The media around it.
+    pub media: U<L>,
     /// Lanes whose light is a lamp without surface.
     pub is_lamp: M<L>,
     /// Lanes whose light has a surface, the place there, and the point.
@@ -68,8 +75,9 @@ impl LightRays {
     /// Most lights among which the table can choose.
     const MOST: usize = 1 << 23;
 
-    /// Builds the table for a scene with this bounding sphere; `None` if there is no light, or if there are too many.
-    pub fn new(lights: &Lights, center: DVec3, radius: f64) -> Option<LightRays> {
+    /// Builds the table for a scene with this bounding sphere. `starts` are those of all lights with a surface, all lamps without one and
+    /// the background. `None` if no path starts at any light, or if there are too many.
+    pub fn new(lights: &Lights, starts: &[LightStart], center: DVec3, radius: f64) -> Option<LightRays> {
         let disk = std::f64::consts::PI * radius * radius;
         let lamp = |number: usize| {
             let (pdf, far) = lights.lamps.direction_pdf(One, U(number as u32));
@@ -78,7 +86,9 @@ impl LightRays {
         };
         let sky = lights.background.as_ref().map(|sky| (4.0 * std::f64::consts::PI * disk * f64::from(sky.luminance()), true));
         let surfaces = lights.fluxes.iter().map(|flux| (f64::from(*flux), false));
-        let fluxes: Vec<(f64, bool)> = surfaces.chain((0..lights.lamps.len()).map(lamp)).chain(sky).collect();
+        let all = surfaces.chain((0..lights.lamps.len()).map(lamp)).chain(sky);
+        let begun = |((flux, far), start): ((f64, bool), &LightStart)| (if start.is_ok() { flux } else { 0.0 }, far);
+        let fluxes: Vec<(f64, bool)> = all.zip(starts).map(begun).collect();
         let sum = |of: bool| fluxes.iter().filter(|(_, far)| *far == of).map(|(flux, _)| flux).sum::<f64>();
         let (near, far) = (sum(false), sum(true));
         if near + far <= 0.0 || fluxes.len() > Self::MOST {
@@ -88,7 +98,11 @@ impl LightRays {
         let scale = if near > 0.0 { (near / far).min(1.0) } else { 1.0 };
         let mut weights: Vec<f64> = fluxes.iter().map(|(flux, far)| if *far { flux * scale } else { *flux }).collect();
         weights.resize(fluxes.len().next_power_of_two(), 0.0);
-        Some(LightRays { choice: AliasTable::new(&weights), center: center.as_vec3().to_array(), radius: radius as f32 })
+        let has_media = starts.iter().any(|start| start.is_ok_and(|media| media != 0));
+        let row = |start: &LightStart| [f32::from_bits(start.unwrap_or(0)), 0.0, 0.0, 0.0];
+        let media = if has_media { starts.iter().map(row).collect() } else { Vec::new() };
+        let choice = AliasTable::new(&weights);
+        Some(LightRays { choice, media, center: center.as_vec3().to_array(), radius: radius as f32 })
     }
 
     /// Samples a ray of light.
@@ -102,10 +116,11 @@ impl LightRays {
         let place = PrimitiveRef { primitive: l.u(0), element: l.u(0), time };
         let point = SurfacePoint { p: zero, n_geometric: zero, error: l.f(0.0) };
         let sky = !(on_surface | is_lamp);
+        let media = if self.media.is_empty() { l.u(0) } else { l.rows(&self.media, light)[0].bits() };
         let light = sky.pick(l.u(MISS), light);
         let density = l.f(0.0);
         let mut ray =
-            RaySample { o: zero, d: zero, flux: zero, inverse_density: density, light, is_lamp, on_surface, place, point };
+            RaySample { o: zero, d: zero, flux: zero, inverse_density: density, light, media, is_lamp, on_surface, place, point };
         if on_surface.any() {
             self.leave_surfaces(l, lights, shapes, chance, u, &mut ray);
         }

@@ -38,6 +38,11 @@ const PANELS: &str = "
     rough_tinted.dielectric = { ior = 1.5, roughness = 0.5, transmittance = [0.05, 0.3, 0.7] }
     lacquered.plastic = { albedo = 0.5, ior = 1.5 }
     coated.plastic = { albedo = 0.5, ior = 1.5, roughness = 0.5 }
+    veiled.lambertian = { albedo = 0.8 }
+    veiled.opacity = { texture = 'waves' }
+    sheer.diffuse_transmission = { reflectance = 0.4, transmittance = 0.4 }
+    sheer.opacity = 0.5
+    patchy.blend = { first = 'coated', second = 'veiled', weight = 0.5 }
     [[objects]]
     shape.rectangle = { origin = [-2.0, 0.0, -2.0], edge_u = [0.0, 0.0, 4.0], edge_v = [4.0, 0.0, 0.0] }
     material = 'white'
@@ -100,7 +105,9 @@ pub fn mean(scene: &Scene, settings: &RenderSettings, spp: u32) -> [f64; 2] {
 #[test]
 fn every_strategy_alone_finds_the_light_of_its_number_of_reflections() {
     let mut worst: f64 = 0.0;
-    for (shape, ball) in [(BALL, "white"), (BALL, "gloss"), (BALL, "coated"), (SMOOTH_CUBE, "gloss"), (SMOOTH_CUBE, "white")] {
+    let balls = ["white", "gloss", "coated", "veiled", "sheer", "patchy"].map(|ball| (BALL, ball));
+    let cubes = ["gloss", "white"].map(|cube| (SMOOTH_CUBE, cube));
+    for (shape, ball) in balls.into_iter().chain(cubes) {
         let scene = scene(shape, ball);
         for reflections in 1..=3 {
             let alone = |s: u32| {
@@ -137,11 +144,12 @@ fn every_strategy_alone_finds_the_light_of_its_number_of_reflections() {
 #[test]
 fn all_strategies_together_find_the_light_of_mis() {
     const SETTINGS: RenderSettings = RenderSettings { roulette: Roulette::BY_THROUGHPUT, ..self::SETTINGS };
-    let balls =
-        ["white", "gloss", "lacquered", "clear", "tinted", "rough_tinted", "shadowed", "bumped_glass"].map(|ball| (BALL, ball));
+    let glass = ["clear", "tinted", "rough_tinted", "bumped_glass"];
+    let others = ["white", "gloss", "lacquered", "shadowed", "veiled", "sheer", "patchy"];
+    let balls = glass.into_iter().chain(others).map(|ball| (BALL, ball));
     let cubes = ["white", "gloss", "lacquered", "clear", "rough", "rough_tinted", "bumped", "shadowed", "bumped_glass"]
         .map(|cube| (SMOOTH_CUBE, cube));
-    for (shape, ball) in balls.into_iter().chain(cubes) {
+    for (shape, ball) in balls.chain(cubes) {
         let scene = scene(shape, ball);
         for cap in [Some(3), None] {
             let with = |estimator, spp| mean(&scene, &RenderSettings { estimator, max_bounces: cap, ..SETTINGS }, spp);
@@ -224,4 +232,69 @@ fn connections_in_glass_are_attenuated() {
     let scene = parsed(BALL_IN_GLASS);
     assert_alike(&scene, [[1, 4], [2, 3]], 8000);
     assert_alike(&scene, [[1, 4], [4, 1]], 8000);
+}
+
+/// A floor below rough glass that absorbs.
+const GLASS_OVER_FLOOR: &str = "
+    format = 1
+    [camera]
+    eye = [0.0, 2.0, 3.0]
+    look_at = [0.0, 0.0, 0.0]
+    fov = 20
+    resolution = [16, 16]
+    [materials]
+    white.lambertian = { albedo = 0.8 }
+    glass.dielectric = { ior = 1.3, roughness = 0.7, transmittance = [0.1, 0.1, 0.1] }
+    [[objects]]
+    shape.rectangle = { origin = [-0.6, -0.6, 0.6], edge_u = [1.2, 0.0, 0.0], edge_v = [0.0, 0.0, -1.2] }
+    material = 'white'
+    [[objects]]
+    SHAPE
+    material = 'glass'
+    ";
+const GLASS_BALL: &str = "shape.sphere = { center = [0, 2, 0], radius = 0.6 }";
+
+#[test]
+fn light_that_starts_in_glass_is_attenuated() {
+    let lamp = "[[objects]]\nshape.sphere = { center = [0, 2, 0], radius = 0.25 }\nemission.radiance = 4";
+    let scene = parsed(&(GLASS_OVER_FLOOR.replace("SHAPE", GLASS_BALL) + lamp));
+    assert_alike(&scene, [[0, 4], [3, 1]], 8000);
+    assert_alike(&scene, [[1, 3], [2, 2]], 8000);
+}
+
+/// What is rough, emits and transmits finds no light with a surface by light samples, and paths from lights start there, too. Paths start
+/// neither where light passes through the lamp, nor where no point is sampled, nor where the medium may change.
+#[test]
+fn lamps_of_every_kind_shine_as_with_mis() {
+    let shape = "{ expression = 'x^2 + y^2 + z^2 - 0.16', bounds = { min = [-0.5, -0.5, -0.5], max = [0.5, 0.5, 0.5] } }";
+    let isosurface = format!(
+        "[[objects]]\nshape.isosurface = {shape}\ntransform = [{{ translate = [0.5, 1.0, -0.5] }}]\nemission.radiance = 2\n"
+    );
+    let sheet =
+        "[[objects]]\nshape.sphere = { center = [-0.6, 0.8, 0], radius = 0.2 }\nemission.radiance = 3\nmaterial = 'sheer'\n";
+    let half_within = "[[objects]]\nshape.sphere = { center = [0, 1.4, 0], radius = 0.3 }\nemission.radiance = 3\n";
+    let outside = "[[objects]]\nshape.sphere = { center = [0.8, 1, 0.3], radius = 0.1 }\nemission.radiance = 5\n";
+    let clear = GLASS_OVER_FLOOR.replace(", transmittance = [0.1, 0.1, 0.1]", "");
+    let glowing_ball = clear.replace("SHAPE", GLASS_BALL) + "emission.radiance = 4\n" + outside;
+    let others = clear
+        .replace("SHAPE", GLASS_BALL)
+        .replace("[materials]", "[materials]\nsheer.lambertian.albedo = 0.5\nsheer.opacity = 0.4");
+    let cases = [
+        (glowing_ball, true),
+        (others + &isosurface + sheet + outside, false),
+        (GLASS_OVER_FLOOR.replace("SHAPE", GLASS_BALL) + half_within + outside, false),
+    ];
+    for (number, (text, forward)) in cases.iter().enumerate() {
+        let scene = parsed(text);
+        let settings = |estimator| RenderSettings { estimator, max_bounces: Some(4), ..SETTINGS };
+        let with = |estimator| mean(&scene, &settings(estimator), 2000);
+        let [of_mis, variance] = with(Estimator::Mis);
+        for estimator in [Estimator::Caustics, Estimator::Forward, Estimator::Bidirectional] {
+            let is_allowed = scene.traces_light_paths(&settings(estimator));
+            assert_eq!(is_allowed, estimator != Estimator::Forward || *forward, "{number}");
+            let [found, of_found] = with(estimator);
+            let z = (found - of_mis) / (variance + of_found).sqrt();
+            assert!(z.abs() < 4.0, "{number}, {}: {found} and {of_mis}, {z} σ", estimator.name());
+        }
+    }
 }

@@ -1,5 +1,5 @@
 //! The panel of render settings: estimator, sampler, directions, roulette, cap and seed.
-use egui::{ComboBox, RichText, Ui};
+use egui::{Checkbox, ComboBox, RichText, Ui};
 use noisefall::{
     declare::OneOf,
     render::Status,
@@ -39,16 +39,18 @@ pub struct Findings<'a> {
     pub status: &'a Status,
     /// The estimator that renders, where it is not the one of the settings.
     pub in_force: Option<&'a EstimatorInForce>,
+    /// Why vertices are never merged.
+    pub unmergeable: Option<&'a str>,
     /// Why the variance is infinite.
     pub caution: Option<&'a str>,
 }
 
 /// Shows the settings, and what is known of them. Returns whether advice was asked for.
 pub fn show(ui: &mut Ui, settings: &mut RenderSettings, findings: &Findings<'_>) -> bool {
-    let Findings { status, in_force, caution } = *findings;
+    let Findings { status, in_force, unmergeable, caution } = *findings;
     controls(ui, "sampling", |ui| {
         presets::show(ui, settings);
-        estimator_row(ui, settings, in_force);
+        estimator_row(ui, settings, in_force, unmergeable);
         sampler_row(ui, &mut settings.sampler);
         row(ui, &RenderSettings::DIRECTIONS.label(), "Pdf p(ω_i) of the next direction at diffuse surfaces.", |ui, _| {
             words(ui, &mut settings.directions);
@@ -86,6 +88,7 @@ fn estimator_row(
     ui: &mut Ui,
     RenderSettings { estimator, merging, .. }: &mut RenderSettings,
     in_force: Option<&EstimatorInForce>,
+    unmergeable: Option<&str>,
 ) {
     let doc = "How direct light is estimated. All estimators converge to the same image; they differ in noise.";
     row_with_note(ui, &RenderSettings::ESTIMATOR.label(), doc, |ui, label| {
@@ -97,7 +100,9 @@ fn estimator_row(
                 Some(in_force) => in_force.to_string(),
                 None if estimator.connects() => {
                     let doc = "Also takes over the light of paths from lights that end nearby (Georgiev et al. 2012). Finds caustics in mirrors. Biased, but consistent.";
-                    ui.checkbox(merging, "Merge vertices (biased)").on_hover_text(doc);
+                    let check_box = Checkbox::new(merging, "Merge vertices (biased)");
+                    let response = ui.add_enabled(unmergeable.is_none(), check_box).on_hover_text(doc);
+                    response.on_disabled_hover_text(format!("Here, {}.", unmergeable.unwrap_or_default()));
                     return;
                 }
                 None if *estimator == Estimator::Auto => "…".to_owned(),

@@ -34,14 +34,11 @@ fn the_choice_by_trial_says_what_it_has_chosen_and_why() {
 
 #[test]
 fn an_estimator_that_the_scene_does_not_allow_says_what_renders_instead() {
-    let mut window = window("leaves");
-    restarts(&mut window, "paths from both ends", |w| choose(w, "Estimator", "Bidirectional"));
+    let mut window = window("textures_and_bump");
+    restarts(&mut window, "paths from lights", |w| choose(w, "Estimator", "Forward"));
     wait(&mut window, "samples", |app| app.results.status.spp >= 1);
     window.run_steps(3);
-    assert!(
-        shows(&window, "MIS: the scene has surfaces that are blended or let some light pass")
-            && shows(&window, "MIS, not Bidirectional")
-    );
+    assert!(shows(&window, "MIS: the scene has smooth meshes, bump or normal maps") && shows(&window, "MIS, not Forward"));
 }
 
 #[test]
@@ -94,6 +91,8 @@ fn bounces_show_the_image_of_a_single_strategy() {
 #[test]
 fn a_scene_without_paths_from_lights_has_no_strategies_to_show() {
     let mut window = window("leaves");
+    // Paths from both ends do not count crossings.
+    window.state_mut().session.settings.count_crossings = true;
     window.state_mut().window.tab = Some(InstrumentTab::Bounces);
     window.state_mut().session.bounces.strategy = Some(Strategy { s: 1, t: 2, weighted: true });
     wait(&mut window, "the series", |app| app.results.second_frame.as_ref().is_some_and(|frame| frame.series.is_some()));

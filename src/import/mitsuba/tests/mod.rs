@@ -14,7 +14,7 @@ use crate::{
     declare::check,
     import::{ImportOptions, Imported, read},
     scene::{
-        SceneError,
+        Estimator, SceneError,
         description::{MaterialDescription, ObjectDescription},
     },
 };
@@ -123,4 +123,6 @@ fn the_depth_of_paths_counts_edges() {
     assert_eq!(bounces("<integrator type=\"direct\"/>"), Some(1));
     assert_eq!(bounces(&format!("<integrator type=\"moment\">{}</integrator>", path(3))), Some(2));
     assert_eq!(bounces("<integrator type=\"path\"/>"), None);
+    let estimator = |kind: &str| scene(&format!("<integrator type=\"{kind}\"/>{SENSOR}")).description.render.settings.estimator;
+    assert_eq!(["path", "bdpt"].map(estimator), [Estimator::Mis, Estimator::Bidirectional]);
 }

@@ -4,7 +4,7 @@ use glam::DVec3;
 use super::{error, imported, remarks};
 use crate::{
     sampling::Filter,
-    scene::{Projection, description::CameraDescription},
+    scene::{Estimator, Projection, description::CameraDescription},
     shape::Transform,
 };
 
@@ -48,12 +48,13 @@ fn the_angle_is_that_of_the_shorter_side() {
 #[test]
 fn lens_projection_and_settings_are_taken_over() {
     let found = imported(
-        "Integrator \"volpath\" \"integer maxdepth\" 17\nSampler \"zsobol\" \"integer pixelsamples\" 128\n\
+        "Integrator \"bdpt\" \"integer maxdepth\" 17\nSampler \"zsobol\" \"integer pixelsamples\" 128\n\
          PixelFilter \"triangle\" \"float xradius\" 1 \"float yradius\" 1\nScale 0.5 0.5 0.5\n\
          Camera \"perspective\" \"float lensradius\" .1 \"float focaldistance\" 3",
     );
     let description = &found.description;
     assert_eq!((description.render.settings.max_bounces, description.render.spp), (Some(17), Some(128)));
+    assert_eq!(description.render.settings.estimator, Estimator::Bidirectional);
     assert!(matches!(description.camera.filter, Filter::Tent(tent) if tent.radius == 1.0));
     let lens = description.camera.lens.expect("a lens");
     assert!((lens.radius - 0.2).abs() < 1e-12 && (lens.focus - 6.0).abs() < 1e-12, "the camera is scaled by 2");
