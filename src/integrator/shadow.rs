@@ -74,6 +74,7 @@ pub(super) fn crossings_left<L: Lanes>(
 
 /// The light samples of the `reflection`-th reflections in the lanes of `live`, each with the crossings that are left to it, after the
 /// transmittance of `media`, in which they start, and the textures of their lights. Counts the rays beyond the first one of each sample.
+#[inline(always)]
 pub(super) fn arriving<L: Lanes>(
     l: L,
     work: &Work,
