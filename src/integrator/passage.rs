@@ -7,7 +7,10 @@ use super::{interaction::vertex_colour, work::Work};
 use crate::{
     geometry::{Coordinates, MISS, Nearest, PrimitiveRef, SurfacePoint},
     math::{F, Lanes, M, Pick, U, V},
-    sampling::hash::{GOLDEN, hash, unit},
+    sampling::{
+        Dimension,
+        hash::{GOLDEN, hash, unit},
+    },
     scene::{
         Scene,
         surface::{BLENDED, FLIPPED, is_set},
@@ -89,6 +92,16 @@ impl<L: Lanes> Passage<L> {
         let same = place.primitive.equals(self.primitive) & place.element.equals(self.element);
         let again = mask & same & !(cos.above(0.0) ^ self.front) & t.lt(self.reach);
         Crossing { place, point, cos, again }
+    }
+
+    /// The surfaces ahead in the lanes of `mask`, with their opacities, for light samples and connections. `part` is that of
+    /// [`Work::shadow_part`].
+    #[inline(always)]
+    pub fn crossing_and_opacity(&self, l: L, scene: &Scene, mask: M<L>, part: F<L>, crossed: u32) -> (Crossing<L>, F<L>) {
+        let crossing = self.crossing(l, scene, mask);
+        let part = Decisions::Random.of_crossing(part, crossed);
+        let (alpha, _) = crossing.opacity(l, scene, mask, part, Decisions::Random);
+        (crossing, alpha)
     }
 
     /// Moves the rays in the lanes of `mask` behind a crossing, and finds their next surfaces.
@@ -200,6 +213,13 @@ impl Work<'_> {
     #[inline(always)]
     pub(super) fn has_passages(&self) -> bool {
         !self.scene.surfaces.are_opaque()
+    }
+
+    /// The random number at the first surface that a light sample or a connection of the `reflection`-th surface crosses: which part of a
+    /// blend.
+    #[inline(always)]
+    pub(super) fn shadow_part<L: Lanes>(&self, l: L, slot: U<L>, reflection: u32) -> F<L> {
+        if self.has_blends() { self.stream(l, slot).one(Dimension::shadow_blend(reflection)) } else { l.f(0.5) }
     }
 
     /// Whether materials are blended.

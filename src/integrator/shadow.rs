@@ -10,14 +10,13 @@ use super::{
     crossings::Crossings,
     interaction::emission_texture,
     media::transmittance,
-    passage::{Crossing, Decisions, MOST_CROSSINGS, Passage},
+    passage::{Crossing, MOST_CROSSINGS, Passage},
     records::Shadow,
     work::Work,
 };
 use crate::{
     geometry::{MISS, Nearest, PrimitiveRef},
     math::{F, Lanes, M, Pick, U, V},
-    sampling::Dimension,
 };
 
 /// Runs the stage.
@@ -136,7 +135,7 @@ fn through_surfaces<L: Lanes>(
 ) -> Arriving<L> {
     let scene = work.scene;
     let time = work.time(l, shadow.slot);
-    let part = if work.has_blends() { work.stream(l, shadow.slot).one(Dimension::shadow_blend(reflection)) } else { l.f(0.5) };
+    let part = work.shadow_part(l, shadow.slot, reflection);
     let first = scene.shapes.closest(l, live, shadow.o, shadow.d, time);
     let mut arriving = Arriving { seen: l.first(0), light: V::splat(l, [0.0; 3]), t: l.f(f32::INFINITY) };
     let mut passage = Passage::new(l, [shadow.o, shadow.d], time, first);
@@ -146,9 +145,7 @@ fn through_surfaces<L: Lanes>(
         let hit = passage.hits(open);
         let (arrives, nearest) = scene.lights.arrives(l, shadow.target, shadow.o, passage.nearest());
         let reached = open & arrives & nearest.primitive.is(MISS);
-        let crossing = passage.crossing(l, scene, hit);
-        let part = Decisions::Random.of_crossing(part, crossed);
-        let (alpha, _) = crossing.opacity(l, scene, hit, part, Decisions::Random);
+        let (crossing, alpha) = passage.crossing_and_opacity(l, scene, hit, part, crossed);
         let PrimitiveRef { primitive, element, .. } = crossing.place;
         let at_light = hit & !crossing.again & scene.lights.light_at(l, primitive, element).equals(shadow.target);
         let t = nearest.t;

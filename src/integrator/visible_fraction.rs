@@ -2,49 +2,60 @@
 use fearless_simd_macros::simd;
 
 use super::{
-    passage::{Decisions, MOST_CROSSINGS, Passage},
+    passage::{MOST_CROSSINGS, Passage},
     work::Work,
 };
 use crate::{
     geometry::Nearest,
     math::{F, Lanes, M, Pick, U, V},
-    sampling::Dimension,
 };
 
-/// A straight way to a vertex.
-pub(super) struct Way<L: Lanes> {
+/// A ray that meets a surface from behind may do so shortly before the point that is stored of it. Of a surface that is not convex it may
+/// meet another part first.
+const NEARLY: f32 = 0.999;
+
+/// A straight way between two vertices.
+pub(super) struct Segment<L: Lanes> {
     pub o: V<L>,
     /// Unit.
     pub d: V<L>,
-    /// What lies at least as far away is not between.
     pub distance: F<L>,
-    /// The primitive and the element there, and nothing else, if rays may meet them from behind.
+    /// The primitive and the element of the second vertex, which the ray has to meet; `None` if it is in free space, as at the camera.
     pub end: Option<[U<L>; 2]>,
     pub slot: U<L>,
 }
 
-impl<L: Lanes> Way<L> {
-    /// Lanes whose next surface is the end, or beyond.
+impl<L: Lanes> Segment<L> {
+    /// Lanes where nothing lies before the end if this is the next surface.
     #[inline(always)]
     fn is_open(&self, nearest: &Nearest<L>) -> M<L> {
-        let far = nearest.t.ge(self.distance);
         match self.end {
-            Some([primitive, element]) => far & nearest.primitive.equals(primitive) & nearest.element.equals(element),
-            None => far,
+            Some([primitive, element]) => {
+                let same = nearest.primitive.equals(primitive) & nearest.element.equals(element);
+                same & nearest.t.ge(self.distance * NEARLY)
+            }
+            None => nearest.t.ge(self.distance),
         }
     }
 }
 
-/// The fraction of light that arrives along a way in the lanes of `live`: 1 or 0 where every surface stops light. Counts the rays beyond
-/// the first one of each way.
+/// The fraction of light that arrives along a segment in the lanes of `live`: 1 or 0 where every surface stops light. Counts the rays beyond
+/// the first one of each.
 #[inline(always)]
-pub(super) fn visible_fraction<L: Lanes>(l: L, work: &Work, live: M<L>, way: &Way<L>, reflection: u32, rays: &mut u64) -> F<L> {
-    let time = work.time(l, way.slot);
-    let nearest = work.scene.shapes.closest(l, live, way.o, way.d, time);
+pub(super) fn visible_fraction<L: Lanes>(
+    l: L,
+    work: &Work,
+    live: M<L>,
+    segment: &Segment<L>,
+    reflection: u32,
+    rays: &mut u64,
+) -> F<L> {
+    let time = work.time(l, segment.slot);
+    let nearest = work.scene.shapes.closest(l, live, segment.o, segment.d, time);
     if work.has_passages() {
-        return fraction_through_surfaces(l, work, live, way, nearest, reflection, rays);
+        return fraction_through_surfaces(l, work, live, segment, nearest, reflection, rays);
     }
-    (live & way.is_open(&nearest)).pick(l.f(1.0), l.f(0.0))
+    (live & segment.is_open(&nearest)).pick(l.f(1.0), l.f(0.0))
 }
 
 /// The same where light passes through surfaces, the first of which is `nearest`.
@@ -53,21 +64,20 @@ fn fraction_through_surfaces<L: Lanes>(
     l: L,
     work: &Work,
     live: M<L>,
-    way: &Way<L>,
+    segment: &Segment<L>,
     nearest: Nearest<L>,
     reflection: u32,
     rays: &mut u64,
 ) -> F<L> {
     let scene = work.scene;
-    let part = if work.has_blends() { work.stream(l, way.slot).one(Dimension::shadow_blend(reflection)) } else { l.f(0.5) };
-    let mut passage = Passage::new(l, [way.o, way.d], work.time(l, way.slot), nearest);
+    let part = work.shadow_part(l, segment.slot, reflection);
+    let mut passage = Passage::new(l, [segment.o, segment.d], work.time(l, segment.slot), nearest);
     let (mut open, mut passed, mut arrives) = (live, l.f(1.0), l.first(0));
     for crossed in 0..=MOST_CROSSINGS {
-        arrives = arrives | (open & way.is_open(&passage.nearest()));
-        let is_before = passage.nearest().t.lt(way.distance);
+        arrives = arrives | (open & segment.is_open(&passage.nearest()));
+        let is_before = passage.nearest().t.lt(segment.distance);
         let hit = passage.hits(open & is_before & !arrives);
-        let crossing = passage.crossing(l, scene, hit);
-        let (alpha, _) = crossing.opacity(l, scene, hit, Decisions::Random.of_crossing(part, crossed), Decisions::Random);
+        let (crossing, alpha) = passage.crossing_and_opacity(l, scene, hit, part, crossed);
         passed = (hit & !crossing.again).pick(passed * (1.0 - alpha), passed);
         open = hit & passed.above(0.0);
         if crossed == MOST_CROSSINGS || !open.any() {

@@ -48,9 +48,9 @@ impl Scene {
         Some(format!("the estimator `{name}` works like `mis` in this scene, which has {reason}"))
     }
 
-    /// Why vertices are never merged in this scene: paths from lights that do not meet a surface would be missing there.
+    /// Why vertices are never merged in this scene: both paths would have to meet a surface, so its opacity would count twice.
     pub fn obstacle_to_merging(&self) -> Option<&'static str> {
-        (!self.surfaces.are_opaque()).then_some("vertices are not merged where surfaces are blended or let some light pass")
+        (!self.surfaces.are_opaque()).then_some("vertices are not merged in scenes with opacity or blends")
     }
 
     /// Whether vertices are merged.

@@ -35,13 +35,16 @@ impl Scene {
     /// The lights at which paths start, or why they cannot.
     pub(super) fn light_starts(&self) -> Result<LightStarts, &'static str> {
         if self.transmits_from_one_side() {
-            return Err("materials that let light pass on one of their sides");
+            return Err("materials that let light pass differently from their two sides");
+        }
+        if self.objects.iter().enumerate().any(|(id, object)| self.hides_its_medium(id, object)) {
+            return Err("tinted glass with opacity, in a blend, or with an open surface");
         }
         let starts = self.starts();
         let (center, radius) = self.bounding_sphere();
         let unknown = starts.iter().find_map(|start| start.err());
         let rays = LightRays::new(&self.lights, &starts, center, radius);
-        let rays = rays.ok_or(unknown.unwrap_or("no light from which paths could start"))?;
+        let rays = rays.ok_or(unknown.unwrap_or("no lights, or too many, from which paths could start"))?;
         // From some sides a shading normal is another one than from the light.
         let relief = self.has_shading_normals().then_some("smooth meshes, bump or normal maps");
         Ok(LightStarts { rays, unfound: unknown.or(relief) })
@@ -88,7 +91,7 @@ impl Scene {
         for (id, object) in self.objects.iter().enumerate().filter(|(_, object)| self.has_inside(object)) {
             let is_apart = !object.shape.bounds(&object.motion).overlaps(bounds);
             let holds = if is_apart { Some(false) } else { object.shape.holds(bounds).filter(|_| object.motion.0.is_empty()) };
-            if holds.ok_or("lamps that may touch a medium")? != object.flip {
+            if holds.ok_or("lamps that may touch or cross the surface of a dielectric")? != object.flip {
                 around.push((id, object));
             }
         }
@@ -107,6 +110,13 @@ impl Scene {
             |word: u32| Stage::ALL.get((word >> STAGE_SHIFT & STAGE_MASK) as usize).is_some_and(|stage| stage.transmits());
         let differs = |object: &Object| self.material(object).is_some_and(|material| self.passes_by_side(material));
         self.surfaces.words().any(|word| word & ONE_SIDED != 0 && transmits(word)) || self.objects.iter().any(differs)
+    }
+
+    /// Whether paths can get into a tinted object, or out of it, without a change of their media. In reverse they would have others.
+    fn hides_its_medium(&self, id: usize, object: &Object) -> bool {
+        let Some(material) = self.material(object).filter(|_| self.medium(id) != 0) else { return false };
+        let is_closed = || material.compiled.sheet || object.shape.is_closed();
+        self.has_inside(object) && (material.properties.passes || material.blend.is_some() || !is_closed())
     }
 
     /// Whether a material, or a part of it, lets light pass, and is another one from behind.
@@ -168,7 +178,7 @@ mod tests {
     #[test]
     fn paths_start_where_the_media_are_known() {
         let ball = |x: f32, radius: f32| format!("shape.sphere = {{ center = [{x}, 0, 2], radius = {radius} }}");
-        let beside = "lamps that may touch a medium";
+        let beside = "lamps that may touch or cross the surface of a dielectric";
         for (lamp, obstacle) in [
             (ball(0.0, 0.2), None),
             (ball(0.4, 0.2), Some(beside)),
@@ -182,8 +192,23 @@ mod tests {
     }
 
     #[test]
+    fn a_path_does_not_get_into_tinted_glass_unseen() {
+        let unseen = "tinted glass with opacity, in a blend, or with an open surface";
+        let lamp = "shape.sphere = { center = [2, 0, 2], radius = 0.2 }";
+        let tinted = "dielectric = { ior = 1.5, transmittance = 0.5 }";
+        let thin = "principled = { base_color = 0.5, transmission_weight = 1, thin_walled = true }";
+        for (wall, obstacle) in [
+            (format!("materials.wall.{tinted}"), Some(unseen)),
+            ("materials.wall.lambertian.albedo = 0.5\nmaterials.tinted.opacity = 0.5".to_owned(), Some(unseen)),
+            (format!("materials.wall.{thin}"), None),
+        ] {
+            notes(&wall, lamp).iter().for_each(|note| assert_note(note, obstacle, &wall));
+        }
+    }
+
+    #[test]
     fn a_surface_that_transmits_has_to_look_the_same_in_reverse() {
-        let sides = "materials that let light pass on one of their sides";
+        let sides = "materials that let light pass differently from their two sides";
         let parts = "materials.a.lambertian.albedo = 0.5\nmaterials.b.diffuse_transmission = { reflectance = 0.2, transmittance = 0.5 }\n";
         for (wall, obstacle) in [
             ("blend = { first = 'a', second = 'white', by_side = true }", None),

@@ -37,10 +37,10 @@ impl Import {
             self.remark_value(element, "max_depth", "1", "emitters are visible")?;
         }
         self.description.render.settings.max_bounces = depth.map(|depth| depth.saturating_sub(1));
-        // Only the volumetric ones do not count the passage through masks.
-        let counts = depth.is_some() && !element.kind().contains("vol");
-        self.description.render.settings.count_crossings = counts;
         let both_ends = element.kind() == "bdpt";
+        // The volumetric ones do not count the passage through masks, and our paths from both ends cannot.
+        let counts = depth.is_some() && !both_ends && !element.kind().contains("vol");
+        self.description.render.settings.count_crossings = counts;
         self.description.render.settings.estimator = if both_ends { Estimator::Bidirectional } else { Estimator::Mis };
         if let Some(start) = element.integer("rr_depth")? {
             let start = u32::try_from(start).unwrap_or(0).min(1 << 16);

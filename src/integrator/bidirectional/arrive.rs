@@ -140,7 +140,7 @@ struct HitWeigher<L: Lanes> {
     /// The camera sees the lights directly, and no other strategy finds that.
     first: bool,
     partial: Partial<L>,
-    /// The vertex before, and the lanes where it samples no light with a surface.
+    /// The vertex before, and the lanes where it samples only lamps without surface.
     at: ReferencePoint<L>,
     self_lit: M<L>,
 }

@@ -15,16 +15,13 @@ use crate::{
         queue::Register,
         queues::HitQueues,
         slots::SLOTS,
-        visible_fraction::{Way, visible_fraction},
+        visible_fraction::{Segment, visible_fraction},
         work::Work,
     },
     material::Stage,
     math::{Lanes, MAX_LANES, Pick},
     scene::surface,
 };
-
-/// Of a surface that is not convex a ray may meet another part first.
-const NEARLY: f32 = 0.999;
 
 /// Connections of a path that are finished together. Queues are emptied only between that many, and the sum of a pixel has the same order
 /// for any number of lanes.
@@ -164,9 +161,8 @@ fn finish<L: Lanes, O: Observer<L>>(
             continue;
         }
         *rays += faces.count() as u64;
-        let place = Some([end.primitive, end.element]);
-        let way = Way { o, d, distance: distance * NEARLY, end: place, slot: connection.slot };
-        let fraction = visible_fraction(l, work, faces, &way, reflection, rays);
+        let segment = Segment { o, d, distance, end: Some([end.primitive, end.element]), slot: connection.slot };
+        let fraction = visible_fraction(l, work, faces, &segment, reflection, rays);
         let seen = fraction.above(0.0);
         let contribution = seen.pick(contribution * fraction, contribution);
         let from_camera = end.partial.sum(connection.pdf * leaving * per_area, pdf, merged);

@@ -61,7 +61,8 @@ pub(super) fn test_light_samples<L: Lanes, O: Observer<L>>(
         let weight = 1.0 / (1.0 + by_direction + sample.partial * (density / of_sample));
         let (s, t) = (l.u(1), batch.bounce + 2);
         let weight = weight_of(work, s, t, weight);
-        observer.found(at.live, &Term { s, t, light, weight, seen, light_pdf });
+        let alone = seen.pick(light, radiance);
+        observer.found(at.live, &Term { s, t, light: alone, weight, seen, light_pdf });
         add(&mut batch.radiance, seen, slot, light * weight);
     }
     batch.rays += state.direct.len() as u64;

@@ -6,7 +6,7 @@ use crate::{
     integrator::{
         batch::Batch,
         light_paths::{paths::LightPaths, records::CameraRay, splat::Splat},
-        visible_fraction::{Way, visible_fraction},
+        visible_fraction::{Segment, visible_fraction},
         work::Work,
     },
     math::{Lanes, MAX_LANES},
@@ -18,8 +18,8 @@ pub(super) fn join<L: Lanes, O: Observer<L>>(l: L, work: &Work, batch: &mut Batc
     for at in state.joins.registers(l) {
         let CameraRay { o, d, distance, slot, x, y, light } = CameraRay::read(l, &state.joins, at.start);
         let surface = Dimension::LIGHT_PATH + batch.bounce + 1;
-        let way = Way { o, d, distance, end: None, slot };
-        let fraction = visible_fraction(l, work, at.live, &way, surface, &mut batch.rays);
+        let segment = Segment { o, d, distance, end: None, slot };
+        let fraction = visible_fraction(l, work, at.live, &segment, surface, &mut batch.rays);
         let (u, v) = work.stream(l, slot).two(Dimension::cell(surface));
         let (seen, light) = (fraction.above(0.0), light * fraction);
         observer.joined(fraction, [x, y]);

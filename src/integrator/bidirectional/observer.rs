@@ -17,11 +17,11 @@ pub(in crate::integrator) enum PathStart {
 pub(in crate::integrator) struct Term<L: Lanes> {
     pub s: U<L>,
     pub t: u32,
-    /// The estimate of the strategy alone, if nothing lies between.
+    /// The estimate of the strategy alone: what arrives where `seen`, elsewhere what would arrive if nothing lay between.
     pub light: V<L>,
     /// The factor of `light` in the sample.
     pub weight: F<L>,
-    /// The lanes where nothing lies between.
+    /// The lanes where some light arrives.
     pub seen: M<L>,
     /// Pdf of the light sample if s = 1, per area on surfaces, per solid angle towards the background; of lamps, a probability.
     pub light_pdf: F<L>,

@@ -84,7 +84,7 @@ pub(super) fn depth<L: Lanes>(l: L, stage: Stage, hits: &HitQueues, at: Register
     if stage.transmits() { Detail::read(l, &hits.details, at.start).error * 2.0 } else { l.f(0.0) }
 }
 
-/// Lanes that sample no surface that emits light: see [`SELF_LIT`].
+/// Lanes that sample only lamps without surface: see [`SELF_LIT`].
 #[inline(always)]
 pub(super) fn are_self_lit<L: Lanes>(l: L, stage: Stage, hits: &HitQueues, at: Register<L>) -> M<L> {
     if stage.transmits() { is_set(Detail::read(l, &hits.details, at.start).surface, SELF_LIT) } else { l.first(0) }

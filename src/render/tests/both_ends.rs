@@ -262,8 +262,8 @@ fn light_that_starts_in_glass_is_attenuated() {
     assert_alike(&scene, [[1, 3], [2, 2]], 8000);
 }
 
-/// What is rough, emits and transmits finds no light with a surface by light samples, and paths from lights start there, too. Paths start
-/// neither where light passes through the lamp, nor where no point is sampled, nor where the medium may change.
+/// Rough glass that emits samples only lamps without surface, and paths from lights start there, too. Paths start neither where light passes
+/// through the lamp, nor where no point is sampled, nor where the medium may change.
 #[test]
 fn lamps_of_every_kind_shine_as_with_mis() {
     let shape = "{ expression = 'x^2 + y^2 + z^2 - 0.16', bounds = { min = [-0.5, -0.5, -0.5], max = [0.5, 0.5, 0.5] } }";
@@ -297,4 +297,15 @@ fn lamps_of_every_kind_shine_as_with_mis() {
             assert!(z.abs() < 4.0, "{number}, {}: {found} and {of_mis}, {z} σ", estimator.name());
         }
     }
+}
+
+/// A sheet of opacity ½ close above a floor, nearer than a thousandth of the way to the vertex that is connected.
+#[test]
+fn connections_pass_a_sheet_that_lies_on_their_end() {
+    let sheet = "[[objects]]
+    shape.rectangle = { origin = [-2.0, 0.0004, -2.0], edge_u = [0.0, 0.0, 4.0], edge_v = [4.0, 0.0, 0.0] }
+    material = 'half'";
+    let half = "[materials]\nhalf.lambertian = { albedo = 0.2 }\nhalf.opacity = 0.5";
+    let scene = parsed(&(PANELS.replace("SHAPE", BALL).replace("BALL", "white").replace("[materials]", half) + sheet));
+    assert_alike(&scene, [[1, 3], [2, 2]], 4000);
 }

@@ -102,7 +102,7 @@ fn estimator_row(
                     let doc = "Also takes over the light of paths from lights that end nearby (Georgiev et al. 2012). Finds caustics in mirrors. Biased, but consistent.";
                     let check_box = Checkbox::new(merging, "Merge vertices (biased)");
                     let response = ui.add_enabled(unmergeable.is_none(), check_box).on_hover_text(doc);
-                    response.on_disabled_hover_text(format!("Here, {}.", unmergeable.unwrap_or_default()));
+                    response.on_disabled_hover_text(unmergeable.unwrap_or_default());
                     return;
                 }
                 None if *estimator == Estimator::Auto => "…".to_owned(),
