@@ -1,19 +1,9 @@
-//! Whether a shape has an inside, and whether it holds all of a box.
+//! Whether a shape holds all of a box.
 use glam::{DVec3, Vec3};
 
 use super::{Bounds, Shape};
 
 impl Shape {
-    /// Whether no path gets from inside to outside without crossing the surface.
-    pub fn is_closed(&self) -> bool {
-        match self {
-            Shape::Flat { .. } => false,
-            Shape::Cylinder { capped, .. } => *capped,
-            Shape::Mesh { data, .. } => data.is_closed(),
-            Shape::Sphere { .. } | Shape::Ellipsoid { .. } | Shape::Cuboid { .. } | Shape::Isosurface { .. } => true,
-        }
-    }
-
     /// Whether all of a box lies inside the shape, or none of it; `None` where the surface may pass through the box.
     pub fn holds(&self, bounds: &Bounds) -> Option<bool> {
         let corner = |number: usize| {
@@ -67,12 +57,9 @@ mod tests {
         let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
         let triangles = faces.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
         let data = Arc::new(MeshData { vertices, triangles, ..MeshData::default() });
-        assert!(data.is_closed());
-        let shape = Shape::mesh(data.clone()).transformed(&DAffine3::from_scale(DVec3::splat(2.0)));
+        let shape = Shape::mesh(data).transformed(&DAffine3::from_scale(DVec3::splat(2.0)));
         assert_eq!(shape.holds(&around([0.0; 3], 1.5)), Some(true));
         assert_eq!(shape.holds(&around([1.0, 0.0, 0.0], 1.5)), None);
         assert_eq!(shape.holds(&around([5.0, 0.0, 0.0], 1.0)), Some(false));
-        let open = MeshData { triangles: data.triangles[1..].to_vec(), vertices: data.vertices.clone(), ..MeshData::default() };
-        assert!(!open.is_closed());
     }
 }

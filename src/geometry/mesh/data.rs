@@ -61,26 +61,6 @@ impl MeshData {
         Posed { data: self, map: *map, covector, is_moved: *map != DAffine3::IDENTITY }
     }
 
-    /// Whether every edge is passed as often in one direction as in the other, so that the mesh has no border. Vertices in the same place are
-    /// one.
-    pub fn is_closed(&self) -> bool {
-        let place = |id: u32| self.vertices[id as usize].map(|x| (x + 0.0).to_bits());
-        let mut order: Vec<u32> = (0..self.vertices.len() as u32).collect();
-        order.par_sort_unstable_by_key(|id| place(*id));
-        let mut joined = vec![0; order.len()];
-        let mut first = 0;
-        for id in order {
-            first = if place(id) == place(first) { first } else { id };
-            joined[id as usize] = first;
-        }
-        let sides = |&[a, b, c]: &[u32; 3]| [[a, b], [b, c], [c, a]].map(|side| side.map(|id| joined[id as usize]));
-        let mut edges: Vec<[u32; 2]> = self.triangles.iter().flat_map(sides).filter(|[a, b]| a != b).collect();
-        let mut back: Vec<[u32; 2]> = edges.iter().map(|[a, b]| [*b, *a]).collect();
-        edges.par_sort_unstable();
-        back.par_sort_unstable();
-        edges == back
-    }
-
     /// Whether a point lies inside a closed mesh, that is, whether a ray from it crosses the mesh an odd number of times.
     pub fn contains(&self, p: DVec3) -> bool {
         // No edge or corner of a mesh made by hand lies in this direction.
