@@ -74,11 +74,7 @@ pub struct SampleJob {
 impl SampleJob {
     /// Renders the samples of each image.
     pub fn run(&self, shots: &[Shot]) -> Result<ExitCode, Failure> {
-        let infinite = self.scene.infinite_variance(&self.settings);
-        let missing = self.scene.lacks_light_paths(&self.settings);
-        let unmerged = self.scene.lacks_merging(&self.settings);
-        let warnings = self.scene.warnings().iter().chain(&infinite).chain(&missing).chain(&unmerged);
-        warnings.for_each(|warning| tell(&format!("note: {warning}")));
+        self.scene.notes(&self.settings).iter().for_each(|note| tell(&format!("note: {note}")));
         let written = "interrupted: writing the samples so far (interrupt again to stop at once)";
         let stop = stop_signal(if self.is_sequence { DROPPED } else { written })?;
         for shot in shots {

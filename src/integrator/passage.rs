@@ -3,7 +3,7 @@
 //! A surface of opacity α meets a fraction α of the light; the rest goes on behind it, unchanged. A blend is one of its two parts at
 //! every crossing, with the probability of its weight, and the opacity of that part counts as well. Crossing a surface is no bounce: it
 //! changes neither the origin of a ray nor the media around it.
-use super::{interaction::vertex_colour, work::Work};
+use super::{first_hits::FirstHits, interaction::vertex_colour, work::Work};
 use crate::{
     geometry::{Coordinates, MISS, Nearest, PrimitiveRef, SurfacePoint},
     math::{F, Lanes, M, Pick, U, V},
@@ -220,6 +220,12 @@ impl Work<'_> {
     #[inline(always)]
     pub(super) fn shadow_part<L: Lanes>(&self, l: L, slot: U<L>, reflection: u32) -> F<L> {
         if self.has_blends() { self.stream(l, slot).one(Dimension::shadow_blend(reflection)) } else { l.f(0.5) }
+    }
+
+    /// The rows of the surfaces that the paths from index `start` on meet, in scenes with blends.
+    #[inline(always)]
+    pub(super) fn rows_of_blends<L: Lanes>(&self, l: L, first_hits: &FirstHits, start: usize) -> Option<U<L>> {
+        if self.has_blends() { Some(first_hits.rows(l, start)) } else { None }
     }
 
     /// Whether materials are blended.

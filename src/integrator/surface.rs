@@ -48,7 +48,7 @@ pub(super) fn surfaces<L: Lanes, const VARIED: bool>(l: L, work: &Work, batch: &
         if !hit.any() {
             continue;
         }
-        let rows = if VARIED && work.has_blends() { Some(first_hits.rows(l, at.start)) } else { None };
+        let rows = if VARIED { work.rows_of_blends(l, first_hits, at.start) } else { None };
         let interaction = interact::<L, VARIED>(l, work, &arrival.path, hit, &arrival.nearest, rows);
         add_emission::<L, VARIED>(l, work, previous, &arrival, hit, &interaction, radiance);
         if !last {

@@ -59,9 +59,15 @@ impl Scene {
     }
 
     /// The note that vertices are not merged although the settings say so; `None` if that is not so.
-    pub fn lacks_merging(&self, settings: &RenderSettings) -> Option<String> {
+    fn lacks_merging(&self, settings: &RenderSettings) -> Option<String> {
         let lacks = settings.merges() && self.traces_light_paths(settings);
         self.obstacle_to_merging().filter(|_| lacks).map(str::to_owned)
+    }
+
+    /// What is legal but probably not meant, in the scene and with these settings.
+    pub fn notes(&self, settings: &RenderSettings) -> Vec<String> {
+        let of_settings = [self.infinite_variance(settings), self.lacks_light_paths(settings), self.lacks_merging(settings)];
+        self.warnings().iter().cloned().chain(of_settings.into_iter().flatten()).collect()
     }
 
     /// Why an estimator with these settings has no paths from lights, whatever the lights.

@@ -128,9 +128,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
 /// Prints what is legal but probably not meant.
 fn print_notes(scene: &Scene, settings: &RenderSettings, reference: Option<&Reference>, resolution: [u32; 2]) {
     let mismatch = reference.and_then(|truth| truth.mismatch(resolution));
-    let (infinite, missing) = (scene.infinite_variance(settings), scene.lacks_light_paths(settings));
-    let unmerged = scene.lacks_merging(settings);
-    let notes = mismatch.iter().chain(scene.warnings()).chain(&infinite).chain(&missing).chain(&unmerged);
+    let notes = mismatch.into_iter().chain(scene.notes(settings));
     notes.for_each(|note| tell(&format!("note: {note}")));
 }
 

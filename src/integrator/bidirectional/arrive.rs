@@ -45,7 +45,7 @@ pub(super) fn arrive_from_lights<L: Lanes, O: Observer<L>>(
         if !hit.any() {
             continue;
         }
-        let rows = if work.has_blends() { Some(first_hits.rows(l, at.start)) } else { None };
+        let rows = work.rows_of_blends(l, first_hits, at.start);
         let interaction = interact::<L, true>(l, work, &arrival.path, hit, nearest, rows);
         let (slot, cos) = (arrival.path.slot, finite(interaction.cos));
         observer.arrived(PathStart::Light, hit, &arrival, &interaction, cos);
@@ -103,7 +103,7 @@ pub(super) fn arrive_from_camera<L: Lanes, O: Observer<L>>(
         if !hit.any() {
             continue;
         }
-        let rows = if work.has_blends() { Some(first_hits.rows(l, at.start)) } else { None };
+        let rows = work.rows_of_blends(l, first_hits, at.start);
         let interaction = interact::<L, true>(l, work, path, hit, nearest, rows);
         let cos = finite(interaction.cos);
         observer.arrived(PathStart::Camera, hit, &arrival, &interaction, cos);

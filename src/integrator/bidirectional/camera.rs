@@ -6,7 +6,7 @@ use super::{
     connect::{Connector, finish_connections},
     observer::{Observer, PathStart},
     radius::merged_paths,
-    scatter::{Evaluated, are_self_lit, depth, evaluate, media_towards, scatter},
+    scatter::{Evaluated, are_self_lit, depth, evaluate, media_towards, scatter, transmits},
 };
 use crate::{
     integrator::{
@@ -87,10 +87,8 @@ pub(super) fn shade_camera_paths<L: Lanes, O: Observer<L>>(
             partial.c = is_only_strategy.pick(l.f(0.0), partial.c);
             let slot = vertex.hit.slot;
             let end = &mut state.ends[1];
-            let transmits = l.first(if stage.transmits() { L::N } else { 0 });
-            let self_lit = are_self_lit(l, *stage, hits, at);
             end.put_partial(keep, slot, partial);
-            end.put_before(keep, slot, vertex.hit.n, transmits, self_lit);
+            end.put_before(keep, slot, vertex.hit.n, transmits(l, *stage), are_self_lit(l, *stage, hits, at));
             Path { o: scattered.o, d: scattered.d, throughput: survival.throughput, slot }.push(keep, &mut next.paths);
             if work.has_media() {
                 Inside { media: scattered.media }.push(keep, &mut next.media);
@@ -114,8 +112,7 @@ fn queue_light_sample<L: Lanes>(
     merged: f32,
     queue: &mut Queue,
 ) {
-    let transmits = if stage.transmits() { l.first(L::N) } else { l.first(0) };
-    let point = ReferencePoint { p: hit.p, n: hit.n, transmits, lobe: None };
+    let point = ReferencePoint { p: hit.p, n: hit.n, transmits: transmits(l, stage), lobe: None };
     let stream = work.stream(l, hit.slot);
     let is_read = work.scene.lights.have_even_sky();
     let direction = if is_read { stream.two(Dimension::direction(reflection)) } else { (l.f(0.0), l.f(0.0)) };

@@ -4,7 +4,7 @@ use fearless_simd_macros::simd;
 use super::{
     observer::{Observer, PathStart, Term},
     radius::merged_paths,
-    scatter::{Evaluated, are_self_lit, depth, evaluate, media_towards, scatter},
+    scatter::{Evaluated, are_self_lit, depth, evaluate, media_towards, scatter, transmits},
     strategy::weight_of,
 };
 use crate::{
@@ -104,8 +104,7 @@ fn at_first_surface<L: Lanes>(
     let [.., inverse_density] = l.rows(&state.fluxes, hit.slot);
     let [light, primitive, element, _] = l.rows(&state.sources, hit.slot);
     let (light, primitive, element) = (light.bits(), primitive.bits(), element.bits());
-    let transmits = if stage.transmits() { l.first(L::N) } else { l.first(0) };
-    let at = ReferencePoint { p: hit.p, n: hit.n, transmits, lobe: None };
+    let at = ReferencePoint { p: hit.p, n: hit.n, transmits: transmits(l, stage), lobe: None };
     let lamps = *live & lights.are_lamps(light);
     let sky = light.is(MISS);
     let place = PrimitiveRef { primitive: sky.pick(l.u(MISS), primitive), element, time: work.time(l, hit.slot) };

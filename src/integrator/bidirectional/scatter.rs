@@ -84,6 +84,12 @@ pub(super) fn depth<L: Lanes>(l: L, stage: Stage, hits: &HitQueues, at: Register
     if stage.transmits() { Detail::read(l, &hits.details, at.start).error * 2.0 } else { l.f(0.0) }
 }
 
+/// All lanes if light passes to the other side, or else none.
+#[inline(always)]
+pub(super) fn transmits<L: Lanes>(l: L, stage: Stage) -> M<L> {
+    l.first(if stage.transmits() { L::N } else { 0 })
+}
+
 /// Lanes that sample only lamps without surface: see [`SELF_LIT`].
 #[inline(always)]
 pub(super) fn are_self_lit<L: Lanes>(l: L, stage: Stage, hits: &HitQueues, at: Register<L>) -> M<L> {

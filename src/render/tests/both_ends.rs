@@ -207,18 +207,21 @@ fn smooth_mirrors_bring_the_same_light_from_either_end() {
     assert_alike(&parsed(BENT_MIRROR), [[0, 4], [3, 1]], 8000);
 }
 
-/// A white ball in rough glass that absorbs, in light from everywhere.
+/// Rough glass that absorbs, and what is `seen` from this height.
+fn glass_and(seen: &str, height: f64) -> String {
+    format!(
+        "format = 1
+        camera = {{ eye = [0.0, {height:?}, 3.0], look_at = [0.0, 0.0, 0.0], fov = 20, resolution = [16, 16] }}
+        materials.white.lambertian.albedo = 0.8
+        materials.glass.dielectric = {{ ior = 1.3, roughness = 0.7, transmittance = [0.1, 0.1, 0.1] }}
+        {seen}
+        "
+    )
+}
+
+/// A white ball in glass, in light from everywhere.
 const BALL_IN_GLASS: &str = "
-    format = 1
     background.radiance = 1
-    [camera]
-    eye = [0.0, 0.0, 3.0]
-    look_at = [0.0, 0.0, 0.0]
-    fov = 20
-    resolution = [16, 16]
-    [materials]
-    white.lambertian = { albedo = 0.8 }
-    glass.dielectric = { ior = 1.3, roughness = 0.7, transmittance = [0.1, 0.1, 0.1] }
     [[objects]]
     shape.sphere = { center = [0, 0, 0], radius = 0.5 }
     material = 'glass'
@@ -229,35 +232,25 @@ const BALL_IN_GLASS: &str = "
 
 #[test]
 fn connections_in_glass_are_attenuated() {
-    let scene = parsed(BALL_IN_GLASS);
+    let scene = parsed(&glass_and(BALL_IN_GLASS, 0.0));
     assert_alike(&scene, [[1, 4], [2, 3]], 8000);
     assert_alike(&scene, [[1, 4], [4, 1]], 8000);
 }
 
-/// A floor below rough glass that absorbs.
-const GLASS_OVER_FLOOR: &str = "
-    format = 1
-    [camera]
-    eye = [0.0, 2.0, 3.0]
-    look_at = [0.0, 0.0, 0.0]
-    fov = 20
-    resolution = [16, 16]
-    [materials]
-    white.lambertian = { albedo = 0.8 }
-    glass.dielectric = { ior = 1.3, roughness = 0.7, transmittance = [0.1, 0.1, 0.1] }
+/// A floor below a ball of glass.
+const FLOOR_AND_GLASS: &str = "
     [[objects]]
     shape.rectangle = { origin = [-0.6, -0.6, 0.6], edge_u = [1.2, 0.0, 0.0], edge_v = [0.0, 0.0, -1.2] }
     material = 'white'
     [[objects]]
-    SHAPE
+    shape.sphere = { center = [0, 2, 0], radius = 0.6 }
     material = 'glass'
     ";
-const GLASS_BALL: &str = "shape.sphere = { center = [0, 2, 0], radius = 0.6 }";
 
 #[test]
 fn light_that_starts_in_glass_is_attenuated() {
     let lamp = "[[objects]]\nshape.sphere = { center = [0, 2, 0], radius = 0.25 }\nemission.radiance = 4";
-    let scene = parsed(&(GLASS_OVER_FLOOR.replace("SHAPE", GLASS_BALL) + lamp));
+    let scene = parsed(&(glass_and(FLOOR_AND_GLASS, 2.0) + lamp));
     assert_alike(&scene, [[0, 4], [3, 1]], 8000);
     assert_alike(&scene, [[1, 3], [2, 2]], 8000);
 }
@@ -274,15 +267,13 @@ fn lamps_of_every_kind_shine_as_with_mis() {
         "[[objects]]\nshape.sphere = { center = [-0.6, 0.8, 0], radius = 0.2 }\nemission.radiance = 3\nmaterial = 'sheer'\n";
     let half_within = "[[objects]]\nshape.sphere = { center = [0, 1.4, 0], radius = 0.3 }\nemission.radiance = 3\n";
     let outside = "[[objects]]\nshape.sphere = { center = [0.8, 1, 0.3], radius = 0.1 }\nemission.radiance = 5\n";
-    let clear = GLASS_OVER_FLOOR.replace(", transmittance = [0.1, 0.1, 0.1]", "");
-    let glowing_ball = clear.replace("SHAPE", GLASS_BALL) + "emission.radiance = 4\n" + outside;
-    let others = clear
-        .replace("SHAPE", GLASS_BALL)
-        .replace("[materials]", "[materials]\nsheer.lambertian.albedo = 0.5\nsheer.opacity = 0.4");
+    let tinted = glass_and(FLOOR_AND_GLASS, 2.0);
+    let clear = tinted.replace(", transmittance = [0.1, 0.1, 0.1]", "");
+    let sheer = "materials.sheer = { lambertian.albedo = 0.5, opacity = 0.4 }";
     let cases = [
-        (glowing_ball, true),
-        (others + &isosurface + sheet + outside, false),
-        (GLASS_OVER_FLOOR.replace("SHAPE", GLASS_BALL) + half_within + outside, false),
+        (clear.clone() + "emission.radiance = 4\n" + outside, true),
+        (clear.replacen("[[objects]]", &format!("{sheer}\n[[objects]]"), 1) + &isosurface + sheet + outside, false),
+        (tinted + half_within + outside, false),
     ];
     for (number, (text, forward)) in cases.iter().enumerate() {
         let scene = parsed(text);
