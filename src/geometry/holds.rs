@@ -11,7 +11,6 @@ impl Shape {
             DVec3::new(at(0), at(1), at(2))
         };
         match self {
-            Shape::Flat { .. } => Some(false),
             Shape::Sphere { .. } | Shape::Ellipsoid { .. } | Shape::Cuboid { .. } | Shape::Cylinder { .. } => {
                 // These are convex.
                 (0..8).all(|number| self.contains(corner(number))).then_some(true)
@@ -22,7 +21,7 @@ impl Shape {
                 let is_near = |triangle: &[u32; 3]| Bounds::of_points(triangle.iter().map(place)).overlaps(bounds);
                 (!data.triangles.iter().any(is_near)).then(|| self.contains(corner(0)))
             }
-            Shape::Isosurface { .. } => None,
+            Shape::Flat { .. } | Shape::Isosurface { .. } => None,
         }
     }
 }

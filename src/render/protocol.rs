@@ -136,9 +136,7 @@ impl Status {
     pub fn bias(&self, settings: &RenderSettings) -> Option<String> {
         let cut = (self.cut_paths > 0).then(|| format!("{} paths cut", self.cut_paths));
         let mixed = self.is_mixed.then(|| "first samples of another scene or program".to_owned());
-        // Settings may ask for merging where a scene does not allow it.
-        let in_force = RenderSettings { merging: self.sharing == Sharing::Merged, ..*settings };
-        let reasons: Vec<String> = in_force.bias().or(cut).into_iter().chain(mixed).collect();
+        let reasons: Vec<String> = settings.bias_with(self.sharing).or(cut).into_iter().chain(mixed).collect();
         (!reasons.is_empty()).then(|| reasons.join(", "))
     }
 

@@ -45,6 +45,9 @@ impl Scene {
         let unknown = starts.iter().find_map(|start| start.err());
         let rays = LightRays::new(&self.lights, &starts, center, radius);
         let rays = rays.ok_or(unknown.unwrap_or("no lights, or too many, from which paths could start"))?;
+        if !self.surfaces.media.is_empty() && !self.has_reversible_media(&rays) {
+            return Err("tinted glass that is open, or that overlaps with other glass");
+        }
         // From some sides a shading normal is another one than from the light.
         let relief = self.has_shading_normals().then_some("smooth meshes, bump or normal maps");
         Ok(LightStarts { rays, unfound: unknown.or(relief) })
@@ -128,7 +131,7 @@ impl Scene {
     }
 
     /// A sphere around all objects in all of their poses.
-    fn bounding_sphere(&self) -> (DVec3, f64) {
+    pub(super) fn bounding_sphere(&self) -> (DVec3, f64) {
         let spheres: Vec<_> = self.objects.iter().map(|object| object.shape.swept_sphere(&object.motion)).collect();
         let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         for (center, radius) in &spheres {

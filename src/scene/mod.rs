@@ -20,6 +20,7 @@ mod light_starts;
 mod load;
 mod locate;
 mod material_instance;
+mod media_walks;
 mod nesting;
 mod object;
 mod parse;

@@ -76,6 +76,13 @@ impl Sharing {
     }
 }
 
+impl RenderSettings {
+    /// [`RenderSettings::bias`] where it is known what pixels share: settings may ask for merging where a scene does not allow it.
+    pub fn bias_with(&self, sharing: Sharing) -> Option<String> {
+        RenderSettings { merging: sharing == Sharing::Merged, ..*self }.bias()
+    }
+}
+
 impl Scene {
     /// What pixels share with these settings. [`Reuse::Auto`] is still undecided and counts as nothing.
     pub fn sharing(&self, rays: &CameraRays, settings: &RenderSettings) -> Sharing {

@@ -117,9 +117,10 @@ pub fn measure(bench: Bench, settings: &RenderSettings, plan: &Plan, reference: 
         let noise = frame.noise.as_ref().map(NoiseOfMean::of);
         Ok((took, count.cut_paths, compare(&frame.radiance, reference, plan.floor), noise))
     })?;
-    let bias = settings.bias().or((cut_paths > 0).then(|| format!("{cut_paths} paths cut"))).unwrap_or_default();
     let rays = bench.scene.rays(bench.camera);
     let sharing = bench.scene.sharing(&rays, &resolved(bench.scene, &rays, settings));
+    let cut = (cut_paths > 0).then(|| format!("{cut_paths} paths cut"));
+    let bias = settings.bias_with(sharing).or(cut).unwrap_or_default();
     Ok(Run { invalid_samples: film.invalid_samples(), bias, sharing, adapts: film.is_adaptive(), ..run })
 }
 

@@ -83,8 +83,9 @@ impl App {
             .and_then(|opened| opened.scene.infinite_variance(&edited))
             .map(|caution| format!("{}.", capitalised(&caution)));
         let in_force = self.session.opened.as_ref().and_then(|opened| opened.scene.estimator_in_force(&edited));
-        let unmergeable = self.session.opened.as_ref().and_then(|opened| opened.scene.obstacle_to_merging());
-        let findings = Findings { status, in_force: in_force.as_ref(), unmergeable, caution: caution.as_deref() };
+        let unmergeable = self.session.opened.as_ref().and_then(|opened| opened.scene.obstacle_to_merging()).map(capitalised);
+        let findings =
+            Findings { status, in_force: in_force.as_ref(), unmergeable: unmergeable.as_deref(), caution: caution.as_deref() };
         if sampling::show(ui, self.session.edited(), &findings) {
             self.ask_for_advice();
         }

@@ -98,7 +98,7 @@ impl History {
     /// Names a curve by its settings, and by sharing.
     pub fn name(&self, curve: &Curve) -> String {
         let of_scene = self.subject.as_ref().map_or_else(RenderSettings::default, |(scene, _)| scene.settings);
-        let bias = if curve.settings.bias().is_some() { " (biased)" } else { "" };
+        let bias = if curve.settings.bias_with(curve.sharing()).is_some() { " (biased)" } else { "" };
         name(&curve.settings, &of_scene, curve.sharing()) + bias
     }
 }
