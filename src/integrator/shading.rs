@@ -120,7 +120,8 @@ impl<'a, L: Lanes, K: Shade> Shading<'a, L, K> {
             sample.weight = sample.weight * shadowing.towards(l, d);
         }
         let (o, consistent) = vertex.leave::<K>(hit, d, sample.wi.z);
-        let judged = K::roulette_scale(bsdf, vertex.local.front, sample.wi.z);
+        let outside = K::compression_outside(l, &work.scene.surfaces.materials, &vertex.local);
+        let judged = K::roulette_scale(bsdf, vertex.local.front, sample.wi.z) * outside;
         let throughput = if shares { hit.throughput } else { hit.throughput * sample.weight };
         let survival = survive(l, work.settings.roulette, *reflection, coordinates.roulette, throughput, judged);
         let mut goes_on = survival.alive & consistent;

@@ -82,12 +82,12 @@ impl Dielectric {
     fn tinted(
         &self,
         compiler: &mut MaterialCompiler,
-        eta: f32,
+        indices: [f32; 2],
         (alpha, most): (AlphaSource, f32),
     ) -> Result<CompiledMaterial, Problem> {
         let beckmann = self.distribution == Distribution::Beckmann;
         let compensated = self.energy_compensation && !beckmann && self.anisotropy == 0.0 && most >= ggx::SMOOTH;
-        let row = DielectricRow { beckmann, ..DielectricRow::rough(compiler, eta, (alpha, most), compensated) };
+        let row = DielectricRow { beckmann, ..DielectricRow::rough(compiler, indices, (alpha, most), compensated) };
         let colour = compiler.colour(&SPECULAR_REFLECTANCE, &self.specular_reflectance, &Range::UNIT)?;
         let transmittance = compiler.colour(&SPECULAR_TRANSMITTANCE, &self.specular_transmittance, &Range::UNIT)?;
         Ok(CompiledMaterial {
@@ -148,18 +148,19 @@ impl Declare for Dielectric {
 impl Compile for Dielectric {
     fn compile(&self, compiler: &mut MaterialCompiler) -> Result<CompiledMaterial, Problem> {
         let (alpha, most) = compiler.alpha(&self.roughness)?;
-        let eta = self.ior as f32 / self.ior_outside as f32;
+        let outside = self.ior_outside as f32;
+        let eta = self.ior as f32 / outside;
         let is_beckmann = most >= ggx::SMOOTH && self.distribution == Distribution::Beckmann;
         if is_beckmann || self.is_tinted() {
-            return self.tinted(compiler, eta, (alpha, most));
+            return self.tinted(compiler, [eta, outside], (alpha, most));
         }
         if most >= ggx::SMOOTH && self.anisotropy > 0.0 {
             return self.anisotropic(compiler, eta, alpha);
         }
-        let mut row = DielectricRow { eta, table: 0, varies: false, beckmann: false };
+        let mut row = DielectricRow { eta, outside, table: 0, varies: false, beckmann: false };
         let mut stage = Stage::Dielectric;
         if most >= ggx::SMOOTH {
-            row = DielectricRow::rough(compiler, eta, (alpha, most), self.energy_compensation);
+            row = DielectricRow::rough(compiler, [eta, outside], (alpha, most), self.energy_compensation);
             stage = Stage::RoughDielectric;
         }
         let inside = Some(self.transmittance.map(|x| x as f32));
@@ -171,6 +172,8 @@ impl Compile for Dielectric {
 pub(super) struct DielectricRow {
     /// Index inside over that outside.
     eta: f32,
+    /// Index outside.
+    outside: f32,
     /// First row of the table of lost energy.
     table: u32,
     /// The table has rows for every roughness.
@@ -180,31 +183,49 @@ pub(super) struct DielectricRow {
 }
 
 impl DielectricRow {
+    const VARIES: u32 = 1;
+    const BECKMANN: u32 = 2;
+
     /// A rough interface with GGX facets and its table.
-    fn rough(compiler: &mut MaterialCompiler, eta: f32, (alpha, most): (AlphaSource, f32), compensated: bool) -> DielectricRow {
+    fn rough(
+        compiler: &mut MaterialCompiler,
+        [eta, outside]: [f32; 2],
+        (alpha, most): (AlphaSource, f32),
+        compensated: bool,
+    ) -> DielectricRow {
         let varies = matches!(alpha, AlphaSource::Texture { .. });
         let compensated = compensated && (eta - 1.0).abs() >= FAINT;
         let table = compiler.tables.interface(compensated.then_some((eta, if varies { None } else { Some(most) })));
-        DielectricRow { eta, table, varies: varies && compensated, beckmann: false }
+        DielectricRow { eta, outside, table, varies: varies && compensated, beckmann: false }
     }
 
     fn pack(&self) -> [[f32; 4]; 3] {
-        let [varies, beckmann] = [self.varies, self.beckmann].map(|flag| f32::from(u8::from(flag)));
-        [[self.eta, f32::from_bits(self.table), varies, beckmann], [0.0; 4], [0.0; 4]]
+        let flag = |set: bool, flag: u32| if set { flag } else { 0 };
+        let flags = flag(self.varies, Self::VARIES) | flag(self.beckmann, Self::BECKMANN);
+        let outside = self.outside * self.outside;
+        [[self.eta, f32::from_bits(self.table), f32::from_bits(flags), outside], [0.0; 4], [0.0; 4]]
     }
 
     /// Lanes with Beckmann facets.
     #[inline(always)]
     pub fn read_beckmann<L: Lanes>(l: L, materials: &Materials, at: &Local<L>) -> M<L> {
-        let [_, _, _, beckmann] = materials.row(l, at.material, 0);
-        beckmann.above(0.0)
+        let [_, _, flags, _] = materials.row(l, at.material, 0);
+        !(flags.bits() & Self::BECKMANN).is(0)
+    }
+
+    /// The squared index outside, by which radiance there is less than in empty space.
+    #[inline(always)]
+    pub fn read_compression<L: Lanes>(l: L, materials: &Materials, at: &Local<L>) -> F<L> {
+        let [.., outside] = materials.row(l, at.material, 0);
+        outside
     }
 
     /// The index beyond the surface over that on the side of the viewer, the table, and whether roughness varies.
     #[inline(always)]
     pub fn read<L: Lanes>(l: L, materials: &Materials, at: &Local<L>) -> (F<L>, U<L>, M<L>) {
-        let [inside_over_outside, table, varies, _] = materials.row(l, at.material, 0);
-        (at.front.pick(inside_over_outside, 1.0 / inside_over_outside), table.bits(), varies.above(0.0))
+        let [inside_over_outside, table, flags, _] = materials.row(l, at.material, 0);
+        let eta = at.front.pick(inside_over_outside, 1.0 / inside_over_outside);
+        (eta, table.bits(), !(flags.bits() & Self::VARIES).is(0))
     }
 }
 
@@ -223,6 +244,11 @@ impl Shade for Dielectric {
     #[inline(always)]
     fn roulette_scale<L: Lanes>(bsdf: &DielectricBsdf<L>, front: M<L>, z: F<L>) -> F<L> {
         uncompressed(bsdf.eta, front, z)
+    }
+
+    #[inline(always)]
+    fn compression_outside<L: Lanes>(l: L, materials: &Materials, at: &Local<L>) -> F<L> {
+        DielectricRow::read_compression(l, materials, at)
     }
 }
 

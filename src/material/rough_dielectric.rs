@@ -32,6 +32,11 @@ impl Shade for RoughDielectric {
     fn roulette_scale<L: Lanes>(bsdf: &RoughDielectricBsdf<L>, front: M<L>, z: F<L>) -> F<L> {
         uncompressed(bsdf.eta(), front, z)
     }
+
+    #[inline(always)]
+    fn compression_outside<L: Lanes>(l: L, materials: &Materials, at: &Local<L>) -> F<L> {
+        DielectricRow::read_compression(l, materials, at)
+    }
 }
 
 /// The rough interface between two transparent media; radiance that passes is scaled by 1/η² as in [`DielectricBsdf`].

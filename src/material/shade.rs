@@ -72,4 +72,10 @@ pub trait Shade {
     fn roulette_scale<L: Lanes>(_bsdf: &Self::Bsdf<'_, L>, _front: M<L>, z: F<L>) -> F<L> {
         z.splat(1.0)
     }
+
+    /// The same on the outside, where surfaces lie within another medium.
+    #[inline(always)]
+    fn compression_outside<L: Lanes>(l: L, _materials: &Materials, _at: &Local<L>) -> F<L> {
+        l.f(1.0)
+    }
 }

@@ -61,6 +61,11 @@ impl Shade for TintedDielectric {
     fn roulette_scale<L: Lanes>(bsdf: &TintedDielectricBsdf<'_, L>, front: M<L>, z: F<L>) -> F<L> {
         uncompressed(bsdf.interface.eta(), front, z)
     }
+
+    #[inline(always)]
+    fn compression_outside<L: Lanes>(l: L, materials: &Materials, at: &Local<L>) -> F<L> {
+        DielectricRow::read_compression(l, materials, at)
+    }
 }
 
 /// The BSDF of a tinted dielectric at a point.

@@ -140,8 +140,9 @@ fn scatter_kind<L: Lanes, K: Shade>(
     let cosines = d.dot(hit.n).abs() / cosine(back, hit.n);
     // Refraction scales radiance, which roulette undoes; flux is not scaled.
     let front = vertex.local.front;
-    let judged = K::roulette_scale(&bsdf, front, sample.wi.z);
-    let unscaled = judged / K::roulette_scale(&bsdf, front, l.f(1.0));
+    let scale = K::roulette_scale(&bsdf, front, sample.wi.z);
+    let unscaled = scale / K::roulette_scale(&bsdf, front, l.f(1.0));
+    let judged = scale * K::compression_outside(l, &work.scene.surfaces.materials, &vertex.local);
     // Mirrors and glass keep the angles to the shading normal, but flux is measured across the surface.
     let (mut weight, mut of_delta, mut reversible) = (sample.weight, sample.weight * unscaled, l.first(L::N));
     if let Some(normal) = &normal {

@@ -1,5 +1,6 @@
 //! The random numbers that a path reads.
 mod lamps;
+mod nested_glass;
 mod sides;
 
 use std::collections::BTreeMap;
