@@ -14,7 +14,10 @@ use crate::{
     },
     sampling::Sampler,
     scene::{Camera, Estimator, RenderSettings, Reuse, Roulette, Scene},
-    validate::{Effort, Section, Statement, Validation, check::scene},
+    validate::{
+        Effort, Section, Statement, Validation,
+        check::{of_a_point, scene},
+    },
 };
 
 /// A scene with the exact means of the pixels where they are known.
@@ -67,12 +70,15 @@ pub fn section(validation: &Validation) -> Section {
         for (name, change) in TOGETHER {
             row(name, &|| change(defaults(validation)));
         }
+        for estimator in Estimator::ALL.into_iter().filter(|estimator| subject.suits(*estimator)) {
+            row(&format!("all defaults but {}", estimator.name()), &|| RenderSettings { estimator, ..defaults(validation) });
+        }
     }
     Section {
         title: "Default settings",
         claim: "The default settings, all together and one by one, give the exact means.",
         derivation: &[
-            "The defaults are MIS, Sobol points, BSDF directions, roulette by throughput from the fourth bounce on, and path reuse or shared bright samples if a trial shows a gain; adaptive sampling is optional. These rows render like the program itself, in passes over a film and after the same decisions. Path reuse and adaptive sampling have rows where the program applies them: paths are not reused at glass, for example, and uniform noise leaves nothing to adapt to.",
+            "The defaults are MIS, Sobol points, BSDF directions, roulette by throughput from the fourth bounce on, and path reuse or shared bright samples if a trial shows a gain; adaptive sampling is optional. These rows render like the program itself, in passes over a film and after the same decisions. The estimators with paths from lights have rows, too. Path reuse and adaptive sampling have rows where the program applies them: paths are not reused at glass, for example, and uniform noise leaves nothing to adapt to.",
             "The radiance of a wall of the textured integrating sphere is L_e + ρ H, with H from the section on that room. The ground under a lamp that is partly below the horizon has (ρ/π) E. The wall of the closed sphere has 0.5, and a clear ball of glass in a uniform field of 1 has 1. On Lambert’s ball the lit pixels are summed.",
             "These samples are not independent of each other, so their variance does not give the standard error. The image is rendered with several seeds. The means are independent, and their spread gives the standard error (Student’s t).",
         ],
@@ -99,6 +105,12 @@ impl KnownScene {
         KnownScene { name, exact: vec![Some(exact); (width * height) as usize], scene }
     }
 
+    /// Whether an estimator traces paths from lights, and finds light in the view.
+    fn suits(&self, estimator: Estimator) -> bool {
+        let sees_a_point = self.scene.camera.fov < 0.1;
+        estimator.traces_light_paths() && (!sees_a_point || of_a_point().any(|suited| suited == estimator))
+    }
+
     fn mean_exact(&self) -> f64 {
         let known: Vec<f64> = self.exact.iter().copied().flatten().collect();
         known.iter().sum::<f64>() / known.len() as f64
@@ -116,7 +128,8 @@ impl KnownScene {
         while film.spp() < spp && threads.pass(job, &mut film, spp, &|| false).failure.is_none() {}
         let sharing = self.scene.sharing(&rays, &settings);
         let does_not_share = asked.reuse != Reuse::Auto && sharing.reuse() != asked.reuse;
-        if does_not_share || (asked.adaptive && !film.is_adaptive()) {
+        let starts_no_paths = self.scene.lacks_light_paths(&asked).is_some();
+        if does_not_share || starts_no_paths || (asked.adaptive && !film.is_adaptive()) {
             return None;
         }
         let (mut sum, mut count) = (0.0, 0.0);
