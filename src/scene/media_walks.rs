@@ -40,6 +40,7 @@ struct Ray {
     media: u32,
 }
 
+/// A walk at a time.
 struct Walk<'a> {
     scene: &'a Scene,
     time: F<One>,
@@ -78,6 +79,9 @@ impl<'a> Walk<'a> {
         let [choice, place, direction, cell] = [(); 4].map(|()| self.pair());
         let u = RayCoordinates { choice, place, direction, cell, side: self.number() };
         let start = rays.sample(One, &self.scene.lights, &self.scene.shapes, self.time, &u);
+        if start.inverse_density.0 <= 0.0 {
+            return Ok(());
+        }
         let mut ray = Ray { o: start.o, d: start.d, media: start.media.0 };
         for _ in 0..MOST_REFLECTIONS {
             let way = V::splat(One, self.scene.camera.eye.as_vec3().to_array()) - ray.o;
