@@ -9,7 +9,7 @@ use crate::{
     math::SimdLevel,
     measure::{Floor, relative},
     parallel::PerThread,
-    scene::{CameraRays, RenderSettings, Reuse, Scene, Sharing},
+    scene::{CameraRays, Estimator, RenderSettings, Reuse, Scene, Sharing},
 };
 
 /// Positions of the tiles in the image.
@@ -31,9 +31,9 @@ const LEAST_GAIN: f64 = 1.3;
 /// Seeds that images are unlikely to have.
 const SEEDS: [u32; 2] = [0x7f4a_7c15, 0x2545_f491];
 
-/// The same settings, with [`Estimator::Auto`](crate::scene::Estimator::Auto) and [`Reuse::Auto`] resolved. Where sharing is possible, the
-/// decision depends on the scene alone and is made once, with the scene's own estimator: a change of sampler, estimator or cap never turns
-/// sharing on or off.
+/// The same settings, with [`Estimator::Auto`] and [`Reuse::Auto`] resolved. Where sharing is possible, the decision depends on the scene
+/// alone and is made once, with the scene's own estimator, or with `mis` if that one has paths from lights: a change of sampler, estimator
+/// or cap never turns sharing on or off.
 pub fn resolved(scene: &Scene, rays: &CameraRays, settings: &RenderSettings) -> RenderSettings {
     resolved_unless(scene, rays, settings, &|| false).unwrap_or(*settings)
 }
@@ -77,7 +77,10 @@ struct Trial {
 
 /// Tries path suffixes first, and then bright samples in addition to what is better.
 fn best(scene: &Scene, interrupted: &(dyn Fn() -> bool + Sync)) -> Result<Sharing, Interrupted> {
-    let settings = RenderSettings { estimator: scene.settings.estimator, ..Default::default() };
+    // With paths from lights nothing is shared, but another estimator may be chosen later.
+    let own = scene.settings.estimator;
+    let estimator = if own.traces_light_paths() { Estimator::Mis } else { own };
+    let settings = RenderSettings { estimator, ..Default::default() };
     let rays = scene.rays(&scene.camera);
     let possible = scene.possible_sharing(&rays, &settings);
     let batches = PerThread::new(rayon::current_num_threads());
