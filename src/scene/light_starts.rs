@@ -3,12 +3,11 @@ use glam::DVec3;
 
 use super::{
     BY_SIDE, BlendParts, Estimator, MaterialInstance, Object, Properties, Scene,
-    surface::{ONE_SIDED, STAGE_MASK, STAGE_SHIFT},
+    surface::{ONE_SIDED, transmits},
 };
 use crate::{
     geometry::{Bounds, Shape},
     light::{LightRays, LightStart},
-    material::Stage,
     math::{F, One, U},
     texture::NumberSource,
 };
@@ -45,7 +44,7 @@ impl Scene {
         let unknown = starts.iter().find_map(|start| start.err());
         let rays = LightRays::new(&self.lights, &starts, center, radius);
         let rays = rays.ok_or(unknown.unwrap_or("no lights, or too many, from which paths could start"))?;
-        if !self.surfaces.media.is_empty() && !self.has_reversible_media(&rays) {
+        if !self.surfaces.media.is_empty() && !self.has_reversible_media(&rays, center + DVec3::X * radius) {
             return Err("tinted glass that is open, or that overlaps with other glass");
         }
         // From some sides a shading normal is another one than from the light.
@@ -109,8 +108,6 @@ impl Scene {
 
     /// Whether light passes a surface from one side that it does not pass from the other, so that a path is another one in reverse.
     fn transmits_from_one_side(&self) -> bool {
-        let transmits =
-            |word: u32| Stage::ALL.get((word >> STAGE_SHIFT & STAGE_MASK) as usize).is_some_and(|stage| stage.transmits());
         let differs = |object: &Object| self.material(object).is_some_and(|material| self.passes_by_side(material));
         self.surfaces.words().any(|word| word & ONE_SIDED != 0 && transmits(word)) || self.objects.iter().any(differs)
     }
@@ -131,7 +128,7 @@ impl Scene {
     }
 
     /// A sphere around all objects in all of their poses.
-    pub(super) fn bounding_sphere(&self) -> (DVec3, f64) {
+    fn bounding_sphere(&self) -> (DVec3, f64) {
         let spheres: Vec<_> = self.objects.iter().map(|object| object.shape.swept_sphere(&object.motion)).collect();
         let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         for (center, radius) in &spheres {

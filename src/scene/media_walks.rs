@@ -8,12 +8,11 @@ use glam::DVec3;
 
 use super::{
     Scene,
-    surface::{FLIPPED, SHEET, STAGE_MASK, STAGE_SHIFT},
+    surface::{FLIPPED, SHEET, transmits},
 };
 use crate::{
     geometry::{MISS, PrimitiveRef},
     light::{LightRays, RayCoordinates},
-    material::Stage,
     math::{F, Frame, Lanes, One, U, V},
     sampling::{
         hash::{hash_one, unit},
@@ -49,10 +48,9 @@ struct Walk<'a> {
 }
 
 impl Scene {
-    /// Whether walks that start with `rays` find the same media in both directions.
-    pub(super) fn has_reversible_media(&self, rays: &LightRays) -> bool {
-        let (center, radius) = self.bounding_sphere();
-        let known = [self.camera.eye, center + DVec3::X * radius].map(|p| self.media_at(p, 0.0));
+    /// Whether walks that start with `rays` find the same media in both directions. `outside` lies outside of all objects.
+    pub(super) fn has_reversible_media(&self, rays: &LightRays, outside: DVec3) -> bool {
+        let known = [self.camera.eye, outside].map(|p| self.media_at(p, 0.0));
         (0..WALKS).all(|number| Walk::new(self, number).run(rays, known).is_ok())
     }
 }
@@ -133,9 +131,8 @@ impl<'a> Walk<'a> {
     }
 
     fn transmits(&self, primitive: u32) -> bool {
-        let stage = Stage::ALL.get((self.word(primitive) >> STAGE_SHIFT & STAGE_MASK) as usize);
         let object = &self.scene.objects[self.scene.owners[primitive as usize] as usize];
-        stage.is_some_and(|stage| stage.transmits()) || self.scene.lets_pass(object)
+        transmits(self.word(primitive)) || self.scene.lets_pass(object)
     }
 
     /// The media behind a surface.

@@ -7,8 +7,8 @@ mod tests;
 mod word;
 
 pub use self::word::{
-    BLENDED, FLIPPED, FRONT, MIRRORED, ONE_SIDED, SCATTERS_WHERE_BLACK, SELF_LIT, SHADOWED, SHEET, SQUARED, STAGE_MASK,
-    STAGE_SHIFT, is_set, material, stage,
+    BLENDED, FLIPPED, FRONT, MIRRORED, ONE_SIDED, SCATTERS_WHERE_BLACK, SELF_LIT, SHADOWED, SHEET, SQUARED, STAGE_SHIFT, is_set,
+    material, stage, transmits,
 };
 use self::{
     applied::AppliedMaterial,

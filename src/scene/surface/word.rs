@@ -47,6 +47,11 @@ pub fn stage<L: Lanes>(word: U<L>) -> U<L> {
     (word >> STAGE_SHIFT) & STAGE_MASK
 }
 
+/// Whether light passes the surface of a word by its material.
+pub fn transmits(word: u32) -> bool {
+    Stage::ALL.get((word >> STAGE_SHIFT & STAGE_MASK) as usize).is_some_and(|stage| stage.transmits())
+}
+
 /// Whether a flag is set in a word.
 #[inline(always)]
 pub fn is_set<L: Lanes>(word: U<L>, flag: u32) -> M<L> {
