@@ -24,6 +24,8 @@ const COST: f64 = 2.1;
 const COST_WITH_TREES: f64 = 1.4;
 /// Cost of a ray of a replay relative to other rays: replays are few, and go where paths are long.
 const COST_OF_REPLAYS: f64 = 1.5;
+/// Rays of replays, relative to all others, from which suffixes may pay by the replays that they spare.
+const MANY_REPLAYS: f64 = 0.5;
 /// Bright samples are tried if outliers have this part of the error. With less, all of them could not gain as much.
 const LEAST_OUTLIERS: f64 = 0.2;
 /// The gain that makes correlated noise worth it. The trial sees few bright samples.
@@ -75,7 +77,8 @@ struct Trial {
     rays: f64,
 }
 
-/// Tries path suffixes first, and then bright samples in addition to what is better.
+/// Tries path suffixes first, and then bright samples in addition to what is better. Suffixes that do not pay alone are tried again where
+/// replays are many: they leave fewer bright samples.
 fn best(scene: &Scene, interrupted: &(dyn Fn() -> bool + Sync)) -> Result<Sharing, Interrupted> {
     // With paths from lights nothing is shared, but another estimator may be chosen later.
     let own = scene.settings.estimator;
@@ -95,14 +98,21 @@ fn best(scene: &Scene, interrupted: &(dyn Fn() -> bool + Sync)) -> Result<Sharin
         }
     }
     let with_bright = if best.0.has_suffixes() { Sharing::Both } else { Sharing::BrightSamples };
-    if possible.contains(&with_bright) && part_of_outliers(&best.1) > LEAST_OUTLIERS {
-        let bright = trial(with_bright)?;
-        let cost = 1.0 + COST_OF_REPLAYS * (bright.rays / best.1.rays.max(1.0) - 1.0);
-        if gain(&best.1, &bright) > LEAST_GAIN * cost {
-            return Ok(with_bright);
+    if !possible.contains(&with_bright) || part_of_outliers(&best.1) <= LEAST_OUTLIERS {
+        return Ok(best.0);
+    }
+    let bright = trial(with_bright)?;
+    let replays = bright.rays / best.1.rays.max(1.0) - 1.0;
+    if gain(&best.1, &bright) <= LEAST_GAIN * (1.0 + COST_OF_REPLAYS * replays) {
+        return Ok(best.0);
+    }
+    if !best.0.has_suffixes() && possible.contains(&Sharing::Both) && replays > MANY_REPLAYS {
+        let both = trial(Sharing::Both)?;
+        if gain(&bright, &both) > LEAST_GAIN * (both.rays / bright.rays).max(1.0) {
+            return Ok(Sharing::Both);
         }
     }
-    Ok(best.0)
+    Ok(with_bright)
 }
 
 /// The factor by which the squared error falls, relative to the means of both trials.
