@@ -14,7 +14,7 @@ use noisefall::{
         threads::{PassJob, Threads},
         tone::to_srgb,
     },
-    scene::{Camera, RenderSettings, Scene, built_in, load, parse},
+    scene::{Camera, Estimator, RenderSettings, Scene, built_in, load, parse},
 };
 
 const RESOLUTION: [u32; 2] = [1280, 720];
@@ -40,8 +40,14 @@ fn first_picture(c: &mut Criterion) {
     let threads = Threads::new(0, SimdLevel::best()).expect("threads can be had");
     let renderer = Renderer::new(threads, Publish::Live, notify);
     let triangles = load("scenes/million_triangles.toml".as_ref()).expect("a shipped scene compiles");
+    let usual = RenderSettings::default();
+    let from_both_ends = RenderSettings { estimator: Estimator::Bidirectional, ..usual };
     let mut generation = 0;
-    for (name, scene) in [("the built-in scene", built_in()), ("1.28 million triangles", triangles)] {
+    for (name, scene, settings) in [
+        ("the built-in scene", built_in(), usual),
+        ("the built-in scene from both ends", built_in(), from_both_ends),
+        ("1.28 million triangles", triangles, usual),
+    ] {
         let scene = Arc::new(scene);
         c.bench_function(&format!("1280 x 720, camera change to first coarse picture, {name}, all cores"), |b| {
             b.iter(|| {
@@ -49,7 +55,7 @@ fn first_picture(c: &mut Criterion) {
                 let mut camera = Camera { resolution: RESOLUTION, ..scene.camera };
                 // No camera comes twice: its samples would be given back.
                 camera.eye.x += (generation % 7) as f64 * 0.01 + generation as f64 * 1e-9;
-                renderer.submit(generation, RenderRequest { scene: scene.clone(), camera, settings: RenderSettings::default() });
+                renderer.submit(generation, RenderRequest { scene: scene.clone(), camera, settings });
                 while renderer.latest().frame.generation != generation {
                     let _ = woken.recv();
                 }
@@ -58,17 +64,20 @@ fn first_picture(c: &mut Criterion) {
     }
 }
 
-/// Time from a change to the finished image of 16 × 16 pixels, while paths of thousands of bounces render on all cores.
+/// Time from a change to the finished image of 16 × 16 pixels, while paths of thousands of bounces, or paths from both ends with all of
+/// their connections, render on all cores.
 fn leaves_what_is_heavy(c: &mut Criterion) {
-    let sphere = |albedo: f64, resolution: [u32; 2]| {
+    let sphere = |albedo: f64, resolution: [u32; 2], estimator: &str| {
         let text = format!(
             "format = 1\ncamera = {{ eye = [0, 0, 0], look_at = [0, 0, 1], fov = 60, resolution = {resolution:?} }}\n\
              materials.wall.lambertian.albedo = {albedo:?}\n[[objects]]\nshape.sphere = {{ center = [0, 0, 0], radius = 1 }}\n\
-             material = 'wall'\nflip = true\nemission.radiance = 1\n[render]\nroulette = 'off'\n"
+             material = 'wall'\nflip = true\nemission.radiance = 1\n[render]\nroulette = 'off'\n{estimator}"
         );
         Arc::new(parse("sphere.toml", text).expect("it is good"))
     };
-    let (heavy, light) = (sphere(0.9999, RESOLUTION), sphere(0.0, [16, 16]));
+    let light = sphere(0.0, [16, 16], "");
+    let long_paths = sphere(0.9999, RESOLUTION, "");
+    let both_ends = sphere(0.9999, RESOLUTION, "estimator = 'bidirectional'\nmax_bounces = 64\n");
     let renderer = Renderer::new(Threads::new(0, SimdLevel::best()).expect("threads can be had"), Publish::Live, || {});
     let mut generation = 0;
     let mut submit = |scene: &Arc<Scene>| {
@@ -76,22 +85,24 @@ fn leaves_what_is_heavy(c: &mut Criterion) {
         renderer.submit(generation, RenderRequest { scene: scene.clone(), camera: scene.camera, settings: scene.settings });
         generation
     };
-    c.bench_function("16 x 16, a change while a heavy picture renders, all cores", |b| {
-        b.iter_custom(|count| {
-            let mut sum = Duration::ZERO;
-            for _ in 0..count {
-                submit(&heavy);
-                std::thread::sleep(Duration::from_millis(15));
-                let start = Instant::now();
-                let asked = submit(&light);
-                while renderer.latest().frame.generation != asked {
-                    std::thread::sleep(Duration::from_micros(50));
+    for (name, heavy) in [("a heavy picture renders", long_paths), ("paths from both ends render", both_ends)] {
+        c.bench_function(&format!("16 x 16, a change while {name}, all cores"), |b| {
+            b.iter_custom(|count| {
+                let mut sum = Duration::ZERO;
+                for _ in 0..count {
+                    submit(&heavy);
+                    std::thread::sleep(Duration::from_millis(15));
+                    let start = Instant::now();
+                    let asked = submit(&light);
+                    while renderer.latest().frame.generation != asked {
+                        std::thread::sleep(Duration::from_micros(50));
+                    }
+                    sum += start.elapsed();
                 }
-                sum += start.elapsed();
-            }
-            sum
+                sum
+            });
         });
-    });
+    }
 }
 
 fn one_pass(c: &mut Criterion) {

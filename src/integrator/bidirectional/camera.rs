@@ -11,6 +11,7 @@ use super::{
 use crate::{
     integrator::{
         batch::Batch,
+        interrupted::Interrupted,
         light_paths::{
             partial::{Others, cosine},
             path_state::PathVertex,
@@ -30,15 +31,16 @@ use crate::{
     sampling::Dimension,
 };
 
-/// Runs the stage.
+/// Runs the stage. A stage with many connections takes milliseconds, so it can be interrupted, too.
 #[simd]
 pub(super) fn shade_camera_paths<L: Lanes, O: Observer<L>>(
     l: L,
     work: &Work,
     batch: &mut Batch,
     state: &mut LightPaths,
+    interrupted: &dyn Fn() -> bool,
     observer: &mut O,
-) {
+) -> Result<(), Interrupted> {
     let Batch { paths, hits, bounce, radiance, rays, .. } = batch;
     let reflection = *bounce + 1;
     let next = &mut paths[(reflection & 1) as usize];
@@ -58,6 +60,9 @@ pub(super) fn shade_camera_paths<L: Lanes, O: Observer<L>>(
     for stage in &work.scene.surfaces.stages {
         let hits = &hits[*stage as usize];
         for at in hits.registers(l) {
+            if connects && interrupted() {
+                return Err(Interrupted);
+            }
             let vertex = state.ends[1].read(l, hits, at);
             if stage.sees_lights() && !is_joined {
                 queue_light_sample(l, work, *stage, hits, at, &vertex, reflection, merged, &mut state.direct);
@@ -96,6 +101,7 @@ pub(super) fn shade_camera_paths<L: Lanes, O: Observer<L>>(
         }
     }
     finish_connections(l, work, reflection, state, radiance, rays, observer);
+    Ok(())
 }
 
 /// Samples lights, and queues the samples that would contribute if they are visible.

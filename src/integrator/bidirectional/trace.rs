@@ -93,7 +93,7 @@ fn trace_camera_paths<L: Lanes, O: Observer<L>>(
             batch.cut_paths += if cut_short { batch.hits.iter().map(HitQueues::len).sum::<usize>() as u64 } else { 0 };
             break;
         }
-        shade_camera_paths(l, work, batch, state, observer);
+        shade_camera_paths(l, work, batch, state, interrupted, observer)?;
         test_light_samples(l, work, rays, batch, state, observer);
         batch.bounce += 1;
     }
