@@ -4,8 +4,8 @@ use super::{
 };
 use crate::math::{SimdLevel, in_few_lanes};
 
-/// Traces one sample of every pixel of a tile; the result is [`Batch::radiance`]. Calls `interrupted` before every bounce, and where
-/// pixels share.
+/// Traces one sample of every pixel of a tile; the result is [`Batch::radiance`]. Calls `interrupted` before every bounce, while paths from
+/// both ends are connected, and where pixels share.
 pub fn trace(level: SimdLevel, work: &Work, batch: &mut Batch, interrupted: &dyn Fn() -> bool) -> Result<(), Interrupted> {
     if let Some(rays) = work.scene.light_rays(work.settings) {
         return in_few_lanes!(level, l => trace_both_ends(l, work, rays, batch, interrupted, &mut ()));

@@ -23,8 +23,8 @@ use crate::{
 };
 
 impl Threads {
-    /// Brings a film to `spp` samples per pixel, or stops between two bounces if `interrupted` returns true. An interrupted tile
-    /// continues later as if nothing had happened.
+    /// Brings a film to `spp` samples per pixel, or stops within a sample if `interrupted` returns true. An interrupted tile continues
+    /// later as if nothing had happened.
     pub fn pass(&self, job: PassJob, film: &mut Film, spp: u32, interrupted: &(dyn Fn() -> bool + Sync)) -> PassCount {
         if spp > UNIFORM {
             // A pilot that fails is given up: the samples of the picture will fail as well, and it is known which.

@@ -50,8 +50,8 @@ pub trait SampledTile {
 }
 
 impl Threads {
-    /// Brings a tile to its goal, or stops between two bounces if `interrupted` returns true. The tile is then as if the samples that
-    /// were being traced had not begun.
+    /// Brings a tile to its goal, or stops within a sample if `interrupted` returns true. The tile is then as if the samples that were being
+    /// traced had not begun.
     pub(super) fn sample_tile(
         &self,
         job: PassJob,

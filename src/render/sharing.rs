@@ -24,7 +24,7 @@ const COST: f64 = 2.1;
 const COST_WITH_TREES: f64 = 1.4;
 /// Cost of a ray of a replay relative to other rays: replays are few, and go where paths are long.
 const COST_OF_REPLAYS: f64 = 1.5;
-/// Rays of replays, relative to all others, from which suffixes may pay by the replays that they spare.
+/// Rays of replays, relative to all others, from which suffixes that do not pay alone are tried together with bright samples.
 const MANY_REPLAYS: f64 = 0.5;
 /// Bright samples are tried if outliers have this part of the error. With less, all of them could not gain as much.
 const LEAST_OUTLIERS: f64 = 0.2;
@@ -77,8 +77,8 @@ struct Trial {
     rays: f64,
 }
 
-/// Tries path suffixes first, and then bright samples in addition to what is better. Suffixes that do not pay alone are tried again where
-/// replays are many: they leave fewer bright samples.
+/// Tries path suffixes first, and then bright samples in addition to what is better. Suffixes that do not pay alone are tried again beside
+/// many replays: they leave fewer bright samples, and take a smaller part of the time.
 fn best(scene: &Scene, interrupted: &(dyn Fn() -> bool + Sync)) -> Result<Sharing, Interrupted> {
     // With paths from lights nothing is shared, but another estimator may be chosen later.
     let own = scene.settings.estimator;

@@ -73,8 +73,9 @@ impl Scene {
     /// Why an estimator with these settings has no paths from lights, whatever the lights.
     fn obstacle_of_settings(&self, settings: &RenderSettings) -> Option<&'static str> {
         let may_be_long = settings.max_bounces.is_none_or(|cap| cap > MOST_BOUNCES);
-        let goes_on_for_ever = settings.estimator.connects() && settings.roulette.survival() > MOST_SURVIVORS && may_be_long;
-        if goes_on_for_ever {
+        let RenderSettings { roulette, .. } = settings;
+        let most_survive = roulette.survival() > MOST_SURVIVORS || !roulette.plays_at(MOST_BOUNCES);
+        if settings.estimator.connects() && most_survive && may_be_long {
             return Some(ENDLESS);
         }
         self.counts_crossings(settings).then_some(COUNTED)
@@ -103,5 +104,28 @@ impl Scene {
         }
         let best = self.estimator_by_trial.get().filter(|_| is_auto)?;
         Some(EstimatorInForce { estimator: *best, reason: "least error in a trial".to_owned() })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Roulette, built_in};
+
+    #[test]
+    fn paths_that_end_late_are_connected_only_below_a_cap() {
+        let scene = built_in();
+        let late = Roulette::by_throughput_from;
+        for (roulette, max_bounces, connects) in [
+            (late(4), None, true),
+            (late(MOST_BOUNCES), None, true),
+            (late(MOST_BOUNCES + 1), None, false),
+            (late(4000), Some(MOST_BOUNCES), true),
+            (late(4000), Some(MOST_BOUNCES + 1), false),
+        ] {
+            let estimator = Estimator::Bidirectional;
+            let settings = RenderSettings { estimator, roulette, max_bounces, ..RenderSettings::default() };
+            assert_eq!(scene.traces_light_paths(&settings), connects, "{roulette:?}, {max_bounces:?}");
+        }
     }
 }

@@ -112,7 +112,7 @@ impl<'a> Walk<'a> {
             // No line crosses the same side of a surface twice in succession: because of rounding it is the same crossing.
             let side = Some((nearest.primitive.0, nearest.element.0, is_front));
             if side != last {
-                if !self.transmits(nearest.primitive.0) || self.number().0 < reflected {
+                if !self.passes(nearest.primitive.0) || self.number().0 < reflected {
                     let d = Frame::new(n).world_from_local(cosine_hemisphere(self.pair()));
                     return Ok(Some(Ray { o: point.p + n * point.error, d, media: ray.media }));
                 }
@@ -130,7 +130,7 @@ impl<'a> Walk<'a> {
         self.scene.surfaces.rows[primitive as usize][3].to_bits()
     }
 
-    fn transmits(&self, primitive: u32) -> bool {
+    fn passes(&self, primitive: u32) -> bool {
         let object = &self.scene.objects[self.scene.owners[primitive as usize] as usize];
         transmits(self.word(primitive)) || self.scene.lets_pass(object)
     }

@@ -24,7 +24,7 @@ pub struct Study<'a> {
     pub threads: &'a Threads,
     /// The machine, as reports name it.
     pub machine: &'a Machine,
-    /// Whether to stop. Called between two bounces of a batch.
+    /// Whether to stop. Called between two bounces of a batch, and while paths are connected.
     pub stop: &'a (dyn Fn() -> bool + Sync),
 }
 

@@ -31,7 +31,10 @@ use crate::{
     sampling::Dimension,
 };
 
-/// Runs the stage. A stage with many connections takes milliseconds, so it can be interrupted, too.
+/// Vertices that are connected before the next look at whether to stop, a multiple of all numbers of lanes.
+const UNINTERRUPTED: usize = 256;
+
+/// Runs the stage. With many connections it takes milliseconds, so it can be interrupted, too.
 #[simd]
 pub(super) fn shade_camera_paths<L: Lanes, O: Observer<L>>(
     l: L,
@@ -60,7 +63,7 @@ pub(super) fn shade_camera_paths<L: Lanes, O: Observer<L>>(
     for stage in &work.scene.surfaces.stages {
         let hits = &hits[*stage as usize];
         for at in hits.registers(l) {
-            if connects && interrupted() {
+            if connects && at.start % UNINTERRUPTED == 0 && interrupted() {
                 return Err(Interrupted);
             }
             let vertex = state.ends[1].read(l, hits, at);

@@ -47,7 +47,7 @@ pub fn stage<L: Lanes>(word: U<L>) -> U<L> {
     (word >> STAGE_SHIFT) & STAGE_MASK
 }
 
-/// Whether light passes the surface of a word by its material.
+/// Whether the material in a word transmits light.
 pub fn transmits(word: u32) -> bool {
     Stage::ALL.get((word >> STAGE_SHIFT & STAGE_MASK) as usize).is_some_and(|stage| stage.transmits())
 }

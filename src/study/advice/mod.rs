@@ -37,7 +37,7 @@ const ROUNDS: u32 = 8;
 const LEAST_SIDE: f64 = 32.0;
 
 /// Tries candidates that could be better than `settings` for about this `time`. `progress` gets the number of images that are
-/// finished and the number of all. `stop` is called between two bounces.
+/// finished and the number of all. `stop` is called within every batch.
 pub fn advise(
     scene: &Scene,
     camera: &Camera,
