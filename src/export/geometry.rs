@@ -30,7 +30,7 @@ pub fn model_of(data: &MeshData) -> Model {
         triangles: data.triangles.clone(),
         normals: (!data.normals.is_empty()).then(|| data.normals.clone()),
         uvs: (!data.uvs.is_empty()).then(|| data.uvs.clone()),
-        colours: (!data.colours.is_empty()).then(|| data.colours.to_vec()),
+        colours: (!data.colours.is_empty()).then(|| data.colours.clone()),
     }
 }
 

@@ -59,6 +59,8 @@ pub trait Lanes: ExtractToken + Copy + Send + Sync + 'static {
     fn load(self, from: &[f32]) -> F<Self>;
     /// Row `index[lane]` of a table of four numbers for every lane, transposed into four columns.
     fn rows(self, table: &[[f32; 4]], index: U<Self>) -> [F<Self>; 4];
+    /// The first `N` rows as four columns.
+    fn transposed(self, rows: &[[f32; 4]]) -> [F<Self>; 4];
 
     /// Writes all lanes to the start of a slice.
     fn store(x: Self::Real, to: &mut [f32]);

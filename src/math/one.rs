@@ -33,6 +33,11 @@ impl Lanes for One {
         [F(x), F(y), F(z), F(w)]
     }
     #[inline(always)]
+    fn transposed(self, rows: &[[f32; 4]]) -> [F<Self>; 4] {
+        let [x, y, z, w] = rows[0];
+        [F(x), F(y), F(z), F(w)]
+    }
+    #[inline(always)]
     fn store(x: f32, to: &mut [f32]) {
         to[0] = x;
     }

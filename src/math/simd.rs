@@ -61,8 +61,12 @@ macro_rules! simd_lanes {
                 for lane in 0..$n {
                     rows[lane] = table[at[lane] as usize];
                 }
+                self.transposed(&rows)
+            }
+            #[inline(always)]
+            fn transposed(self, rows: &[[f32; 4]]) -> [F<Self>; 4] {
                 // Not `as_flattened`, which is not inlined.
-                let flat: &[f32] = ::bytemuck::cast_slice(&rows);
+                let flat: &[f32] = ::bytemuck::cast_slice(rows);
                 let quarter = |q: usize| <$real>::from_slice(self.0, &flat[q * $n..(q + 1) * $n]);
                 let (even0, odd0) = quarter(0).deinterleave(quarter(1));
                 let (even1, odd1) = quarter(2).deinterleave(quarter(3));

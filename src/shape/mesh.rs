@@ -246,7 +246,7 @@ fn from_file(resources: &Resources, file: &NamedFile, smooth: bool) -> Result<Me
     // Textures of vertex colours count on their range. NaN becomes 0.
     colours.as_flattened_mut().iter_mut().for_each(|x| *x = if *x > 0.0 { x.min(1.0) } else { 0.0 });
     let (normals, uvs) = (normals.unwrap_or_default(), uvs.unwrap_or_default());
-    Ok(MeshData { vertices, triangles, normals, uvs, colours: Arc::new(colours) })
+    Ok(MeshData { vertices, triangles, normals, uvs, colours })
 }
 
 fn from_lists(resources: &Resources, vertices: &[[f64; 3]], triangles: &[[u32; 3]], smooth: bool) -> Result<MeshData, Problem> {
@@ -302,6 +302,6 @@ mod tests {
         std::fs::write(&path, text).expect("it is written");
         let resources = Resources::new("");
         let data = from_file(&resources, &resources.file(&path.display().to_string()), true).expect("it is a mesh");
-        assert_eq!(*data.colours, [[0.5, 1.0, 0.0, 1.0], [0.0, 0.0, 0.0, 1.0], [1.0; 4]]);
+        assert_eq!(data.colours, [[0.5, 1.0, 0.0, 1.0], [0.0, 0.0, 0.0, 1.0], [1.0; 4]]);
     }
 }

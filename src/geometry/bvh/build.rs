@@ -96,7 +96,10 @@ impl Bvh {
         }
         progress.advance(if count <= REPORT { count as u64 } else { 0 })?;
         let [min, max] = [all.bounds.min, all.bounds.max].map(|corner| corner.truncate().to_array());
-        let (nodes, order) = Collapse::of(&branches, &items, LEAF_SIZE);
+        // The boxes of the items are not needed any more, and take most of the memory.
+        let numbers: Vec<u32> = items.par_iter().map(Item::number).collect();
+        drop(items);
+        let (nodes, order) = Collapse::of(&branches, &numbers, LEAF_SIZE);
         Ok((Bvh { nodes, bounds: Bounds { min, max } }, order))
     }
 }

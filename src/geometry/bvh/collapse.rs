@@ -5,11 +5,7 @@
 //! over i of C_left(i) + C_right(k − i), or one tree, a node over the cheapest eight. (Dynamic programming after H. Ylitalo et
 //! al., "Efficient incoherent ray traversal on GPUs through compressed wide BVHs", HPG 2017.) The usual method, splitting the
 //! largest children until there are eight, leaves half of the slots empty, mostly at the bottom, where most nodes are.
-use super::{
-    LEAF, Node, WIDTH,
-    bins::Aabb,
-    item::{Item, NONE},
-};
+use super::{LEAF, Node, WIDTH, bins::Aabb, item::NONE};
 
 /// Cost of a leaf relative to a node.
 const LEAF_COST: f32 = 1.0;
@@ -90,7 +86,8 @@ impl Branch {
 /// The wide tree during construction.
 pub(super) struct Collapse<'a> {
     branches: &'a [Branch],
-    items: &'a [Item],
+    /// The numbers of all items, in the order of the branches.
+    items: &'a [u32],
     leaf_size: usize,
     nodes: Vec<Node>,
     order: Vec<u32>,
@@ -104,7 +101,7 @@ struct Children {
 
 impl Collapse<'_> {
     /// Returns the nodes, with the root first (none if there are no items), and the numbers of the items in leaves.
-    pub fn of(branches: &[Branch], items: &[Item], leaf_size: usize) -> (Vec<Node>, Vec<u32>) {
+    pub fn of(branches: &[Branch], items: &[u32], leaf_size: usize) -> (Vec<Node>, Vec<u32>) {
         let leaves = branches.len().div_ceil(2);
         let (nodes, order) = (Vec::with_capacity(leaves / (WIDTH - 2)), Vec::with_capacity(leaves * leaf_size));
         let mut collapse = Collapse { branches, items, leaf_size, nodes, order };
@@ -168,7 +165,7 @@ impl Collapse<'_> {
 
     fn leaf(&mut self, branch: &Branch) -> u32 {
         let leaf = (self.order.len() / self.leaf_size) as u32;
-        self.order.extend(self.items[branch.link as usize..][..branch.count as usize].iter().map(Item::number));
+        self.order.extend_from_slice(&self.items[branch.link as usize..][..branch.count as usize]);
         self.order.resize((leaf as usize + 1) * self.leaf_size, NONE);
         LEAF | leaf
     }

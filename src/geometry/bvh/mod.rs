@@ -62,9 +62,4 @@ impl Bvh {
     pub fn bounds(&self) -> Bounds {
         self.bounds
     }
-
-    /// Memory in bytes.
-    pub fn bytes(&self) -> usize {
-        self.nodes.len() * size_of::<Node>()
-    }
 }

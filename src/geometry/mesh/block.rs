@@ -94,9 +94,9 @@ impl Shears {
 }
 
 impl Block {
-    pub fn new(triangles: &[[[f32; 3]; 3]], first: u32) -> Block {
+    pub fn new(triangles: impl Iterator<Item = [[f32; 3]; 3]>, first: u32) -> Block {
         let mut corners = [[[f32::NAN; SIZE]; 3]; 3];
-        for (place, triangle) in triangles.iter().enumerate() {
+        for (place, triangle) in triangles.enumerate() {
             for (corner, vertex) in triangle.iter().enumerate() {
                 for axis in 0..3 {
                     corners[corner][axis][place] = vertex[axis];

@@ -1,12 +1,12 @@
-//! Vertices and triangles of a mesh, before its tree is built.
-use std::{borrow::Cow, sync::Arc};
+//! Vertices and triangles of a mesh, as a scene describes them.
+use std::borrow::Cow;
 
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 use rayon::prelude::*;
 
 use crate::geometry::bounds::Bounds;
 
-/// Vertices and triangles. `normals`, `uvs` and `colours` belong to the vertices; they may be empty.
+/// Vertices and triangles. `normals`, `uvs` and `colours` have one entry for each vertex, or none.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MeshData {
     /// Positions, metres.
@@ -17,8 +17,8 @@ pub struct MeshData {
     pub normals: Vec<[f32; 3]>,
     /// v is upwards.
     pub uvs: Vec<[f32; 2]>,
-    /// Linear Rec. 709 and opacity, from 0 to 1. The mesh shares them.
-    pub colours: Arc<Vec<[f32; 4]>>,
+    /// Linear Rec. 709 and opacity, from 0 to 1.
+    pub colours: Vec<[f32; 4]>,
 }
 
 impl MeshData {
@@ -40,25 +40,19 @@ impl MeshData {
         boxes
     }
 
-    /// The image of the mesh under a map. The front stays the front, even if the map mirrors.
+    /// The image of the mesh under a map.
     pub fn transformed(&self, map: &DAffine3) -> Cow<'_, MeshData> {
         if *map == DAffine3::IDENTITY {
             return Cow::Borrowed(self);
         }
-        let posed = self.posed(map);
+        let pose = Pose::new(map);
         Cow::Owned(MeshData {
-            vertices: self.vertices.par_iter().map(|p| posed.point(p)).collect(),
-            triangles: posed.triangles().into_owned(),
-            normals: self.normals.par_iter().map(|n| posed.normal(n)).collect(),
+            vertices: self.vertices.par_iter().map(|p| pose.point(p)).collect(),
+            triangles: self.triangles.par_iter().map(|triangle| pose.triangle(*triangle)).collect(),
+            normals: self.normals.par_iter().map(|n| pose.normal(n)).collect(),
             uvs: self.uvs.clone(),
             colours: self.colours.clone(),
         })
-    }
-
-    /// The same, computed where it is needed.
-    pub(super) fn posed(&self, map: &DAffine3) -> Posed<'_> {
-        let covector = map.matrix3.inverse().transpose();
-        Posed { data: self, map: *map, covector, is_moved: *map != DAffine3::IDENTITY }
     }
 
     /// Whether a point lies inside a closed mesh, that is, whether a ray from it crosses the mesh an odd number of times.
@@ -76,32 +70,30 @@ impl MeshData {
     }
 }
 
-/// The image of a mesh under a map.
-pub(super) struct Posed<'a> {
-    data: &'a MeshData,
+/// A map of the vertices and triangles of a mesh.
+pub(super) struct Pose {
     map: DAffine3,
     covector: DMat3,
-    is_moved: bool,
+    is_mirrored: bool,
 }
 
-impl<'a> Posed<'a> {
+impl Pose {
+    pub fn new(map: &DAffine3) -> Pose {
+        let covector = map.matrix3.inverse().transpose();
+        Pose { map: *map, covector, is_mirrored: map.matrix3.determinant() < 0.0 }
+    }
+
+    /// The vertices in the order in which the front stays the front, even if the map mirrors.
+    pub fn triangle(&self, [a, b, c]: [u32; 3]) -> [u32; 3] {
+        if self.is_mirrored { [a, c, b] } else { [a, b, c] }
+    }
+
     pub fn point(&self, p: &[f32; 3]) -> [f32; 3] {
-        if self.is_moved { self.map.transform_point3(Vec3::from(*p).as_dvec3()).as_vec3().to_array() } else { *p }
+        self.map.transform_point3(Vec3::from(*p).as_dvec3()).as_vec3().to_array()
     }
 
     pub fn normal(&self, n: &[f32; 3]) -> [f32; 3] {
-        if !self.is_moved {
-            return *n;
-        }
         (self.covector * Vec3::from(*n).as_dvec3()).normalize_or_zero().as_vec3().to_array()
-    }
-
-    /// The triangles, turned if the map mirrors.
-    pub fn triangles(&self) -> Cow<'a, [[u32; 3]]> {
-        match self.map.matrix3.determinant() < 0.0 {
-            true => self.data.triangles.par_iter().map(|&[a, b, c]| [a, c, b]).collect::<Vec<_>>().into(),
-            false => Cow::Borrowed(&self.data.triangles),
-        }
     }
 }
 

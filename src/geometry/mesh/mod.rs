@@ -9,7 +9,8 @@
 //! | the order of triangles in leaves | `slots.rs` |
 //! | coordinates, smooth normals and colours there | `shading.rs` |
 //! | directions towards one that emits | `toward.rs` |
-//! | vertices and triangles | `data.rs` |
+//! | vertices and triangles, as a scene describes them | `data.rs` |
+//! | the same where the mesh stands | `vertices.rs` |
 //! | procedural meshes | `generate.rs` |
 mod block;
 mod build;
@@ -23,17 +24,16 @@ mod surface;
 #[cfg(test)]
 mod tests;
 mod toward;
-
-use std::sync::Arc;
+mod vertices;
 
 use fearless_simd::Simd;
 use fearless_simd_macros::simd;
 
-use self::block::{Block, Shear, Shears};
-pub use self::{
-    data::MeshData,
-    surface::{Attributes, MeshPoint},
+use self::{
+    block::{Block, Shear, Shears},
+    vertices::{Vertices, rows},
 };
+pub use self::{data::MeshData, surface::MeshPoint};
 use super::{
     bounds::Bounds,
     bvh::{Bvh, Leaves, NONE, Search, Slabs, Stack, traverse},
@@ -47,18 +47,11 @@ use crate::{
 pub struct Mesh {
     bvh: Bvh,
     blocks: Vec<Block>,
+    /// The vertices of the triangles, in the order of the leaves.
+    triangles: Vec<[u32; 3]>,
     /// The triangle in each slot of the blocks; empty if it is the slot itself.
     triangle_of: Vec<u32>,
-    /// The vertices of the triangles as integers in bits, in the order of the leaves.
-    triangles: Vec<[f32; 4]>,
-    /// Position, then u.
-    vertices: Vec<[f32; 4]>,
-    /// Normal, then v. Empty if the mesh has neither.
-    normals: Vec<[f32; 4]>,
-    /// Colour and opacity of the vertices; may be empty.
-    colours: Arc<Vec<[f32; 4]>>,
-    is_smooth: bool,
-    has_uvs: bool,
+    vertices: Vertices,
     dropped: usize,
     _room_for_pieces: Option<Reservation>,
 }
@@ -153,8 +146,7 @@ impl Mesh {
 
     /// The vertices of a triangle.
     pub fn corners(&self, triangle: u32) -> [[f32; 3]; 3] {
-        let [a, b, c] = ids(&self.triangles[triangle as usize]);
-        [position(&self.vertices, a), position(&self.vertices, b), position(&self.vertices, c)]
+        self.vertices.corners(self.triangles[triangle as usize])
     }
 
     /// The box around all triangles.
@@ -174,12 +166,12 @@ impl Mesh {
 
     /// Whether it has interpolated normals.
     pub fn is_smooth(&self) -> bool {
-        self.is_smooth
+        !self.vertices.normals().is_empty()
     }
 
     /// Whether vertices have texture coordinates.
     pub fn has_uvs(&self) -> bool {
-        self.has_uvs
+        !self.vertices.uvs().is_empty()
     }
 
     /// Number of dropped triangles.
@@ -187,21 +179,9 @@ impl Mesh {
         self.dropped
     }
 
-    /// Memory in bytes.
-    pub fn bytes(&self) -> usize {
-        let rows = self.triangles.len() + self.vertices.len() + self.normals.len() + self.colours.len();
-        let slots = size_of_val(self.blocks.as_slice()) + size_of_val(self.triangle_of.as_slice());
-        self.bvh.bytes() + slots + rows * size_of::<[f32; 4]>()
+    /// See [`rows`].
+    #[inline(always)]
+    fn rows<L: Lanes, const COLUMNS: usize>(&self, l: L, triangle: U<L>, table: &[[f32; COLUMNS]]) -> [[F<L>; 4]; 3] {
+        rows(l, &self.triangles, triangle, table)
     }
-}
-
-fn ids(row: &[f32; 4]) -> [u32; 3] {
-    [row[0].to_bits(), row[1].to_bits(), row[2].to_bits()]
-}
-
-/// The position of a vertex.
-#[inline]
-fn position(vertices: &[[f32; 4]], vertex: u32) -> [f32; 3] {
-    let [x, y, z, _] = vertices[vertex as usize];
-    [x, y, z]
 }

@@ -19,8 +19,9 @@ impl Mesh {
         if !self.has_uvs() {
             return (Coordinates { u: beta, v: 1.0 - gamma }, [ab, -ac]);
         }
-        let [u, v] = self.attributes(l, triangle, point.barycentrics).uv;
-        let [[ua, va], [ub, vb], [uc, vc]] = self.uvs(l, triangle);
+        let [[ua, va, ..], [ub, vb, ..], [uc, vc, ..]] = self.rows(l, triangle, self.vertices.uvs());
+        let weights = [1.0 - beta - gamma, beta, gamma];
+        let (u, v) = (mix(weights, [ua, ub, uc]), mix(weights, [va, vb, vc]));
         let (u1, v1, u2, v2) = (ub - ua, vb - va, uc - ua, vc - va);
         let determinant = u1 * v2 - u2 * v1;
         let defined = determinant.abs().above(LEAST);
@@ -30,11 +31,11 @@ impl Mesh {
         (Coordinates { u, v: 1.0 - v }, [along_u, -along_v])
     }
 
-    /// The interpolated normal on the front side; not of unit length.
+    /// The interpolated normal on the front side; not of unit length. Only for a mesh with normals.
     #[inline(always)]
     pub fn smooth_normal<L: Lanes>(&self, l: L, triangle: U<L>, p: V<L>) -> V<L> {
         let point = self.surface_point(l, triangle, p);
-        let normal = self.attributes(l, triangle, point.barycentrics).normal;
+        let normal = self.interpolated_normal(l, triangle, point.barycentrics);
         // A normal of the file that points to the back, or nowhere, is not used.
         normal.dot(point.n_geometric).above(0.0).pick(normal, point.n_geometric)
     }
@@ -43,29 +44,18 @@ impl Mesh {
     #[inline(always)]
     pub fn vertex_colour<L: Lanes>(&self, l: L, triangle: U<L>, p: V<L>) -> [F<L>; 4] {
         let (zero, one) = (l.f(0.0), l.f(1.0));
-        if self.colours.is_empty() {
+        let colours = self.vertices.colours();
+        if colours.is_empty() {
             return [one; 4];
         }
         let [beta, gamma] = self.surface_point(l, triangle, p).barycentrics;
         let weights = [(1.0 - beta - gamma).max(zero), beta, gamma];
-        let [a, b, c, _] = l.rows(&self.triangles, triangle);
-        let (a, b, c) = (l.rows(&self.colours, a.bits()), l.rows(&self.colours, b.bits()), l.rows(&self.colours, c.bits()));
+        let [a, b, c] = self.rows(l, triangle, colours);
         let mut colour = [zero; 4];
         for (channel, value) in colour.iter_mut().enumerate() {
             // The weights add up to 1 only within rounding.
             *value = mix(weights, [a[channel], b[channel], c[channel]]).min(one);
         }
         colour
-    }
-
-    #[inline(always)]
-    fn uvs<L: Lanes>(&self, l: L, triangle: U<L>) -> [[F<L>; 2]; 3] {
-        let [a, b, c, _] = l.rows(&self.triangles, triangle);
-        let (ids, zero) = ([a.bits(), b.bits(), c.bits()], l.f(0.0));
-        let mut uvs = [[zero; 2]; 3];
-        for (uv, id) in uvs.iter_mut().zip(ids) {
-            *uv = [l.rows(&self.vertices, id)[3], l.rows(&self.normals, id)[3]];
-        }
-        uvs
     }
 }

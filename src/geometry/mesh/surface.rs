@@ -14,14 +14,6 @@ pub struct MeshPoint<L: Lanes> {
     pub barycentrics: [F<L>; 2],
 }
 
-/// Interpolated vertex attributes.
-pub struct Attributes<L: Lanes> {
-    /// Not of unit length.
-    pub normal: V<L>,
-    /// Texture coordinates.
-    pub uv: [F<L>; 2],
-}
-
 /// The weighted mean.
 #[inline(always)]
 pub(super) fn mix<L: Lanes>(weights: [F<L>; 3], of: [F<L>; 3]) -> F<L> {
@@ -59,26 +51,22 @@ impl Mesh {
         MeshPoint { p, n_geometric: normal * (1.0 / length), error, barycentrics: [beta, gamma] }
     }
 
-    /// Normal and coordinates at a point with these barycentric coordinates. Only for a mesh with normals or coordinates.
-    #[inline(always)]
-    pub fn attributes<L: Lanes>(&self, l: L, triangle: U<L>, [beta, gamma]: [F<L>; 2]) -> Attributes<L> {
-        let [a, b, c, _] = l.rows(&self.triangles, triangle);
-        let alpha = 1.0 - beta - gamma;
-        let weights = [alpha, beta, gamma];
-        let ([nax, nay, naz, va], [nbx, nby, nbz, vb], [ncx, ncy, ncz, vc]) =
-            (l.rows(&self.normals, a.bits()), l.rows(&self.normals, b.bits()), l.rows(&self.normals, c.bits()));
-        let ([_, _, _, ua], [_, _, _, ub], [_, _, _, uc]) =
-            (l.rows(&self.vertices, a.bits()), l.rows(&self.vertices, b.bits()), l.rows(&self.vertices, c.bits()));
-        let normal = V { x: mix(weights, [nax, nbx, ncx]), y: mix(weights, [nay, nby, ncy]), z: mix(weights, [naz, nbz, ncz]) };
-        Attributes { normal, uv: [mix(weights, [ua, ub, uc]), mix(weights, [va, vb, vc])] }
-    }
-
     #[inline(always)]
     pub(super) fn positions<L: Lanes>(&self, l: L, triangle: U<L>) -> [V<L>; 3] {
-        let [a, b, c, _] = l.rows(&self.triangles, triangle);
-        let [ax, ay, az, _] = l.rows(&self.vertices, a.bits());
-        let [bx, by, bz, _] = l.rows(&self.vertices, b.bits());
-        let [cx, cy, cz, _] = l.rows(&self.vertices, c.bits());
-        [V { x: ax, y: ay, z: az }, V { x: bx, y: by, z: bz }, V { x: cx, y: cy, z: cz }]
+        let [a, b, c] = self.rows(l, triangle, self.vertices.positions());
+        [vector(a), vector(b), vector(c)]
     }
+
+    /// The interpolated normal at a point with these barycentric coordinates; not of unit length. Only for a mesh with normals.
+    #[inline(always)]
+    pub(super) fn interpolated_normal<L: Lanes>(&self, l: L, triangle: U<L>, [beta, gamma]: [F<L>; 2]) -> V<L> {
+        let weights = [1.0 - beta - gamma, beta, gamma];
+        let [a, b, c] = self.rows(l, triangle, self.vertices.normals());
+        V { x: mix(weights, [a[0], b[0], c[0]]), y: mix(weights, [a[1], b[1], c[1]]), z: mix(weights, [a[2], b[2], c[2]]) }
+    }
+}
+
+#[inline(always)]
+fn vector<L: Lanes>([x, y, z, _]: [F<L>; 4]) -> V<L> {
+    V { x, y, z }
 }

@@ -213,7 +213,7 @@ fn reserve_tables(resources: &Resources, objects: &[Object], lamps: usize) -> Re
     const OBJECT: u64 = 1000;
     /// Bytes per triangle and per vertex for the tree of a mesh, including its construction.
     const TRIANGLE: u64 = 160;
-    const VERTEX: u64 = 32;
+    const VERTEX: u64 = 24;
     /// Bytes per light among many; each emitting triangle is a light.
     const LIGHT: u64 = 900;
     resources.reserve("", format_args!("{} objects", objects.len()), OBJECT * objects.len() as u64)?;

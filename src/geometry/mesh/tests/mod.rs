@@ -310,17 +310,20 @@ fn every_level_gives_the_same_bits() {
 }
 
 /// Bits of all data of the hits.
-fn bits<L: Lanes>(l: L, mesh: &Mesh, rays: &[Ray]) -> Vec<[u32; 6]> {
+fn bits<L: Lanes>(l: L, mesh: &Mesh, rays: &[Ray]) -> Vec<(u32, u32, [u32; 4], [u32; 4])> {
     let mut all = Vec::new();
     for rays in rays.chunks_exact(L::N) {
         let (o, d) = in_columns(l, rays);
         let (t, triangle) = mesh.closest(l, o, d, l.f(f32::INFINITY));
         let some = triangle.equals(l.u(NONE)).pick(l.u(0), triangle);
         let at = mesh.surface_point(l, some, o + d * t);
-        let of_point = [at.p.x, at.n_geometric.y, at.error, at.barycentrics[0]].map(|x| x.bits().to_array());
+        let (coordinates, [along_u, _]) = mesh.coordinates(l, some, at.p);
+        let normal = if mesh.is_smooth() { mesh.smooth_normal(l, some, at.p) } else { at.n_geometric };
+        let shading = [coordinates.u, coordinates.v, along_u.x, normal.z];
+        let of_point = [at.p.x, at.n_geometric.y, at.error, at.barycentrics[0]];
         for lane in 0..L::N {
-            let [p, n, error, beta] = of_point.map(|bits| bits[lane]);
-            all.push([t.bits().to_array()[lane], triangle.to_array()[lane], p, n, error, beta]);
+            let bits = |x: &F<L>| x.bits().to_array()[lane];
+            all.push((bits(&t), triangle.to_array()[lane], of_point.each_ref().map(bits), shading.each_ref().map(bits)));
         }
     }
     all

@@ -1,6 +1,4 @@
 //! Points, normals and offsets.
-use std::sync::Arc;
-
 use fearless_simd::Fallback;
 use glam::Vec3;
 use rand::{Rng, SeedableRng, rngs::SmallRng};
@@ -72,7 +70,7 @@ fn points_lie_on_their_triangles() {
         assert!((Vec3::from(at.n_geometric.lane(0)).as_dvec3() - n).length() < 1e-5);
         assert!((at.barycentrics[0].0 - beta).abs() < 1e-3 && (at.barycentrics[1].0 - gamma).abs() < 1e-3);
         assert!(at.error.0 < 3e-6, "{}", at.error.0);
-        let normal = Vec3::from(mesh.attributes(One, U(triangle), at.barycentrics).normal.lane(0));
+        let normal = Vec3::from(mesh.interpolated_normal(One, U(triangle), at.barycentrics).lane(0));
         assert!(normal.length() < 1.001 && normal.as_dvec3().dot(n) > 0.0, "the front is outside");
     }
 }
@@ -85,7 +83,7 @@ fn colours_of_vertices_are_interpolated_and_1_without_them() {
         triangles: vec![[0, 1, 2]],
         ..MeshData::default()
     };
-    let coloured = Mesh::new(&MeshData { colours: Arc::new(colours), ..bare.clone() });
+    let coloured = Mesh::new(&MeshData { colours, ..bare.clone() });
     let at = |mesh: &Mesh, p: [f32; 3]| mesh.vertex_colour(One, U(0), V::splat(One, p)).map(|x| x.0);
     for (p, expected) in [
         ([0.0, 0.0, 0.0], [1.0, 0.0, 0.0, 1.0]),
