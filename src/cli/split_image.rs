@@ -7,7 +7,7 @@ use noisefall::{
         Display, Frame, Status,
         checkpoint::is_kept_file,
         settings_text::ImageOrigin,
-        split::{NoSamples, Picture, SampleRanges},
+        split::{NoSamples, SampleRanges, SplitPicture},
     },
     render_file::{Counters, Header},
     sampling::Sampler,
@@ -44,16 +44,16 @@ pub fn is_sample_file(output: &Output) -> bool {
 
 impl SplitImage<'_> {
     /// An empty image.
-    pub fn picture(&self) -> Result<Picture, Failure> {
+    pub fn picture(&self) -> Result<SplitPicture, Failure> {
         // For the figures it makes no difference what exactly is shared.
         let shares = self.header.image.as_ref().is_some_and(|image| image.shares);
         let sharing = if shares { Sharing::Suffixes } else { Sharing::Nothing };
-        let picture = Picture::new(self.header.camera.resolution, self.samples.clone(), sharing);
+        let picture = SplitPicture::new(self.header.camera.resolution, self.samples.clone(), sharing);
         picture.map_err(|error| error.to_string())
     }
 
     /// Writes the image of a picture that is filled, and prints its line.
-    pub fn deliver(&self, picture: Picture, display: Display) -> Result<ExitCode, Failure> {
+    pub fn deliver(&self, picture: SplitPicture, display: Display) -> Result<ExitCode, Failure> {
         let frame = picture.frame();
         let Header { scene, camera, settings, image, .. } = self.header;
         let title = image.as_ref().map_or("", |image| &image.title);

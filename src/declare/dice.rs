@@ -2,7 +2,7 @@
 use glam::DVec3;
 use rand::{Rng, RngCore};
 
-use super::{Choice, Parameter, Parameters, Range, Scale, Textured, Value};
+use super::{Choice, Parameter, Parameters, Range, SliderScale, Textured, Value};
 
 /// The visitor that draws. Names stay as they are; lists get up to three items.
 pub struct Dice<'r> {
@@ -22,7 +22,7 @@ impl<'r> Dice<'r> {
         match self.random.random_range(0..16) {
             0 => least,
             1 => most,
-            _ if range.scale == Scale::Log => {
+            _ if range.scale == SliderScale::Log => {
                 let lowest = if least > 0.0 { least } else { most * 1e-9 };
                 (lowest.ln() + self.random.random::<f64>() * (most / lowest).ln()).exp().clamp(least, most)
             }

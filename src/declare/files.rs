@@ -3,12 +3,12 @@ use super::{Declare, Parameter, Parameters, Value};
 
 /// Calls a function with the path of each file that a description names, which it may replace.
 pub fn for_each_file(description: &mut dyn Declare, visit: &mut dyn FnMut(&mut String)) {
-    description.parameters(&mut Files(visit));
+    description.parameters(&mut FileVisitor(visit));
 }
 
-struct Files<'f>(&'f mut dyn FnMut(&mut String));
+struct FileVisitor<'f>(&'f mut dyn FnMut(&mut String));
 
-impl Parameters for Files<'_> {
+impl Parameters for FileVisitor<'_> {
     fn value(&mut self, _: &Parameter, value: Value<'_>) {
         if let Value::File(path) = value {
             (self.0)(path);

@@ -92,14 +92,14 @@ pub struct Range {
     /// The largest number.
     pub most: f64,
     /// Scale of a slider over the range.
-    pub scale: Scale,
+    pub scale: SliderScale,
     /// The expectation that a message states if the ends alone would not explain it; may be empty.
     pub expected: &'static str,
 }
 
 /// Scale of a slider.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Scale {
+pub enum SliderScale {
     /// In proportion.
     Linear,
     /// By powers of ten.
@@ -125,12 +125,12 @@ impl Range {
 
     /// A range with a linear scale.
     pub const fn linear(least: f64, most: f64) -> Range {
-        Range { least, most, scale: Scale::Linear, expected: "" }
+        Range { least, most, scale: SliderScale::Linear, expected: "" }
     }
 
     /// A range with a logarithmic scale.
     pub const fn log(least: f64, most: f64) -> Range {
-        Range { least, most, scale: Scale::Log, expected: "" }
+        Range { least, most, scale: SliderScale::Log, expected: "" }
     }
 
     /// The same with what messages expect.

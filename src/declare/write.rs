@@ -5,25 +5,25 @@ use super::{Choice, Declare, Form, Parameter, Parameters, Textured, Value};
 
 /// Every value of a description, defaults included, at its key.
 pub fn write(description: &mut dyn Declare) -> Table {
-    let mut writer = Writer { frames: vec![Frame::new(None, Place::Table)] };
+    let mut writer = Writer { frames: vec![OpenTable::new(None, TablePlace::Table)] };
     description.parameters(&mut writer);
     writer.frames.pop().map(|frame| frame.table).unwrap_or_default()
 }
 
 struct Writer {
-    frames: Vec<Frame>,
+    frames: Vec<OpenTable>,
 }
 
-struct Frame {
+struct OpenTable {
     key: Option<&'static str>,
-    place: Place,
+    place: TablePlace,
     table: Table,
     /// The alternative of a choice that is written by its name.
     name: Option<&'static str>,
 }
 
 /// Where a table goes.
-enum Place {
+enum TablePlace {
     Table,
     /// A table, or the name of an alternative that has no keys.
     NameOrTable,
@@ -31,14 +31,14 @@ enum Place {
     Named(String),
 }
 
-impl Frame {
-    fn new(key: Option<&'static str>, place: Place) -> Frame {
-        Frame { key, place, table: Table::new(), name: None }
+impl OpenTable {
+    fn new(key: Option<&'static str>, place: TablePlace) -> OpenTable {
+        OpenTable { key, place, table: Table::new(), name: None }
     }
 }
 
 impl Writer {
-    fn frame(&mut self) -> &mut Frame {
+    fn frame(&mut self) -> &mut OpenTable {
         self.frames.last_mut().expect("the whole file is around")
     }
 }
@@ -82,8 +82,8 @@ impl Parameters for Writer {
     }
 
     fn enter(&mut self, parameter: &Parameter, form: Form) {
-        let place = if form == Form::NameOrTable { Place::NameOrTable } else { Place::Table };
-        self.frames.push(Frame::new(Some(parameter.key), place));
+        let place = if form == Form::NameOrTable { TablePlace::NameOrTable } else { TablePlace::Table };
+        self.frames.push(OpenTable::new(Some(parameter.key), place));
     }
 
     fn reads_outlines(&self) -> bool {
@@ -91,21 +91,21 @@ impl Parameters for Writer {
     }
 
     fn leave(&mut self) {
-        let Some(Frame { key: Some(key), place, table, name }) = self.frames.pop() else { return };
+        let Some(OpenTable { key: Some(key), place, table, name }) = self.frames.pop() else { return };
         let outer = &mut self.frame().table;
         match place {
-            Place::NameOrTable if table.is_empty() => {
+            TablePlace::NameOrTable if table.is_empty() => {
                 outer.insert(key.to_owned(), Toml::String(name.unwrap_or_default().to_owned()));
             }
-            Place::Table | Place::NameOrTable => {
+            TablePlace::Table | TablePlace::NameOrTable => {
                 outer.insert(key.to_owned(), Toml::Table(table));
             }
-            Place::List => {
+            TablePlace::List => {
                 if let Some(list) = outer.entry(key).or_insert_with(|| Toml::Array(Vec::new())).as_array_mut() {
                     list.push(Toml::Table(table));
                 }
             }
-            Place::Named(name) => {
+            TablePlace::Named(name) => {
                 if let Some(tables) = outer.entry(key).or_insert_with(|| Toml::Table(Table::new())).as_table_mut() {
                     tables.insert(name, Toml::Table(table));
                 }
@@ -119,10 +119,10 @@ impl Parameters for Writer {
     }
 
     fn item(&mut self, parameter: &Parameter, _: usize) {
-        self.frames.push(Frame::new(Some(parameter.key), Place::List));
+        self.frames.push(OpenTable::new(Some(parameter.key), TablePlace::List));
     }
 
     fn named(&mut self, parameter: &Parameter, name: &str) {
-        self.frames.push(Frame::new(Some(parameter.key), Place::Named(name.to_owned())));
+        self.frames.push(OpenTable::new(Some(parameter.key), TablePlace::Named(name.to_owned())));
     }
 }

@@ -2,11 +2,11 @@
 use super::{
     change::Edit,
     check::{check, in_use},
-    choose::{Outcome, choose},
+    choose::{ChoiceOutcome, choose},
     content::Content,
     put::{insert, replace},
     references::references,
-    set::{Failure, Found, set},
+    set::{Failure, PreviousValue, set},
     take::{relocate, remove},
     tree::Tree,
 };
@@ -46,8 +46,8 @@ impl Content {
             Edit::Set { path, value } => {
                 let (found, appeared) = set(&mut self.description, path, value);
                 let failure = match found {
-                    Ok(Found::Value(value)) => return Ok(Edit::Set { path: path.clone(), value }),
-                    Ok(Found::Absent(path)) => return Ok(Edit::Remove { path }),
+                    Ok(PreviousValue::Value(value)) => return Ok(Edit::Set { path: path.clone(), value }),
+                    Ok(PreviousValue::Absent(path)) => return Ok(Edit::Remove { path }),
                     Err(failure) => failure,
                 };
                 appeared.map(|path| remove(&mut self.description, &path));
@@ -80,9 +80,9 @@ impl Content {
             Edit::Choose { path, choice, name } => {
                 let before = Tree::at(&mut self.description, path).ok_or_else(|| nothing_at(path))?;
                 match choose(&mut self.description, path, choice, name) {
-                    Outcome::Done => Ok(Edit::Replace { path: path.clone(), tree: before }),
-                    Outcome::NoChoice => Err(nothing_at(&path.key(choice))),
-                    Outcome::NoAlternative => {
+                    ChoiceOutcome::Done => Ok(Edit::Replace { path: path.clone(), tree: before }),
+                    ChoiceOutcome::NoChoice => Err(nothing_at(&path.key(choice))),
+                    ChoiceOutcome::NoAlternative => {
                         Err(Problem::at("", format!("unknown {choice} `{name}`"), "there is no such kind").within(path))
                     }
                 }

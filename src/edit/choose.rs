@@ -6,7 +6,7 @@ use crate::declare::{Choice, Declare, Form, OwnedValue, Parameter, Parameters, P
 
 /// Result of choosing an alternative.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Outcome {
+pub enum ChoiceOutcome {
     /// The alternative was chosen.
     Done,
     /// The table has no such choice.
@@ -17,7 +17,7 @@ pub enum Outcome {
 
 /// Chooses the alternative `name` of the choice `what` in the table at a path. A parameter keeps its value if the former alternative
 /// has one of the same key and type, and if the value is in range.
-pub fn choose(description: &mut dyn Declare, path: &Path, what: &str, name: &str) -> Outcome {
+pub fn choose(description: &mut dyn Declare, path: &Path, what: &str, name: &str) -> ChoiceOutcome {
     let mut places = HashMap::new();
     let mut kept = HashMap::new();
     let mut chooser = Chooser { within: Within::to(path), what, name: None, kept: &mut kept, places: &mut places, outcome: None };
@@ -25,14 +25,14 @@ pub fn choose(description: &mut dyn Declare, path: &Path, what: &str, name: &str
     let mut chooser =
         Chooser { within: Within::to(path), what, name: Some(name), kept: &mut kept, places: &mut places, outcome: None };
     description.parameters(&mut chooser);
-    chooser.outcome.unwrap_or(Outcome::NoChoice)
+    chooser.outcome.unwrap_or(ChoiceOutcome::NoChoice)
 }
 
 /// A place in the table with the choice. Kinds keep their parameters in a table of their own name; its key is empty here.
 type Place = Vec<Step>;
 
 /// An answer of the former alternative at a place.
-enum Kept {
+enum FormerAnswer {
     Value(OwnedValue),
     Items(usize),
     Present,
@@ -81,10 +81,10 @@ struct Chooser<'p, 'k> {
     what: &'p str,
     /// The new alternative; absent while the former one is read.
     name: Option<&'p str>,
-    kept: &'k mut HashMap<Place, Kept>,
+    kept: &'k mut HashMap<Place, FormerAnswer>,
     /// Choices within the former alternative.
     places: &'k mut HashMap<(Place, &'static str), &'static str>,
-    outcome: Option<Outcome>,
+    outcome: Option<ChoiceOutcome>,
 }
 
 impl Parameters for Chooser<'_, '_> {
@@ -95,8 +95,8 @@ impl Parameters for Chooser<'_, '_> {
         let place = self.within.at(parameter.key);
         let was = OwnedValue::of(&value);
         if self.name.is_none() {
-            self.kept.insert(place, Kept::Value(was));
-        } else if let Some(Kept::Value(kept)) = self.kept.get(&place)
+            self.kept.insert(place, FormerAnswer::Value(was));
+        } else if let Some(FormerAnswer::Value(kept)) = self.kept.get(&place)
             && kept.assign(&mut value)
             && check_value(parameter, &value).is_some()
         {
@@ -126,11 +126,11 @@ impl Parameters for Chooser<'_, '_> {
         place.push(Step::Key("present".to_owned()));
         if self.name.is_none() {
             if now {
-                self.kept.insert(place, Kept::Present);
+                self.kept.insert(place, FormerAnswer::Present);
             }
             return now;
         }
-        now || matches!(self.kept.get(&place), Some(Kept::Present))
+        now || matches!(self.kept.get(&place), Some(FormerAnswer::Present))
     }
 
     fn choose(&mut self, choice: &Choice, now: usize) -> usize {
@@ -146,7 +146,7 @@ impl Parameters for Chooser<'_, '_> {
                 now
             }
             Some(name) if is_this => {
-                self.outcome = Some(if place_of(name).is_some() { Outcome::Done } else { Outcome::NoAlternative });
+                self.outcome = Some(if place_of(name).is_some() { ChoiceOutcome::Done } else { ChoiceOutcome::NoAlternative });
                 place_of(name).unwrap_or(now)
             }
             Some(_) => self.places.get(&key).and_then(|name| place_of(name)).unwrap_or(now),
@@ -163,11 +163,11 @@ impl Parameters for Chooser<'_, '_> {
         }
         let place = self.within.at(parameter.key);
         if self.name.is_none() {
-            self.kept.insert(place, Kept::Items(now));
+            self.kept.insert(place, FormerAnswer::Items(now));
             return now;
         }
         match self.kept.get(&place) {
-            Some(Kept::Items(kept)) => *kept,
+            Some(FormerAnswer::Items(kept)) => *kept,
             _ => now,
         }
     }

@@ -3,7 +3,7 @@ use super::walk::{Walk, follows_walk};
 use crate::declare::{Declare, OwnedValue, Parameter, Parameters, Path, Value};
 
 /// Result of setting a value.
-pub enum Found {
+pub enum PreviousValue {
     /// The value as it was.
     Value(OwnedValue),
     /// The value itself, or the table at this path above it, was absent and has been added.
@@ -19,11 +19,11 @@ pub enum Failure {
 }
 
 /// Sets the value at a path. Reports the table that was added on the way, even on failure.
-pub fn set(description: &mut dyn Declare, path: &Path, value: &OwnedValue) -> (Result<Found, Failure>, Option<Path>) {
+pub fn set(description: &mut dyn Declare, path: &Path, value: &OwnedValue) -> (Result<PreviousValue, Failure>, Option<Path>) {
     let mut setter = Setter { walk: Walk::to(path), value, appeared: None, outcome: Err(Failure::Missing) };
     description.parameters(&mut setter);
     let Setter { appeared, outcome, .. } = setter;
-    let found = outcome.map(|was| appeared.clone().map_or(Found::Value(was), Found::Absent));
+    let found = outcome.map(|was| appeared.clone().map_or(PreviousValue::Value(was), PreviousValue::Absent));
     (found, appeared)
 }
 

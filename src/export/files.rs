@@ -7,7 +7,7 @@ use std::{
     sync::Arc,
 };
 
-use super::{ExportError, Source, file_names::FileNames};
+use super::{ExportError, ExportedScene, file_names::FileNames};
 use crate::{
     file::{WriteError, open_regular, replace},
     memory::{Size, reserve},
@@ -15,7 +15,7 @@ use crate::{
 };
 
 /// The files of a scene, each with its place beside the exported scene.
-pub struct Files {
+pub struct ExportedFiles {
     /// The folder of those that are written or copied.
     pub folder: PathBuf,
     /// By the path under which the scene names them.
@@ -25,30 +25,30 @@ pub struct Files {
 struct File {
     /// Relative to the folder of the exported scene, with `/` between its parts.
     path: String,
-    /// Relative to [`Files::folder`], with its content; absent for a file that stays where it is.
-    copy: Option<(String, Content)>,
+    /// Relative to [`ExportedFiles::folder`], with its content; absent for a file that stays where it is.
+    copy: Option<(String, FileContent)>,
 }
 
-enum Content {
+enum FileContent {
     Mesh(Arc<Model>),
     Bytes(Arc<Vec<u8>>),
     /// A file that is copied.
     Disk(PathBuf),
 }
 
-impl Files {
+impl ExportedFiles {
     /// Finds the places of the files that a scene names when it is exported to a file.
-    pub fn place(source: &Source, named: Vec<String>, scene: &Path) -> Result<Files, ExportError> {
+    pub fn place(source: &ExportedScene, named: Vec<String>, scene: &Path) -> Result<ExportedFiles, ExportError> {
         let parent = scene.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let root = parent.canonicalize().map_err(|_| no_folder(scene, parent))?;
         let stem = scene.file_stem().unwrap_or_default().to_string_lossy();
         let data = format!("{stem}.files");
-        let mut files = Files { folder: scene.with_file_name(&data), files: BTreeMap::new() };
+        let mut files = ExportedFiles { folder: scene.with_file_name(&data), files: BTreeMap::new() };
         let (mut names, mut moved) = (FileNames::default(), Vec::new());
         for named in named {
             match content(source, &named)? {
                 // It stays where it is, and no other file may replace it.
-                Content::Disk(path) if path.starts_with(&root) => {
+                FileContent::Disk(path) if path.starts_with(&root) => {
                     let parts = path.strip_prefix(&root).unwrap_or(&path).components();
                     let path = parts.map(|part| part.as_os_str().to_string_lossy()).collect::<Vec<_>>().join("/");
                     path.strip_prefix(&format!("{data}/")).into_iter().for_each(|inner| names.keep(inner));
@@ -60,7 +60,7 @@ impl Files {
         for (named, content) in moved {
             if let Entry::Vacant(place) = files.files.entry(named) {
                 let name = match &content {
-                    Content::Disk(path) => names.free(&path.file_name().unwrap_or_default().to_string_lossy()),
+                    FileContent::Disk(path) => names.free(&path.file_name().unwrap_or_default().to_string_lossy()),
                     _ => names.free(place.key()),
                 };
                 place.insert(File { path: format!("{data}/{name}"), copy: Some((name, content)) });
@@ -83,11 +83,11 @@ impl Files {
             fs::create_dir_all(folder)
                 .map_err(|error| WriteError::Failed { path: folder.to_owned(), reason: error.to_string() })?;
             match content {
-                Content::Mesh(model) => replace(&path, &encode_ply(model)?)?,
-                Content::Bytes(bytes) => replace(&path, bytes)?,
-                Content::Disk(from) => replace(&path, &bytes(from)?)?,
+                FileContent::Mesh(model) => replace(&path, &encode_ply(model)?)?,
+                FileContent::Bytes(bytes) => replace(&path, bytes)?,
+                FileContent::Disk(from) => replace(&path, &bytes(from)?)?,
             }
-            counts[usize::from(matches!(content, Content::Disk(_)))] += 1;
+            counts[usize::from(matches!(content, FileContent::Disk(_)))] += 1;
         }
         Ok(counts)
     }
@@ -98,16 +98,16 @@ fn no_folder(path: &Path, folder: &Path) -> ExportError {
 }
 
 /// The content of a file that a scene names.
-fn content(source: &Source, named: &str) -> Result<Content, ExportError> {
+fn content(source: &ExportedScene, named: &str) -> Result<FileContent, ExportError> {
     if let Some(model) = source.assets.get::<Model>(named) {
-        return Ok(Content::Mesh(model));
+        return Ok(FileContent::Mesh(model));
     }
     if let Some(bytes) = source.assets.get::<Vec<u8>>(named) {
-        return Ok(Content::Bytes(bytes));
+        return Ok(FileContent::Bytes(bytes));
     }
     let path = source.folder.join(named);
     let found = path.canonicalize();
-    found.map(Content::Disk).map_err(|error| ExportError::Unreadable { path, reason: error.to_string() })
+    found.map(FileContent::Disk).map_err(|error| ExportError::Unreadable { path, reason: error.to_string() })
 }
 
 /// The content of a file on disk.
@@ -163,7 +163,7 @@ mod tests {
             assets.insert(path, triangle());
         }
         let description = scene(&["meshes/a.ply", "../../meshes/A.ply", "meshes/a.ply"], "wood.png");
-        let source = Source { description: &description, assets: &assets, folder: from.path() };
+        let source = ExportedScene { description: &description, assets: &assets, folder: from.path() };
         let done = write(source, &to.path().join("room.toml")).expect("it is written");
         assert_eq!((done.written, done.copied, done.folder), (2, 1, Some(to.path().join("room.files"))));
         let text = fs::read_to_string(to.path().join("room.toml")).expect("it is there");
@@ -184,7 +184,7 @@ mod tests {
         fs::create_dir(folder.path().join("textures")).expect("a folder");
         fs::write(folder.path().join("textures/wood.png"), "wood").expect("it is written");
         let (description, assets) = (scene(&[], "textures/../textures/wood.png"), Assets::default());
-        let source = Source { description: &description, assets: &assets, folder: folder.path() };
+        let source = ExportedScene { description: &description, assets: &assets, folder: folder.path() };
         let done = write(source, &folder.path().join("room.toml")).expect("it is written");
         let text = fs::read_to_string(folder.path().join("room.toml")).expect("it is there");
         assert_eq!((done.written, done.copied, done.folder, named(&text)), (0, 0, None, vec!["textures/wood.png".to_owned()]));
@@ -198,7 +198,7 @@ mod tests {
         let mut assets = Assets::default();
         assets.insert("a.ply", triangle());
         let description = scene(&["a.ply"], "wood.png");
-        let source = Source { description: &description, assets: &assets, folder: from.path() };
+        let source = ExportedScene { description: &description, assets: &assets, folder: from.path() };
         for name in ["room.toml", "room.xml"] {
             let path = to.path().join(name);
             fs::write(&path, "old").expect("it is written");
@@ -211,7 +211,7 @@ mod tests {
     fn nothing_is_written_if_a_file_is_missing() {
         let folder = tempfile::tempdir().expect("a folder");
         let (description, assets) = (scene(&[], "wood.png"), Assets::default());
-        let source = Source { description: &description, assets: &assets, folder: folder.path() };
+        let source = ExportedScene { description: &description, assets: &assets, folder: folder.path() };
         let error = write(source, &folder.path().join("room.toml")).expect_err("it is missing");
         assert!(error.to_string().contains("wood.png"), "{error}");
         assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 0);

@@ -39,7 +39,7 @@ use crate::{
 
 /// A scene with its files.
 #[derive(Clone, Copy)]
-pub struct Source<'a> {
+pub struct ExportedScene<'a> {
     /// The scene.
     pub description: &'a SceneDescription,
     /// Files in memory.
@@ -53,7 +53,7 @@ pub struct Prepared {
     path: PathBuf,
     /// The scene file.
     content: Vec<u8>,
-    files: files::Files,
+    files: files::ExportedFiles,
     /// What the format cannot say exactly.
     pub remarks: Remarks,
 }
@@ -107,16 +107,16 @@ pub enum ExportError {
     TooMuch(#[from] TooMuch),
 }
 
-type Translator = fn(Source, &Path) -> Result<Prepared, ExportError>;
+type Translator = fn(ExportedScene, &Path) -> Result<Prepared, ExportError>;
 
 /// Translates a scene to the format that the name of the file asks for. Nothing is written.
-pub fn prepare(source: Source, path: &Path) -> Result<Prepared, ExportError> {
+pub fn prepare(source: ExportedScene, path: &Path) -> Result<Prepared, ExportError> {
     check(path)?(source, path)
 }
 
 /// Writes a scene. Its meshes and textures go to the folder `NAME.files` beside the file `NAME.toml`, which is written last. Each file
 /// is replaced whole or not at all.
-pub fn write(source: Source, path: &Path) -> Result<Exported, ExportError> {
+pub fn write(source: ExportedScene, path: &Path) -> Result<Exported, ExportError> {
     prepare(source, path)?.write()
 }
 

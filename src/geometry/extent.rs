@@ -3,7 +3,7 @@ use std::f64::consts::TAU;
 
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 
-use super::{Motion, Outline, Shape, Step, bounds::Bounds};
+use super::{Motion, Outline, Shape, TransformStep, bounds::Bounds};
 
 /// Number of intervals at whose ends motion is evaluated to bound it.
 const POSES: u32 = 128;
@@ -214,11 +214,15 @@ fn longest_way(mut reach: f64, motion: &Motion, time: f64) -> f64 {
     for step in &motion.0 {
         // What the step multiplies ways by at most, and the ways that it adds: one that all points go, one by their reach.
         let (factor, of_all, of_reach) = match step {
-            Step::Translate(by) => (1.0, by.length(), 0.0),
+            TransformStep::Translate(by) => (1.0, by.length(), 0.0),
             // However often it goes round, it is never farther than on the other side.
-            Step::Rotate { turns, .. } => (1.0, 0.0, (turns.count() * TAU).min(2.0 / time)),
-            Step::Scale(factors) => (factors.abs().max_element().max(1.0), 0.0, (*factors - DVec3::ONE).abs().max_element()),
-            Step::Matrix(map) => (size(&map.matrix3).max(1.0), map.translation.length(), size(&(map.matrix3 - DMat3::IDENTITY))),
+            TransformStep::Rotate { turns, .. } => (1.0, 0.0, (turns.count() * TAU).min(2.0 / time)),
+            TransformStep::Scale(factors) => {
+                (factors.abs().max_element().max(1.0), 0.0, (*factors - DVec3::ONE).abs().max_element())
+            }
+            TransformStep::Matrix(map) => {
+                (size(&map.matrix3).max(1.0), map.translation.length(), size(&(map.matrix3 - DMat3::IDENTITY)))
+            }
         };
         way = way * factor + of_all * time + reach * of_reach * time;
         reach = reach * factor + of_all;

@@ -3,7 +3,7 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DVec3};
 
-use super::{Motion, Shape, Step};
+use super::{Motion, Shape, TransformStep};
 
 /// Whether two maps have the same bits.
 pub(super) fn same_map(a: &DAffine3, b: &DAffine3) -> bool {
@@ -58,12 +58,16 @@ impl Motion {
     }
 }
 
-impl Step {
-    fn is_same(&self, other: &Step) -> bool {
+impl TransformStep {
+    fn is_same(&self, other: &TransformStep) -> bool {
         match (self, other) {
-            (Step::Translate(a), Step::Translate(b)) | (Step::Scale(a), Step::Scale(b)) => same_point(a, b),
-            (Step::Rotate { axis: a, turns: x }, Step::Rotate { axis: b, turns: y }) => same_point(a, b) && x.is_same(*y),
-            (Step::Matrix(a), Step::Matrix(b)) => same_map(a, b),
+            (TransformStep::Translate(a), TransformStep::Translate(b)) | (TransformStep::Scale(a), TransformStep::Scale(b)) => {
+                same_point(a, b)
+            }
+            (TransformStep::Rotate { axis: a, turns: x }, TransformStep::Rotate { axis: b, turns: y }) => {
+                same_point(a, b) && x.is_same(*y)
+            }
+            (TransformStep::Matrix(a), TransformStep::Matrix(b)) => same_map(a, b),
             _ => false,
         }
     }
@@ -93,8 +97,8 @@ mod tests {
 
     #[test]
     fn motions_are_the_same_step_by_step() {
-        let turn = |degrees: f64| Step::Rotate { axis: DVec3::Y, turns: Turns::from_degrees(degrees) };
-        let motion = |degrees: f64| Motion(vec![Step::Translate(DVec3::X), turn(degrees)]);
+        let turn = |degrees: f64| TransformStep::Rotate { axis: DVec3::Y, turns: Turns::from_degrees(degrees) };
+        let motion = |degrees: f64| Motion(vec![TransformStep::Translate(DVec3::X), turn(degrees)]);
         assert!(motion(90.0).is_same(&motion(90.0)) && !motion(90.0).is_same(&motion(450.0)));
         assert!(!motion(90.0).is_same(&Motion::default()));
     }

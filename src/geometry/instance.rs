@@ -14,7 +14,7 @@ use super::{
     mesh::Mesh,
     motion::Motion,
     shape::Shape,
-    step::Step,
+    step::TransformStep,
     tables::Tables,
     transform::{LaneTransform, StaticTransform},
 };
@@ -27,7 +27,7 @@ pub(super) struct Instance {
     pub body: Body,
     still: DAffine3,
     at_rest: StaticTransform,
-    motion: Vec<Step>,
+    motion: Vec<TransformStep>,
     /// Local space is world space.
     is_world: bool,
     /// Bounding sphere over its whole motion.

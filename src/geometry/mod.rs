@@ -67,7 +67,7 @@ pub use self::{
     shapes::Shapes,
     sphere::{Cone, Sphere},
     sphere_field::sphere_field,
-    step::Step,
+    step::TransformStep,
     surface_point::{Coordinates, PrimitiveRef, SurfacePoint},
     turns::Turns,
 };

@@ -2,14 +2,14 @@
 use glam::DAffine3;
 
 use super::{
-    step::Step,
+    step::TransformStep,
     transform::{LaneTransform, StaticTransform},
 };
 use crate::math::{F, Lanes, V};
 
 /// A list of transforms, applied first to last, that is complete at time 1.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Motion(pub Vec<Step>);
+pub struct Motion(pub Vec<TransformStep>);
 
 impl Motion {
     /// The map at a time from 0 to 1.

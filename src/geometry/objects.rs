@@ -134,7 +134,7 @@ impl Objects {
         while rest != 0 {
             let lane = rest.trailing_zeros() as usize % MAX_LANES;
             rest &= rest - 1;
-            let mut found = Found {
+            let mut found = NearestHit {
                 objects: self,
                 instances,
                 below: &mut below,
@@ -166,13 +166,13 @@ impl Objects {
         let slabs = Slabs::new(One, o, d, &self.bvh.bounds());
         let [stack, below] = stacks;
         let (primitive, element) = (nearest.primitive.0, nearest.element.0);
-        let mut found = Found { objects: self, instances, below, o, d, time, enough: F(0.0), primitive, element };
+        let mut found = NearestHit { objects: self, instances, below, o, d, time, enough: F(0.0), primitive, element };
         traverse(One.token(), &self.bvh, stack, (&slabs, 0), (nearest.t.0, 0.0), &mut found);
     }
 }
 
 /// The nearest hit of one ray so far.
-struct Found<'a, const COUNTS: bool> {
+struct NearestHit<'a, const COUNTS: bool> {
     objects: &'a Objects,
     instances: &'a [Instance],
     below: &'a mut Stack<COUNTS>,
@@ -184,7 +184,7 @@ struct Found<'a, const COUNTS: bool> {
     element: u32,
 }
 
-impl<S: Simd, const COUNTS: bool> Leaves<S> for Found<'_, COUNTS> {
+impl<S: Simd, const COUNTS: bool> Leaves<S> for NearestHit<'_, COUNTS> {
     #[inline(always)]
     fn meet(&mut self, s: S, leaf: u32, t_max: f32) -> f32 {
         let (t, primitive, element) = match self.objects.items[leaf as usize] {

@@ -1,7 +1,7 @@
 //! Transforms between local and world space, in lanes, each at its own time.
 use glam::{DAffine3, DMat3, DVec3};
 
-use super::Step;
+use super::TransformStep;
 use crate::math::{F, Lanes, V, trig::sin_cos_turns};
 
 /// The transform at time 0: an affine map and its inverse, rounded.
@@ -36,7 +36,7 @@ pub(super) struct LaneTransform<L: Lanes> {
 impl<L: Lanes> LaneTransform<L> {
     /// The transform at `time`.
     #[inline(always)]
-    pub fn new(l: L, at_rest: &StaticTransform, motion: &[Step], time: F<L>) -> Self {
+    pub fn new(l: L, at_rest: &StaticTransform, motion: &[TransformStep], time: F<L>) -> Self {
         let mut axes = three(l, &at_rest.axes);
         let mut origin = V::splat(l, at_rest.origin);
         if motion.is_empty() {
@@ -90,7 +90,7 @@ impl<L: Lanes> LaneTransform<L> {
     }
 }
 
-/// A fraction of a [`Step`] in lanes.
+/// A fraction of a [`TransformStep`] in lanes.
 struct Partial<L: Lanes> {
     axes: [V<L>; 3],
     way: V<L>,
@@ -98,12 +98,12 @@ struct Partial<L: Lanes> {
 
 impl<L: Lanes> Partial<L> {
     #[inline(always)]
-    fn new(l: L, step: &Step, time: F<L>) -> Self {
+    fn new(l: L, step: &TransformStep, time: F<L>) -> Self {
         let mut axes = columns(l, &DMat3::IDENTITY);
         let mut way = splat(l, DVec3::ZERO);
         match step {
-            Step::Translate(by) => way = splat(l, *by) * time,
-            Step::Rotate { axis, turns } => {
+            TransformStep::Translate(by) => way = splat(l, *by) * time,
+            TransformStep::Rotate { axis, turns } => {
                 let (sin, cos) = sin_cos_turns(turns.at(time));
                 let axis = splat(l, *axis);
                 // O. Rodrigues, 1840: v cos + (k × v) sin + k (k·v)(1 − cos).
@@ -111,13 +111,13 @@ impl<L: Lanes> Partial<L> {
                     *e = *e * cos + (axis.cross(*e) * sin + axis * (axis.dot(*e) * (1.0 - cos)));
                 }
             }
-            Step::Scale(factors) => {
+            TransformStep::Scale(factors) => {
                 let [x, y, z] = (*factors - DVec3::ONE).as_vec3().to_array();
                 axes[0].x = time * x + 1.0;
                 axes[1].y = time * y + 1.0;
                 axes[2].z = time * z + 1.0;
             }
-            Step::Matrix(map) => {
+            TransformStep::Matrix(map) => {
                 for (e, goal) in axes.iter_mut().zip(columns(l, &map.matrix3)) {
                     *e = *e + (goal - *e) * time;
                 }

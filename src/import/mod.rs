@@ -85,9 +85,9 @@ pub fn read(path: &Path, options: &ImportOptions) -> Result<Imported, SceneError
 }
 
 /// Reads a file, and those of its folder that it names.
-type Reader = fn(&Path, &ImportOptions, &Folder) -> Result<Imported, SceneError>;
+type ImportReader = fn(&Path, &ImportOptions, &Folder) -> Result<Imported, SceneError>;
 
-fn reader(path: &Path) -> Option<Reader> {
+fn reader(path: &Path) -> Option<ImportReader> {
     let extension = path.extension()?.to_str()?.to_ascii_lowercase();
     Some(match extension.as_str() {
         "gltf" | "glb" => gltf::read,

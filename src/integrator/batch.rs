@@ -1,6 +1,6 @@
 //! The queues of one thread, which hold the paths of a batch between stages.
 use super::{
-    bright_samples::Found,
+    bright_samples::BrightBuffers,
     crossings::Crossings,
     first_hits::FirstHits,
     light_paths::{paths::LightPaths, splat::Splat},
@@ -35,7 +35,7 @@ pub struct Batch {
     /// Queues of paths from both ends, after the first trace with such paths.
     pub(super) light_paths: Option<Box<LightPaths>>,
     /// What sharing bright samples needs, after the first trace with it.
-    pub(super) bright: Option<Box<Found>>,
+    pub(super) bright: Option<Box<BrightBuffers>>,
     /// Paths cut at [`crate::scene::RenderSettings::last_bounce`] in the absence of a cap.
     pub cut_paths: u64,
 }

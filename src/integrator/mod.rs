@@ -62,7 +62,7 @@ pub use self::{
     light_paths::splat::Splat,
     profile::{CountedRays, Profile, StageCost, trace_profiled},
     replay::{
-        BothEnds, EmitterHit, End, Outcome, PathPoint, Reflection, Replay, SampledLight, SharedLight, StrategyTerm, Surface,
+        BothEnds, EmitterHit, End, LightOutcome, PathPoint, Reflection, Replay, SampledLight, SharedLight, StrategyTerm, Surface,
         Vertex, pixel_samples, replay, seen_by_camera,
     },
     series::{SHARES, TERMS, Terms, trace_series},

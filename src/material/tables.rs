@@ -27,7 +27,7 @@ enum TableOf {
 
 /// The rows of one table.
 #[derive(Clone)]
-struct Table {
+struct MaterialTable {
     of: TableOf,
     precision: Precision,
     rows: Arc<Vec<[f32; 4]>>,
@@ -42,9 +42,9 @@ pub struct Tables {
     /// Whether some dielectric is compensated.
     pub compensates_dielectrics: bool,
     /// The tables so far, and their first rows.
-    tables: Vec<(Table, u32)>,
+    tables: Vec<(MaterialTable, u32)>,
     /// Tables of the previous compile, which are reused.
-    before: Vec<Table>,
+    before: Vec<MaterialTable>,
     precision: Precision,
     /// The time that each table took to make; `None` for tables that were reused.
     pub times: Vec<Option<Duration>>,
@@ -93,7 +93,7 @@ impl Tables {
             None => {
                 let start = Instant::now();
                 let precision = if of.takes_long() { self.precision } else { Precision::Exact };
-                (Table { of, precision, rows: Arc::new(of.rows(precision)) }, Some(start.elapsed()))
+                (MaterialTable { of, precision, rows: Arc::new(of.rows(precision)) }, Some(start.elapsed()))
             }
         };
         self.times.push(took);

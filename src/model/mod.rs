@@ -92,7 +92,7 @@ pub enum ModelFormatError {
     Cancelled(#[from] Cancelled),
     /// The file violates its format at this place.
     #[error("{0}: {1}")]
-    Broken(Place, String),
+    Broken(FilePosition, String),
 }
 
 impl From<std::io::Error> for ModelFormatError {
@@ -107,7 +107,7 @@ impl From<std::io::Error> for ModelFormatError {
 
 /// Position in a file.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-pub enum Place {
+pub enum FilePosition {
     /// Line of a text file, counted from 1.
     #[error("line {0}")]
     Line(usize),
@@ -116,7 +116,7 @@ pub enum Place {
     Byte(usize),
 }
 
-impl Place {
+impl FilePosition {
     fn broken(self, reason: impl fmt::Display) -> ModelFormatError {
         ModelFormatError::Broken(self, reason.to_string())
     }
@@ -124,7 +124,7 @@ impl Place {
 
 /// The meshes of an OBJ file by material.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Parts {
+pub struct ObjParts {
     /// What stands after `mtllib`, line by line: one file name or several, with spaces within and between them.
     pub libraries: Vec<String>,
     /// One mesh per material that has faces, in the order in which they come first.
@@ -132,9 +132,9 @@ pub struct Parts {
 }
 
 /// A file without materials.
-impl From<Model> for Parts {
-    fn from(model: Model) -> Parts {
-        Parts { libraries: Vec::new(), list: vec![Part { material: None, model }] }
+impl From<Model> for ObjParts {
+    fn from(model: Model) -> ObjParts {
+        ObjParts { libraries: Vec::new(), list: vec![Part { material: None, model }] }
     }
 }
 
@@ -177,7 +177,7 @@ pub fn read_watched(path: &Path, progress: &Progress) -> Result<Model, ModelErro
 }
 
 /// Reads a mesh file as one mesh per material. Only OBJ files have several.
-pub fn read_parts(path: &Path, progress: &Progress) -> Result<Parts, ModelError> {
+pub fn read_parts(path: &Path, progress: &Progress) -> Result<ObjParts, ModelError> {
     read_file(path, progress, decode_parts).map_err(|problem| ModelError { path: path.to_owned(), problem })
 }
 
@@ -225,14 +225,14 @@ fn decode(bytes: &[u8], named: Option<Named>, progress: &Progress) -> Result<Mod
     })
 }
 
-fn decode_parts(bytes: &[u8], named: Option<Named>, progress: &Progress) -> Result<Parts, ModelFormatError> {
+fn decode_parts(bytes: &[u8], named: Option<Named>, progress: &Progress) -> Result<ObjParts, ModelFormatError> {
     if named != Some(Named::Obj) || ply::is_ply(bytes) {
-        return decode(bytes, named, progress).map(Parts::from);
+        return decode(bytes, named, progress).map(ObjParts::from);
     }
-    let Parts { libraries, list } = obj::decode_parts(bytes, progress)?;
+    let ObjParts { libraries, list } = obj::decode_parts(bytes, progress)?;
     let complete = |part: Part| completed(part.model).map(|model| Part { material: part.material, model });
     let list: Vec<Part> = list.into_iter().map(complete).collect::<Result<_, _>>()?;
-    if list.is_empty() { Err(ModelFormatError::Empty) } else { Ok(Parts { libraries, list }) }
+    if list.is_empty() { Err(ModelFormatError::Empty) } else { Ok(ObjParts { libraries, list }) }
 }
 
 fn completed(mut model: Model) -> Result<Model, ModelFormatError> {

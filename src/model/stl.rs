@@ -2,7 +2,7 @@
 //!
 //! M. Burns, "Automated Fabrication", 1993, section 6.5. The normals of the facets are those of the triangles, and are not read; nor are
 //! the two bytes after each binary triangle, which some programs use for colours in ways that contradict each other.
-use super::{Model, ModelFormatError, Place, number, weld};
+use super::{FilePosition, Model, ModelFormatError, number, weld};
 use crate::{
     memory::{Reservation, reserve},
     quote,
@@ -39,12 +39,12 @@ fn is_binary(bytes: &[u8]) -> bool {
 }
 
 fn binary(bytes: &[u8]) -> Result<(Vec<[f32; 3]>, Reservation), ModelFormatError> {
-    let end = Place::Byte(bytes.len());
+    let end = FilePosition::Byte(bytes.len());
     let count = claimed(bytes).ok_or_else(|| end.broken("the file ends within its header"))?;
     let triangles = &bytes[HEADER..];
     if triangles.len() / TRIANGLE < count {
         let left = triangles.len();
-        return Err(Place::Byte(HEADER).broken(format!("the remaining {left} bytes are too few for {count} triangles")));
+        return Err(FilePosition::Byte(HEADER).broken(format!("the remaining {left} bytes are too few for {count} triangles")));
     }
     let room = reserve(format_args!("{} corners", 3 * count), (3 * count * size_of::<[f32; 3]>()) as u64)?;
     let mut places = Vec::with_capacity(3 * count);
@@ -55,7 +55,7 @@ fn binary(bytes: &[u8]) -> Result<(Vec<[f32; 3]>, Reservation), ModelFormatError
     }
     if let Some(corner) = places.iter().position(|place: &[f32; 3]| !place.iter().all(|x| x.is_finite())) {
         let at = HEADER + corner / 3 * TRIANGLE + CORNERS + corner % 3 * size_of::<[f32; 3]>();
-        return Err(Place::Byte(at).broken(format!("triangle {}: a coordinate is not a finite number", corner / 3)));
+        return Err(FilePosition::Byte(at).broken(format!("triangle {}: a coordinate is not a finite number", corner / 3)));
     }
     Ok((places, room))
 }
@@ -65,7 +65,7 @@ fn text(bytes: &[u8]) -> Result<(Vec<[f32; 3]>, Reservation), ModelFormatError> 
     // Corners since the loop began.
     let mut corners = 0;
     for (line, words) in bytes.split(|byte| *byte == b'\n').enumerate() {
-        let place = Place::Line(line + 1);
+        let place = FilePosition::Line(line + 1);
         let mut words = words.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
         let Some(keyword) = words.next() else { continue };
         if keyword.eq_ignore_ascii_case(b"vertex") {
@@ -81,7 +81,7 @@ fn text(bytes: &[u8]) -> Result<(Vec<[f32; 3]>, Reservation), ModelFormatError> 
     }
     if corners > 0 {
         let lines = 1 + bytes.iter().filter(|byte| **byte == b'\n').count();
-        return Err(Place::Line(lines).broken("the file ends within a facet"));
+        return Err(FilePosition::Line(lines).broken("the file ends within a facet"));
     }
     Ok((places, room))
 }

@@ -3,7 +3,7 @@
 //! L = τ₀ (w₀ L_e(x₀) + D₀ + f₀ cos θ₀/(p₀ q₀) · τ₁ (w₁ L_e(x₁) + D₁ + …)), where D is the light sample of a vertex, τ the
 //! transmittance on the way to it, w the weight of emitted light, and q the survival probability of roulette. Factors of 1 are
 //! omitted.
-use crate::integrator::{Outcome, Replay, Vertex};
+use crate::integrator::{LightOutcome, Replay, Vertex};
 
 /// Number of vertices in the formula without numbers.
 const SHOWN: usize = 2;
@@ -37,7 +37,7 @@ fn levels(replay: &Replay) -> Vec<Level> {
 fn level(vertex: &Vertex) -> Level {
     let wide = |rgb: [f32; 3]| rgb.map(f64::from);
     let emission = vertex.emission.as_ref().map_or((1.0, [0.0; 3]), |met| (met.weight.into(), wide(met.radiance)));
-    let seen = vertex.light.as_ref().filter(|light| light.outcome == Outcome::Seen);
+    let seen = vertex.light.as_ref().filter(|light| light.outcome == LightOutcome::Seen);
     let light = seen.map_or([0.0; 3], |light| {
         let scale = f64::from(light.weight) / f64::from(light.pdf);
         [0, 1, 2].map(|c| f64::from(light.f_cos[c]) * f64::from(light.radiance[c]) * f64::from(light.passed[c]) * scale)

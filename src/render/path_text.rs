@@ -4,7 +4,7 @@ use super::{
     path_words::{number, place, three},
 };
 use crate::{
-    integrator::{EmitterHit, Outcome, Reflection, Replay, SampledLight, Surface, Vertex},
+    integrator::{EmitterHit, LightOutcome, Reflection, Replay, SampledLight, Surface, Vertex},
     render::settings_text::on_or_off,
     scene::{Camera, RenderSettings, Scene},
 };
@@ -124,15 +124,15 @@ fn light_sample(scene: &Scene, light: &SampledLight, term: &mut impl FnMut(&str,
     term("", &format!("ω {}", place(light.direction)));
     term("", &format!("Le {}, weight {}", three(light.radiance), number(light.weight)));
     term("", &format!("f cos {}", three(light.f_cos)));
-    if light.outcome == Outcome::Seen && light.passed != [1.0; 3] {
+    if light.outcome == LightOutcome::Seen && light.passed != [1.0; 3] {
         term("", &format!("× {} by media and texture", three(light.passed)));
     }
     term(
         "",
         &match light.outcome {
-            Outcome::Seen => format!("is visible, adds {}", three(light.contribution)),
-            Outcome::Hidden => "is occluded".to_owned(),
-            Outcome::Void => "adds nothing: BSDF or radiance is 0".to_owned(),
+            LightOutcome::Seen => format!("is visible, adds {}", three(light.contribution)),
+            LightOutcome::Hidden => "is occluded".to_owned(),
+            LightOutcome::Void => "adds nothing: BSDF or radiance is 0".to_owned(),
         },
     );
 }
@@ -198,14 +198,14 @@ mod tests {
         for (front, outcome, [goes_on, survives], parts) in [
             (
                 true,
-                Outcome::Seen,
+                LightOutcome::Seen,
                 [true, true],
                 [", front, ", "is visible, adds 0.50000 2.00000 3.00000", "continues with 0.75000 "],
             ),
-            (false, Outcome::Hidden, [false, false], [", back, ", "is occluded", "survival 0.25000, ended by roulette"]),
+            (false, LightOutcome::Hidden, [false, false], [", back, ", "is occluded", "survival 0.25000, ended by roulette"]),
             (
                 true,
-                Outcome::Void,
+                LightOutcome::Void,
                 [false, true],
                 [", front, ", "adds nothing: BSDF or radiance is 0", "ends: no light can follow"],
             ),

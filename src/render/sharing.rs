@@ -71,7 +71,7 @@ pub(super) fn resolved_unless(
 }
 
 /// What a trial of a way to share has made.
-struct Trial {
+struct SharingTrial {
     /// Means of the pixels of all tiles, row by row, with each seed.
     images: [Vec<[f64; 3]>; 2],
     rays: f64,
@@ -116,40 +116,40 @@ fn best(scene: &Scene, interrupted: &(dyn Fn() -> bool + Sync)) -> Result<Sharin
 }
 
 /// The factor by which the squared error falls, relative to the means of both trials.
-fn gain(before: &Trial, after: &Trial) -> f64 {
-    let scale = Scale::of(&[before, after]);
+fn gain(before: &SharingTrial, after: &SharingTrial) -> f64 {
+    let scale = ErrorScale::of(&[before, after]);
     let error = |trial| scale.errors(trial).sum::<f64>();
     error(before) / error(after)
 }
 
 /// The part of the error that is in channels of pixels that differ by more than the radiance around them: a bright sample makes the mean of
 /// [`SPP`] differ by twice as much.
-fn part_of_outliers(trial: &Trial) -> f64 {
+fn part_of_outliers(trial: &SharingTrial) -> f64 {
     const LARGE: f64 = 1.0;
-    let scale = Scale::of(&[trial]);
+    let scale = ErrorScale::of(&[trial]);
     let [all, large] =
         scale.errors(trial).fold([0.0; 2], |[all, large], error| [all + error, large + if error > LARGE { error } else { 0.0 }]);
     if all > 0.0 { large / all } else { 0.0 }
 }
 
 /// What errors are relative to.
-struct Scale {
+struct ErrorScale {
     rows: Vec<[f64; 3]>,
     floor: f64,
 }
 
-impl Scale {
+impl ErrorScale {
     /// The means of trials.
-    fn of(trials: &[&Trial]) -> Scale {
+    fn of(trials: &[&SharingTrial]) -> ErrorScale {
         let images = trials.iter().flat_map(|trial| &trial.images).map(Vec::as_slice).collect::<Vec<_>>();
         let pixels = images[0].len();
         let squares = images.iter().copied().flatten().flatten().map(|x| x * x);
         let floor = Floor::DEFAULT.of(squares.sum::<f64>() / (3 * images.len() * pixels.max(1)) as f64);
-        Scale { rows: (0..pixels).step_by(ROW).map(|start| mean_of_row(&images, start)).collect(), floor }
+        ErrorScale { rows: (0..pixels).step_by(ROW).map(|start| mean_of_row(&images, start)).collect(), floor }
     }
 
     /// Relative squared differences of the images of a trial, by pixel and channel.
-    fn errors<'a>(&'a self, Trial { images: [a, b], .. }: &'a Trial) -> impl Iterator<Item = f64> + 'a {
+    fn errors<'a>(&'a self, SharingTrial { images: [a, b], .. }: &'a SharingTrial) -> impl Iterator<Item = f64> + 'a {
         let of =
             move |pixel: usize, c: usize| relative((a[pixel][c] - b[pixel][c]).powi(2), self.rows[pixel / ROW][c], self.floor);
         (0..a.len()).flat_map(move |pixel| (0..3).map(move |c| of(pixel, c)))
@@ -169,7 +169,7 @@ fn trial(
     settings: &RenderSettings,
     batches: &PerThread<Batch>,
     interrupted: &(dyn Fn() -> bool + Sync),
-) -> Result<Trial, Interrupted> {
+) -> Result<SharingTrial, Interrupted> {
     let [width, height] = scene.camera.resolution;
     let tile = |(seed, [x, y]): (u32, [f64; 2])| {
         let origin = [(width, x), (height, y)].map(|(side, part)| (f64::from(side) * part) as u32 / TILE * TILE);
@@ -182,7 +182,7 @@ fn trial(
     let tiles = places.into_par_iter().with_max_len(1).map(tile).collect::<Result<Vec<_>, Interrupted>>()?;
     let image = |tiles: &[(Vec<[f64; 3]>, u64)]| tiles.iter().flat_map(|(means, _)| means.iter().copied()).collect();
     let (first, second) = tiles.split_at(PLACES.len());
-    Ok(Trial { images: [image(first), image(second)], rays: tiles.iter().map(|(_, rays)| *rays as f64).sum() })
+    Ok(SharingTrial { images: [image(first), image(second)], rays: tiles.iter().map(|(_, rays)| *rays as f64).sum() })
 }
 
 /// The means of the pixels of a tile after a few samples, and the number of rays.
@@ -215,7 +215,7 @@ mod tests {
             let image = |sign: f64| {
                 (0..2 * ROW).map(|i| if i < ROW { [1.0 + sign * noise; 3] } else { [10.0 + sign * 10.0 * noise; 3] }).collect()
             };
-            Trial { images: [image(1.0), image(-1.0)], rays: 1.0 }
+            SharingTrial { images: [image(1.0), image(-1.0)], rays: 1.0 }
         };
         assert!(part_of_outliers(&trial(0.02)) == 0.0 && part_of_outliers(&trial(0.9)) > 0.9);
         assert!((gain(&trial(0.02), &trial(0.01)) - 4.0).abs() < 1e-9);

@@ -74,18 +74,18 @@ impl Axis {
 }
 
 /// The positions of an axis, with our own choice of labels.
-pub(super) struct Scale {
+pub(super) struct AxisScale {
     places: RangedCoordf64,
     pub(super) ticks: Vec<f64>,
 }
 
-impl Scale {
-    pub(super) fn new(axis: Axis, range: Range<f64>) -> Scale {
-        Scale { ticks: axis.ticks(&range), places: range.into() }
+impl AxisScale {
+    pub(super) fn new(axis: Axis, range: Range<f64>) -> AxisScale {
+        AxisScale { ticks: axis.ticks(&range), places: range.into() }
     }
 }
 
-impl Ranged for Scale {
+impl Ranged for AxisScale {
     type FormatOption = DefaultFormatting;
     type ValueType = f64;
 

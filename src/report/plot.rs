@@ -4,7 +4,7 @@ use std::ops::Range;
 use plotters::{coord::Shift, prelude::*};
 
 pub use super::axis::Axis;
-use super::{Figure, axis::Scale, font, picture::rgb_png};
+use super::{Figure, axis::AxisScale, font, picture::rgb_png};
 
 /// Colours that are distinct for colour-blind readers too (M. Okabe and K. Ito, "Color Universal Design", 2008).
 const COLOURS: [RGBColor; 6] = [
@@ -115,7 +115,7 @@ where
     let (xs, ys) = (x.range(all().map(|(a, _)| x.place(a))), y.range(all().map(|(_, b)| y.place(b))));
     let within = |(a, b): (f64, f64)| (part(&xs, x.place(a)), part(&ys, y.place(b)));
     let corner = emptiest_corner(curves.iter().flat_map(|curve| between(curve).map(within)), legend_size(curves, size));
-    let (xs, ys) = (Scale::new(x, xs), Scale::new(y, ys));
+    let (xs, ys) = (AxisScale::new(x, xs), AxisScale::new(y, ys));
     let labels = [xs.ticks.len(), ys.ticks.len()];
     let mut chart = ChartBuilder::on(area)
         .margin(8 * scale)

@@ -16,13 +16,13 @@ struct Details {
     message: String,
     label: String,
     help: Option<String>,
-    place: Option<Place>,
+    place: Option<Location>,
     /// The further errors of the file.
     others: Vec<SceneError>,
 }
 
 #[derive(Debug, Clone)]
-struct Place {
+struct Location {
     /// Both from 1.
     line_column: (usize, usize),
     excerpt: Excerpt,
@@ -146,7 +146,7 @@ impl SourceText {
             message: quote::message(&message.into()),
             label: quote::message(&label.into()),
             help: None,
-            place: Some(Place { line_column: (line, column), excerpt }),
+            place: Some(Location { line_column: (line, column), excerpt }),
             others: Vec::new(),
         }))
     }

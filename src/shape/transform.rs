@@ -4,7 +4,7 @@ use glam::{DAffine3, DMat3, DVec3};
 use super::FLATTEST;
 use crate::{
     declare::{Declare, OneOf, Parameter, Parameters, Path, Problem, Range, Value},
-    geometry::{Motion, Step, Turns},
+    geometry::{Motion, TransformStep, Turns},
 };
 
 /// Limits of scale factors, beyond which f32 overflows.
@@ -107,13 +107,13 @@ impl Declare for Rotation {
 
 impl Transform {
     /// The same transform as a step of a motion.
-    fn step(&self) -> Result<Step, Problem> {
+    fn step(&self) -> Result<TransformStep, Problem> {
         let error = |message: &str, label: &str| Err(Problem::at("", message, label));
         let step = match self {
-            Transform::Translate(by) => Step::Translate(*by),
-            Transform::Scale(factors) => Step::Scale(*factors),
+            Transform::Translate(by) => TransformStep::Translate(*by),
+            Transform::Scale(factors) => TransformStep::Scale(*factors),
             Transform::Rotate(rotation) => match rotation.axis.try_normalize() {
-                Some(axis) => Step::Rotate { axis, turns: Turns::from_degrees(rotation.degrees) },
+                Some(axis) => TransformStep::Rotate { axis, turns: Turns::from_degrees(rotation.degrees) },
                 None => return error("the axis of rotation has no direction", "it must not be zero"),
             },
             Transform::Matrix([x, y, z, last]) => {
@@ -121,7 +121,10 @@ impl Transform {
                     return error("the matrix is not affine", "the last row must be 0, 0, 0, 1");
                 }
                 let column = |i: usize| DVec3::new(x[i], y[i], z[i]);
-                Step::Matrix(DAffine3 { matrix3: DMat3::from_cols(column(0), column(1), column(2)), translation: column(3) })
+                TransformStep::Matrix(DAffine3 {
+                    matrix3: DMat3::from_cols(column(0), column(1), column(2)),
+                    translation: column(3),
+                })
             }
         };
         let map = step.at(1.0);
@@ -141,7 +144,7 @@ impl Transform {
 }
 
 /// The steps of a list of transforms. Paths of problems are indices into the list.
-fn steps(list: &[Transform]) -> Result<Vec<Step>, Problem> {
+fn steps(list: &[Transform]) -> Result<Vec<TransformStep>, Problem> {
     let step = |(place, transform): (usize, &Transform)| {
         transform.step().map_err(|problem| problem.within(&Path::default().item(place)))
     };

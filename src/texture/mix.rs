@@ -2,7 +2,7 @@
 use fearless_simd_macros::simd;
 
 use super::{
-    ColourSource, Found, NumberSource, Pattern, Summary, Texture, TextureCompiler, TextureCoordinates, Textures, Texturing,
+    ColourSource, Lookup, NumberSource, Pattern, Summary, Texture, TextureCompiler, TextureCoordinates, Textures, Texturing,
     compiler::MOST_LOOKUPS, parts::finest,
 };
 use crate::{
@@ -107,7 +107,7 @@ impl Pattern for Mixture {
     }
 
     #[inline(always)]
-    fn apply<L: Lanes>(&self, l: L, here: M<L>, at: &TextureCoordinates<L>, textures: &Textures, found: &mut Found<L>) {
+    fn apply<L: Lanes>(&self, l: L, here: M<L>, at: &TextureCoordinates<L>, textures: &Textures, found: &mut Lookup<L>) {
         found.colour = here.pick(self.colour(l, here, at, textures), found.colour);
     }
 }

@@ -8,7 +8,7 @@ use noisefall::{
         checkpoint::{keep_scene, kept_header},
         image_file::{Contents, Format},
         sharing::resolved,
-        split::{Join, Picture, SampleFile, SampleFilm, SampleRanges, write},
+        split::{Join, SampleFile, SampleFilm, SampleRanges, SplitPicture, write},
     },
     render_file::{Header, ImageFacts, Kind, Target},
     sampling::Sampler,
@@ -79,14 +79,14 @@ impl Image {
     }
 
     /// The bytes of an EXR of these sums.
-    fn bytes(&self, picture: Picture) -> Vec<u8> {
+    fn bytes(&self, picture: SplitPicture) -> Vec<u8> {
         let frame = picture.frame();
         let contents = Contents { frame: &frame, channels: &[], settings: "" };
         contents.encode(Display::default(), Format::Exr).expect("it is encoded")
     }
 
-    fn picture(&self, samples: SampleRanges) -> Picture {
-        Picture::new(self.camera.resolution, samples, self.sharing()).expect("there is memory")
+    fn picture(&self, samples: SampleRanges) -> SplitPicture {
+        SplitPicture::new(self.camera.resolution, samples, self.sharing()).expect("there is memory")
     }
 }
 

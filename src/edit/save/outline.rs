@@ -43,7 +43,7 @@ impl Table {
     pub fn of(description: &SceneDescription) -> Table {
         let answers = Tree::of(&mut description.clone()).0;
         // The default description is led through the same choices: what it says then is what a reader assumes.
-        let mut outliner = Outliner { answers: answers.into_iter(), frames: vec![Frame::default()] };
+        let mut outliner = Outliner { answers: answers.into_iter(), frames: vec![OutlineFrame::default()] };
         SceneDescription::default().parameters(&mut outliner);
         outliner.frames.pop().map(|frame| frame.table).unwrap_or_default()
     }
@@ -82,7 +82,7 @@ impl Node {
 
 /// Destination of the visited table.
 #[derive(Default)]
-enum Place {
+enum Destination {
     #[default]
     Key,
     Item,
@@ -90,10 +90,10 @@ enum Place {
 }
 
 #[derive(Default)]
-struct Frame {
+struct OutlineFrame {
     table: Table,
     key: &'static str,
-    place: Place,
+    place: Destination,
     form: Option<Form>,
     /// Whether the table must be written even if all of its values are defaults.
     is_needed: bool,
@@ -106,11 +106,11 @@ struct Frame {
 /// Visits a default description and gives it the structure of another.
 struct Outliner {
     answers: std::vec::IntoIter<Answer>,
-    frames: Vec<Frame>,
+    frames: Vec<OutlineFrame>,
 }
 
 impl Outliner {
-    fn frame(&mut self) -> &mut Frame {
+    fn frame(&mut self) -> &mut OutlineFrame {
         self.frames.last_mut().expect("the whole file is around")
     }
 
@@ -139,15 +139,15 @@ impl Parameters for Outliner {
 
     fn enter(&mut self, parameter: &Parameter, form: Form) {
         let is_needed = self.needs(parameter);
-        self.frames.push(Frame { key: parameter.key, form: Some(form), is_needed, ..Frame::default() });
+        self.frames.push(OutlineFrame { key: parameter.key, form: Some(form), is_needed, ..OutlineFrame::default() });
     }
 
     fn leave(&mut self) {
-        let Some(Frame { table, key, place, is_needed, .. }) = self.frames.pop() else { return };
+        let Some(OutlineFrame { table, key, place, is_needed, .. }) = self.frames.pop() else { return };
         let entries = &mut self.frame().table.entries;
         match (place, entries.last_mut().map(|entry| &mut entry.node)) {
-            (Place::Item, Some(Node::List(list))) => list.push(table),
-            (Place::Named(name), Some(Node::Named(tables))) => drop(tables.insert(name, table)),
+            (Destination::Item, Some(Node::List(list))) => list.push(table),
+            (Destination::Named(name), Some(Node::Named(tables))) => drop(tables.insert(name, table)),
             _ => {
                 let is_default = !is_needed && table.is_default();
                 self.add(key, Node::Table(table), is_default);
@@ -181,7 +181,7 @@ impl Parameters for Outliner {
     }
 
     fn item(&mut self, parameter: &Parameter, _: usize) {
-        self.frames.push(Frame { key: parameter.key, place: Place::Item, ..Frame::default() });
+        self.frames.push(OutlineFrame { key: parameter.key, place: Destination::Item, ..OutlineFrame::default() });
     }
 
     fn names(&mut self, parameter: &Parameter, now: Vec<String>) -> Vec<String> {
@@ -191,6 +191,10 @@ impl Parameters for Outliner {
     }
 
     fn named(&mut self, parameter: &Parameter, name: &str) {
-        self.frames.push(Frame { key: parameter.key, place: Place::Named(name.to_owned()), ..Frame::default() });
+        self.frames.push(OutlineFrame {
+            key: parameter.key,
+            place: Destination::Named(name.to_owned()),
+            ..OutlineFrame::default()
+        });
     }
 }

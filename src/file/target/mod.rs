@@ -51,7 +51,7 @@ pub enum WriteError {
 /// Checks whether a file can be written to this path, as far as this is known before there are bytes.
 pub fn check(path: &Path) -> Result<(), WriteError> {
     // Made and removed again: a folder that cannot be written to is better known before an hour of rendering than after.
-    Target::of(path)?.temporary().map(drop).map_err(|error| failed(path, &error))
+    OutputFile::of(path)?.temporary().map(drop).map_err(|error| failed(path, &error))
 }
 
 /// Replaces a file, or leaves it unchanged on failure. Symbolic links are followed.
@@ -61,7 +61,7 @@ pub fn replace(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
 
 /// The same with bytes that are written piece by piece.
 pub fn replace_by(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), WriteError> {
-    let target = Target::of(path)?;
+    let target = OutputFile::of(path)?;
     let write = || {
         let mut file = target.temporary()?;
         #[cfg(test)]
@@ -88,15 +88,15 @@ fn failed(path: &Path, error: &io::Error) -> WriteError {
 }
 
 /// A file to write.
-struct Target {
+struct OutputFile {
     /// The path with symbolic links resolved: a rename to a link would replace the link.
     path: PathBuf,
     folder: PathBuf,
     name: OsString,
 }
 
-impl Target {
-    fn of(path: &Path) -> Result<Target, WriteError> {
+impl OutputFile {
+    fn of(path: &Path) -> Result<OutputFile, WriteError> {
         // Before links are followed by name: some lead to what has no name, such as a pipe.
         match fs::metadata(path) {
             Ok(there) => {
@@ -114,7 +114,7 @@ impl Target {
             return Err(WriteError::NoFolder { path: path.to_owned(), folder });
         }
         let name = end.file_name().unwrap_or_default().to_owned();
-        Ok(Target { path: end, folder, name })
+        Ok(OutputFile { path: end, folder, name })
     }
 
     /// An empty file beside the target that disappears unless it is renamed. It is locked, and has the target's permissions.

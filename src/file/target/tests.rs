@@ -136,7 +136,7 @@ fn leftovers_of_the_dead_are_removed_and_those_of_the_living_and_of_other_names_
     }
     let similar = ["notes", "my-own"].map(|word| at(&part("a.txt", word)));
     similar.iter().for_each(|path| fs::write(path, "by hand").expect("it is written"));
-    let living = Target::of(&at("a.txt")).expect("a target").temporary().expect("a file");
+    let living = OutputFile::of(&at("a.txt")).expect("a target").temporary().expect("a file");
     replace(&at("a.txt"), b"whole").expect("it is written");
     assert!(living.path().exists() && !at(&part("a.txt", "dead00")).exists());
     assert!(at(&part("b.txt", "dead00")).exists() && at(&part("a.txt.noisefall-x", "dead00")).exists());

@@ -4,7 +4,7 @@ use rand::{Rng, SeedableRng, rngs::SmallRng};
 
 use super::{cases, exact, lane, place, point, v};
 use crate::{
-    geometry::{Coordinates, Motion, PrimitiveRef, Shape, Shapes, Step, Turns},
+    geometry::{Coordinates, Motion, PrimitiveRef, Shape, Shapes, TransformStep, Turns},
     math::{F, One},
 };
 
@@ -106,7 +106,7 @@ fn turned_balls_lie_beside_others_and_turn_as_they_move() {
         let found = all.coordinates(One, &place(id as u32), &at);
         assert_eq!([lane(found.u), lane(found.v)], at_direction(shape, &still, n, 0.0).0, "as if it were alone");
     }
-    let spin = Motion(vec![Step::Rotate { axis: DVec3::Y, turns: Turns::from_degrees(60.0) }]);
+    let spin = Motion(vec![TransformStep::Rotate { axis: DVec3::Y, turns: Turns::from_degrees(60.0) }]);
     let n = DVec3::new(0.8, 0.0, 0.6);
     let (moved, _) = at_direction(&ball.transformed(&turn(30.0)), &spin, n, 1.0);
     let (turned, _) = at_direction(&ball.transformed(&turn(90.0)), &still, n, 0.0);

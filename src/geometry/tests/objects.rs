@@ -7,7 +7,7 @@ use rand::{Rng, SeedableRng, rngs::SmallRng};
 use super::{cases, exact, shapes, unit_vector, v};
 use crate::{
     geometry::{
-        Expression, Isosurface, MISS, Motion, Nearest, Outline, Shape, Shapes, Step, Turns,
+        Expression, Isosurface, MISS, Motion, Nearest, Outline, Shape, Shapes, TransformStep, Turns,
         mesh::generate,
         sphere_field,
         transform::{LaneTransform, StaticTransform},
@@ -28,10 +28,10 @@ fn crowd(rng: &mut SmallRng) -> Vec<(Shape, Motion)> {
         let turn = DAffine3::from_axis_angle(unit_vector(rng), rng.random_range(0.0..6.0));
         let map = DAffine3::from_translation(at) * turn * DAffine3::from_scale(DVec3::splat(rng.random_range(0.1..0.6)));
         let steps = [
-            Step::Translate(unit_vector(rng)),
-            Step::Rotate { axis: unit_vector(rng), turns: Turns::from_degrees(rng.random_range(-108.0..108.0)) },
-            Step::Scale(DVec3::new(1.3, 0.8, 1.1)),
-            Step::Matrix(DAffine3::from_translation(unit_vector(rng) * 0.1)),
+            TransformStep::Translate(unit_vector(rng)),
+            TransformStep::Rotate { axis: unit_vector(rng), turns: Turns::from_degrees(rng.random_range(-108.0..108.0)) },
+            TransformStep::Scale(DVec3::new(1.3, 0.8, 1.1)),
+            TransformStep::Matrix(DAffine3::from_translation(unit_vector(rng) * 0.1)),
         ];
         let motion = Motion(if i % 3 == 0 { steps[..1 + i / 3 % 4].to_vec() } else { Vec::new() });
         crowd.push((kinds[i % kinds.len()].transformed(&map), motion));

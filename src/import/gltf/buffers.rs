@@ -25,7 +25,7 @@ pub struct Buffers {
 impl Buffers {
     /// Reads all buffers. `length` is that of the scene file, bytes.
     pub fn read(document: &Document, blob: Option<Bytes>, length: u64, folder: &Folder, progress: &Progress) -> Found<Buffers> {
-        let mut files = Files { folder, progress, known: HashMap::new(), room: Reservation::none(), length };
+        let mut files = BufferFiles { folder, progress, known: HashMap::new(), room: Reservation::none(), length };
         let mut blob = blob.map(Rc::new);
         let mut data = Vec::new();
         for (place, buffer) in document.buffers.iter().enumerate() {
@@ -84,7 +84,7 @@ fn long_enough(bytes: Rc<Bytes>, buffer: &Buffer) -> Found<Rc<Bytes>> {
 }
 
 /// Files that buffers name. Each is read once.
-struct Files<'a> {
+struct BufferFiles<'a> {
     folder: &'a Folder,
     progress: &'a Progress,
     known: HashMap<PathBuf, Rc<Bytes>>,
@@ -93,7 +93,7 @@ struct Files<'a> {
     length: u64,
 }
 
-impl Files<'_> {
+impl BufferFiles<'_> {
     fn bytes(&mut self, uri: &str) -> Found<Rc<Bytes>> {
         if let Some(bytes) = data_uri(uri) {
             return bytes.map(|bytes| Rc::new(Bytes::Memory(bytes)));

@@ -43,7 +43,7 @@ pub struct Instances<'a> {
     pub most: u64,
     /// Least and greatest coordinates of all objects, metres.
     pub bounds: [DVec3; 2],
-    models: HashMap<Key, Option<Rc<Known>>>,
+    models: HashMap<Key, Option<Rc<KnownModel>>>,
     files: Names,
     names: Names,
     /// By skin.
@@ -63,7 +63,7 @@ struct Key {
 }
 
 /// A model in the assets.
-struct Known {
+struct KnownModel {
     path: String,
     bounds: [DVec3; 2],
     has_normals: bool,
@@ -250,7 +250,7 @@ impl<'a> Instances<'a> {
         shown: &Shown,
         (at, primitive): (usize, &Primitive),
         uvs: Option<u32>,
-    ) -> Found<Option<Rc<Known>>> {
+    ) -> Found<Option<Rc<KnownModel>>> {
         let deformation = &shown.deformation;
         let is_morphed = primitive.targets.iter().zip(&deformation.weights).any(|(_, weight)| *weight != 0.0);
         let is_deformed = is_morphed || !deformation.joints.is_empty();
@@ -270,7 +270,7 @@ impl<'a> Instances<'a> {
     }
 
     /// Adds a model to the assets; `None` if it is a point.
-    fn keep(&mut self, to: &mut Imported, model: Model, name: &str) -> Option<Known> {
+    fn keep(&mut self, to: &mut Imported, model: Model, name: &str) -> Option<KnownModel> {
         let points = || model.vertices.iter().map(|vertex| Vec3::from(*vertex));
         let least = points().fold(Vec3::INFINITY, Vec3::min).as_dvec3();
         let greatest = points().fold(Vec3::NEG_INFINITY, Vec3::max).as_dvec3();
@@ -278,7 +278,7 @@ impl<'a> Instances<'a> {
             return None;
         }
         let path = format!("meshes/{}.ply", self.files.unique(&file_name(name), "mesh"));
-        let known = Known { path: path.clone(), bounds: [least, greatest], has_normals: model.normals.is_some() };
+        let known = KnownModel { path: path.clone(), bounds: [least, greatest], has_normals: model.normals.is_some() };
         to.assets.insert(path, model);
         Some(known)
     }

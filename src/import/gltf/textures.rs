@@ -28,7 +28,7 @@ pub struct Textures<'a> {
 
 /// The surface that a material is made for.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
-pub struct Surface {
+pub struct SurfaceInputs {
     /// The set of texture coordinates; `None` if there is none.
     pub uvs: Option<u32>,
     /// Whether vertices have colours.
@@ -40,7 +40,7 @@ pub struct Use<'u> {
     /// The texture in the file.
     pub map: Option<&'u TextureInfo>,
     /// The surface that it is for.
-    pub surface: &'u Surface,
+    pub surface: &'u SurfaceInputs,
     /// The place of remarks.
     pub place: &'u str,
 }

@@ -37,7 +37,7 @@ pub struct Appearance {
 
 /// Translates a material. `place` is its place in remarks, and `size` the diagonal of the scene, metres.
 pub fn appearance(mtl: &Mtl, place: &str, size: f64, textures: &mut Textures, to: &mut Imported) -> Appearance {
-    let mut work = Work { mtl, place, textures, to };
+    let mut work = MtlImport { mtl, place, textures, to };
     let is_glass = work.is_glass();
     let kind = if work.is_physical() {
         work.principled(is_glass)
@@ -52,14 +52,14 @@ pub fn appearance(mtl: &Mtl, place: &str, size: f64, textures: &mut Textures, to
     Appearance { material: MaterialDescription { kind, bump, normal_map, opacity, ..MaterialDescription::default() }, emission }
 }
 
-struct Work<'a> {
+struct MtlImport<'a> {
     mtl: &'a Mtl,
     place: &'a str,
     textures: &'a mut Textures,
     to: &'a mut Imported,
 }
 
-impl Work<'_> {
+impl MtlImport<'_> {
     fn remark(&mut self, found: &str, used: &str, effect: &str) {
         self.to.remarks.add(self.place, found, used, effect);
     }

@@ -4,7 +4,7 @@ use std::{
     path::PathBuf,
 };
 
-use super::{load::Files, packed::Packed, tree::Element};
+use super::{load::FileSearch, packed::Packed, tree::Element};
 use crate::{
     import::{Names, NewFiles, Remarks},
     scene::{SceneError, description::SceneDescription},
@@ -24,7 +24,7 @@ pub enum TextureValue {
 
 /// A translation.
 pub struct Import {
-    pub files: Files,
+    pub files: FileSearch,
     pub description: SceneDescription,
     /// Meshes and images that exist in memory only.
     pub new_files: NewFiles,
@@ -80,7 +80,7 @@ impl Uses {
 
 impl Import {
     /// A translation that has made nothing yet.
-    pub fn new(files: Files) -> Import {
+    pub fn new(files: FileSearch) -> Import {
         Import {
             files,
             description: SceneDescription::default(),

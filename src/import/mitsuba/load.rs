@@ -7,7 +7,7 @@ use std::{
 use super::{
     markup,
     parameters::{Substitutions, Unsubstituted},
-    tree::{Node, Place, Tree},
+    tree::{FileSpan, Node, Tree},
     upgrade,
 };
 use crate::{
@@ -30,14 +30,14 @@ const MOST_FOLDERS: usize = 64;
 const HIGHEST: usize = 3;
 
 /// Where the files of a scene are looked for.
-pub struct Files {
+pub struct FileSearch {
     /// The folder of the scene.
     pub folder: Folder,
     /// Folders of `<path>` elements, the last one first.
     search: Vec<PathBuf>,
 }
 
-impl Files {
+impl FileSearch {
     /// The file at a path that the scene names, in the search folders and then in the folder of the scene.
     ///
     /// A relative `<path>` may leave the folder of the scene: it is how Mitsuba's scenes name a folder that they share. A file must
@@ -54,7 +54,7 @@ impl Files {
 
 struct Loader<'o> {
     tree: Tree,
-    files: Files,
+    files: FileSearch,
     allow_outside: bool,
     parameters: Substitutions,
     includes: usize,
@@ -63,7 +63,7 @@ struct Loader<'o> {
 
 /// A file that is being read.
 #[derive(Clone, Copy)]
-struct Source {
+struct IncludedFile {
     number: usize,
     /// Includes that lead to it.
     depth: usize,
@@ -72,10 +72,10 @@ struct Source {
 }
 
 /// Loads a scene file with all that it includes.
-pub fn load(path: &Path, options: &ImportOptions, folder: &Folder) -> Result<(Tree, Files), SceneError> {
+pub fn load(path: &Path, options: &ImportOptions, folder: &Folder) -> Result<(Tree, FileSearch), SceneError> {
     let mut loader = Loader {
         tree: Tree::default(),
-        files: Files { folder: folder.clone(), search: Vec::new() },
+        files: FileSearch { folder: folder.clone(), search: Vec::new() },
         allow_outside: options.allow_outside,
         parameters: Substitutions::new(&options.defines),
         includes: 0,
@@ -103,7 +103,7 @@ impl Loader<'_> {
         let document = markup::parse(&text)?;
         let root = document.root_element();
         let is_old = root.attribute("version").map_or(is_old, upgrade::is_old);
-        let source = Source { number, depth, is_old };
+        let source = IncludedFile { number, depth, is_old };
         match parent {
             Some((parent, level)) if root.has_tag_name("scene") => self.children(root, Some(parent), level, source),
             Some((parent, level)) => self.element(root, Some(parent), level, source),
@@ -111,12 +111,24 @@ impl Loader<'_> {
         }
     }
 
-    fn children(&mut self, node: roxmltree::Node, parent: Option<usize>, level: usize, source: Source) -> Result<(), SceneError> {
+    fn children(
+        &mut self,
+        node: roxmltree::Node,
+        parent: Option<usize>,
+        level: usize,
+        source: IncludedFile,
+    ) -> Result<(), SceneError> {
         node.children().filter(roxmltree::Node::is_element).try_for_each(|child| self.element(child, parent, level, source))
     }
 
-    fn element(&mut self, node: roxmltree::Node, parent: Option<usize>, level: usize, source: Source) -> Result<(), SceneError> {
-        let place = Place { file: source.number, span: node.range().start..node.range().start + 1 };
+    fn element(
+        &mut self,
+        node: roxmltree::Node,
+        parent: Option<usize>,
+        level: usize,
+        source: IncludedFile,
+    ) -> Result<(), SceneError> {
+        let place = FileSpan { file: source.number, span: node.range().start..node.range().start + 1 };
         if level > DEEPEST {
             return Err(self.tree.error(&place, format!("elements are nested more than {DEEPEST} deep"), "simplify the scene"));
         }
@@ -166,7 +178,7 @@ impl Loader<'_> {
         Ok(index)
     }
 
-    fn include(&mut self, element: &Node, parent: Option<(usize, usize)>, source: Source) -> Result<(), SceneError> {
+    fn include(&mut self, element: &Node, parent: Option<(usize, usize)>, source: IncludedFile) -> Result<(), SceneError> {
         let error = |message: String| self.tree.error(&element.place, message, "the path is relative to the scene file");
         if source.depth >= DEEPEST_INCLUDE || self.includes >= MOST_INCLUDES {
             return Err(error("files include each other in a circle, or too often".to_owned()));
@@ -209,7 +221,7 @@ impl Loader<'_> {
         Ok(())
     }
 
-    fn unsubstituted(&self, place: &Place, why: Unsubstituted) -> SceneError {
+    fn unsubstituted(&self, place: &FileSpan, why: Unsubstituted) -> SceneError {
         match why {
             Unsubstituted::Undefined(name) => {
                 let help = format!("define it by -D {name}=VALUE, or by `<default name=\"{name}\" value=\"…\"/>`");

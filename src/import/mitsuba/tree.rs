@@ -22,14 +22,14 @@ pub struct Node {
     pub tag: String,
     pub attributes: Vec<(String, String)>,
     pub children: Vec<usize>,
-    pub place: Place,
+    pub place: FileSpan,
     /// Whether the translation has read it.
     pub seen: Cell<bool>,
 }
 
 /// Bytes of a file.
 #[derive(Clone)]
-pub struct Place {
+pub struct FileSpan {
     pub file: usize,
     pub span: Range<usize>,
 }
@@ -61,7 +61,7 @@ impl Tree {
     }
 
     /// An error at a place.
-    pub fn error(&self, place: &Place, message: impl Into<String>, help: impl Into<String>) -> SceneError {
+    pub fn error(&self, place: &FileSpan, message: impl Into<String>, help: impl Into<String>) -> SceneError {
         self.files[place.file].error(place.span.clone(), message, "here").with_help(help)
     }
 
@@ -167,7 +167,7 @@ impl<'t> Element<'t> {
 
     /// Where it stands, for remarks: `scene.xml:12:5`.
     pub fn place(self) -> String {
-        let Place { file, span } = &self.node().place;
+        let FileSpan { file, span } = &self.node().place;
         let (source, ends) = (&self.tree.files[*file], &self.tree.lines[*file]);
         let line = ends.partition_point(|end| *end < span.start);
         let start = line.checked_sub(1).map_or(0, |before| ends[before] + 1);

@@ -11,8 +11,8 @@ use super::{
     parameter_lists::parameters,
     records::{MaterialRef, Surface},
     settings,
-    source::Place,
-    state::{Stack, State, Target},
+    source::TextSpan,
+    state::{AttributeTarget, Stack, State},
     tokens::{Token, Tokens},
 };
 use crate::scene::SceneError;
@@ -80,7 +80,7 @@ impl Interpreter {
         Ok(self.import)
     }
 
-    fn directive(&mut self, word: &str, place: &Place) -> Result<(), SceneError> {
+    fn directive(&mut self, word: &str, place: &TextSpan) -> Result<(), SceneError> {
         match word {
             "AttributeBegin" => self.stack.save(&self.state, place.clone())?,
             "TransformBegin" => self.stack.save_transform(&self.state, place.clone())?,
@@ -122,7 +122,7 @@ impl Interpreter {
     }
 
     /// Runs a directive with a kind and parameters.
-    fn entity(&mut self, word: &str, place: &Place) -> Result<(), SceneError> {
+    fn entity(&mut self, word: &str, place: &TextSpan) -> Result<(), SceneError> {
         match word {
             "Option" => return self.option(place),
             "MediumInterface" => return self.medium_interface(place),
@@ -133,7 +133,7 @@ impl Interpreter {
             }
             "Texture" => {
                 let [name, of_type] = [self.quoted(place)?, self.quoted(place)?];
-                let entity = self.read_entity("Texture", Some(Target::Texture), place)?;
+                let entity = self.read_entity("Texture", Some(AttributeTarget::Texture), place)?;
                 return self.import.declare_texture(name, &of_type, entity);
             }
             _ => {}
@@ -145,12 +145,12 @@ impl Interpreter {
             "Integrator" => ("Integrator", None),
             "PixelFilter" => ("PixelFilter", None),
             "Accelerator" => ("Accelerator", None),
-            "Shape" => ("Shape", Some(Target::Shape)),
-            "LightSource" => ("LightSource", Some(Target::Light)),
-            "AreaLightSource" => ("AreaLightSource", Some(Target::Light)),
-            "Material" => ("Material", Some(Target::Material)),
-            "MakeNamedMaterial" => ("MakeNamedMaterial", Some(Target::Material)),
-            "MakeNamedMedium" => ("MakeNamedMedium", Some(Target::Medium)),
+            "Shape" => ("Shape", Some(AttributeTarget::Shape)),
+            "LightSource" => ("LightSource", Some(AttributeTarget::Light)),
+            "AreaLightSource" => ("AreaLightSource", Some(AttributeTarget::Light)),
+            "Material" => ("Material", Some(AttributeTarget::Material)),
+            "MakeNamedMaterial" => ("MakeNamedMaterial", Some(AttributeTarget::Material)),
+            "MakeNamedMedium" => ("MakeNamedMedium", Some(AttributeTarget::Medium)),
             _ => {
                 return Err(
                     place.error(format!("`{word}` is not a directive of pbrt-v4"), "pbrt-v3 scenes must be converted first")
@@ -183,7 +183,7 @@ impl Interpreter {
         Ok(())
     }
 
-    fn begin_world(&mut self, place: &Place) -> Result<(), SceneError> {
+    fn begin_world(&mut self, place: &TextSpan) -> Result<(), SceneError> {
         if self.in_world {
             return Err(place.error("`WorldBegin` comes twice", "keep one of them"));
         }
@@ -197,14 +197,14 @@ impl Interpreter {
         Ok(())
     }
 
-    fn attribute(&mut self, place: &Place) -> Result<(), SceneError> {
+    fn attribute(&mut self, place: &TextSpan) -> Result<(), SceneError> {
         let name = self.quoted(place)?;
         let target = match name.as_str() {
-            "shape" => Target::Shape,
-            "light" => Target::Light,
-            "material" => Target::Material,
-            "medium" => Target::Medium,
-            "texture" => Target::Texture,
+            "shape" => AttributeTarget::Shape,
+            "light" => AttributeTarget::Light,
+            "material" => AttributeTarget::Material,
+            "medium" => AttributeTarget::Medium,
+            "texture" => AttributeTarget::Texture,
             _ => return Err(place.error(format!("`{name}` has no attributes"), "shape, light, material, medium or texture")),
         };
         let space = self.state.space;
@@ -213,7 +213,7 @@ impl Interpreter {
     }
 
     /// Options of the program change nothing about the scene.
-    fn option(&mut self, place: &Place) -> Result<(), SceneError> {
+    fn option(&mut self, place: &TextSpan) -> Result<(), SceneError> {
         self.quoted(place)?;
         let tokens = self.tokens();
         if tokens.peek()? == Some(Token::Open) {
@@ -224,7 +224,7 @@ impl Interpreter {
         Ok(())
     }
 
-    fn medium_interface(&mut self, place: &Place) -> Result<(), SceneError> {
+    fn medium_interface(&mut self, place: &TextSpan) -> Result<(), SceneError> {
         let inside: Rc<str> = Rc::from(self.quoted(place)?);
         let is_single = self.tokens().peek()? != Some(Token::Quoted);
         let outside = if is_single { inside.clone() } else { Rc::from(self.quoted(place)?) };

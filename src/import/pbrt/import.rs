@@ -6,7 +6,7 @@ use glam::DAffine3;
 use super::{
     parameters::Entity,
     records::{Covering, Surface, TextureKey},
-    source::{Files, Place},
+    source::{SourceFiles, TextSpan},
 };
 use crate::{
     declare::Textured,
@@ -16,7 +16,7 @@ use crate::{
 
 /// A translation.
 pub struct Import {
-    pub files: Files,
+    pub files: SourceFiles,
     pub description: SceneDescription,
     /// Meshes and images that exist in memory only.
     pub new_files: NewFiles,
@@ -61,7 +61,7 @@ impl Import {
     /// A translation that has made nothing yet.
     pub fn new(folder: Folder) -> Import {
         Import {
-            files: Files::new(folder),
+            files: SourceFiles::new(folder),
             description: SceneDescription::default(),
             new_files: NewFiles::default(),
             remarks: Remarks::default(),
@@ -117,7 +117,7 @@ impl Import {
     pub fn nested<T>(
         &mut self,
         key: &str,
-        place: &Place,
+        place: &TextSpan,
         translate: impl FnOnce(&mut Import) -> Result<T, SceneError>,
     ) -> Result<T, SceneError> {
         /// Textures within textures, and materials within materials.

@@ -1,10 +1,10 @@
 //! Participating media, which are not rendered.
-use super::{import::Import, parameters::Entity, source::Place, spectra::Role};
+use super::{import::Import, parameters::Entity, source::TextSpan, spectra::Role};
 use crate::scene::SceneError;
 
 impl Import {
     /// An error if a medium is not empty space.
-    pub fn refuse_medium(&mut self, name: &str, place: &Place) -> Result<(), SceneError> {
+    pub fn refuse_medium(&mut self, name: &str, place: &TextSpan) -> Result<(), SceneError> {
         if name.is_empty() {
             return Ok(());
         }

@@ -1,12 +1,12 @@
 //! Directives about the current transform.
 use glam::{DAffine3, DVec3};
 
-use super::{directives::Interpreter, source::Place, transforms};
+use super::{directives::Interpreter, source::TextSpan, transforms};
 use crate::scene::SceneError;
 
 impl Interpreter {
     /// Runs a directive about the current transform; false if it is none.
-    pub(super) fn transform(&mut self, word: &str, place: &Place) -> Result<bool, SceneError> {
+    pub(super) fn transform(&mut self, word: &str, place: &TextSpan) -> Result<bool, SceneError> {
         match word {
             "Identity" => self.state.transform(|_| DAffine3::IDENTITY),
             "Translate" => {

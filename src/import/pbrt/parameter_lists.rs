@@ -2,7 +2,7 @@
 use super::{
     colour_spaces::ColourSpace,
     parameters::{Parameter, Type, Values},
-    source::Place,
+    source::TextSpan,
     tokens::{Token, Tokens, unquoted},
 };
 use crate::scene::SceneError;
@@ -43,7 +43,7 @@ fn type_named(name: &str) -> Option<Type> {
 }
 
 /// One value, or several in brackets. The type and the first value determine what they are.
-fn values(tokens: &mut Tokens, of_type: Type, declaration: &Place) -> Result<Values, SceneError> {
+fn values(tokens: &mut Tokens, of_type: Type, declaration: &TextSpan) -> Result<Values, SceneError> {
     let mut values = match of_type {
         Type::Bool => Values::Flags(Vec::new()),
         Type::String | Type::Texture => Values::Texts(Vec::new()),
@@ -67,7 +67,7 @@ fn values(tokens: &mut Tokens, of_type: Type, declaration: &Place) -> Result<Val
     }
 }
 
-fn add(values: &mut Values, of_type: Type, token: Token, text: &str, place: &Place) -> Result<(), SceneError> {
+fn add(values: &mut Values, of_type: Type, token: Token, text: &str, place: &TextSpan) -> Result<(), SceneError> {
     // A spectrum is a list of numbers or a name.
     if of_type == Type::Spectrum && token == Token::Quoted && *values == Values::Numbers(Vec::new()) {
         *values = Values::Texts(Vec::new());
@@ -87,7 +87,7 @@ fn add(values: &mut Values, of_type: Type, token: Token, text: &str, place: &Pla
 }
 
 /// A finite number.
-pub fn number(text: &str, place: &Place) -> Result<f64, SceneError> {
+pub fn number(text: &str, place: &TextSpan) -> Result<f64, SceneError> {
     match text.parse::<f64>() {
         Ok(number) if number.is_finite() => Ok(number),
         Ok(_) => Err(place.error(format!("`{text}` is not finite"), "expected a finite number")),

@@ -3,7 +3,7 @@ use std::{cell::Cell, rc::Rc};
 
 use glam::DVec3;
 
-use super::{colour_spaces::ColourSpace, source::Place};
+use super::{colour_spaces::ColourSpace, source::TextSpan};
 use crate::scene::SceneError;
 
 /// The type of a parameter.
@@ -48,7 +48,7 @@ pub struct Parameter {
     pub of_type: Type,
     pub name: String,
     pub values: Values,
-    pub place: Place,
+    pub place: TextSpan,
     /// The colour space of the file at this place.
     pub space: ColourSpace,
     used: Cell<bool>,
@@ -61,7 +61,7 @@ pub struct Entity {
     pub directive: &'static str,
     /// The kind: `sphere`.
     pub kind: String,
-    pub place: Place,
+    pub place: TextSpan,
     own: Vec<Parameter>,
     /// Parameters by `Attribute`, the first one last.
     inherited: Rc<[Parameter]>,
@@ -69,7 +69,13 @@ pub struct Entity {
 
 impl Entity {
     /// A directive with the parameters that follow it.
-    pub fn new(directive: &'static str, kind: String, place: Place, own: Vec<Parameter>, inherited: Rc<[Parameter]>) -> Entity {
+    pub fn new(
+        directive: &'static str,
+        kind: String,
+        place: TextSpan,
+        own: Vec<Parameter>,
+        inherited: Rc<[Parameter]>,
+    ) -> Entity {
         Entity { directive, kind, place, own, inherited }
     }
 
@@ -157,7 +163,7 @@ impl Entity {
 
 impl Parameter {
     /// A parameter that nothing has used yet.
-    pub fn new(of_type: Type, name: &str, values: Values, place: Place, space: ColourSpace) -> Parameter {
+    pub fn new(of_type: Type, name: &str, values: Values, place: TextSpan, space: ColourSpace) -> Parameter {
         Parameter { of_type, name: name.to_owned(), values, place, space, used: Cell::new(false) }
     }
 

@@ -5,8 +5,8 @@ use super::{
     directives::{Interpreter, OpenFile},
     parameter_lists::{number, parameters},
     parameters::Entity,
-    source::Place,
-    state::Target,
+    source::TextSpan,
+    state::AttributeTarget,
     tokens::{Token, Tokens, unquoted},
 };
 use crate::scene::SceneError;
@@ -15,7 +15,7 @@ use crate::scene::SceneError;
 const DEEPEST_INCLUDE: usize = 64;
 
 impl Interpreter {
-    pub(super) fn include(&mut self, is_import: bool, place: &Place) -> Result<(), SceneError> {
+    pub(super) fn include(&mut self, is_import: bool, place: &TextSpan) -> Result<(), SceneError> {
         let named = self.quoted(place)?;
         let label = "paths are relative to the folder of the scene";
         let path = self.import.files.folder.resolve(&named).map_err(|message| place.error(message, label))?;
@@ -34,8 +34,8 @@ impl Interpreter {
     pub(super) fn read_entity(
         &mut self,
         directive: &'static str,
-        target: Option<Target>,
-        place: &Place,
+        target: Option<AttributeTarget>,
+        place: &TextSpan,
     ) -> Result<Entity, SceneError> {
         let kind = self.quoted(place)?;
         let space = self.state.space;
@@ -50,7 +50,7 @@ impl Interpreter {
         &mut self.open[last].tokens
     }
 
-    pub(super) fn word(&mut self, directive: &Place) -> Result<(Token, String, Place), SceneError> {
+    pub(super) fn word(&mut self, directive: &TextSpan) -> Result<(Token, String, TextSpan), SceneError> {
         let tokens = self.tokens();
         match tokens.next()? {
             Some((token, place)) => Ok((token, tokens.text(&place).to_owned(), place)),
@@ -58,7 +58,7 @@ impl Interpreter {
         }
     }
 
-    pub(super) fn quoted(&mut self, directive: &Place) -> Result<String, SceneError> {
+    pub(super) fn quoted(&mut self, directive: &TextSpan) -> Result<String, SceneError> {
         let (token, text, place) = self.word(directive)?;
         match token {
             Token::Quoted => Ok(unquoted(&text)),
@@ -67,7 +67,7 @@ impl Interpreter {
     }
 
     /// Numbers, in brackets or not.
-    pub(super) fn numbers(&mut self, count: usize, directive: &Place) -> Result<Vec<f64>, SceneError> {
+    pub(super) fn numbers(&mut self, count: usize, directive: &TextSpan) -> Result<Vec<f64>, SceneError> {
         let in_brackets = self.tokens().peek()? == Some(Token::Open);
         if in_brackets {
             self.word(directive)?;

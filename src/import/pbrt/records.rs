@@ -3,7 +3,7 @@ use std::rc::Rc;
 
 use glam::DAffine3;
 
-use super::source::Place;
+use super::source::TextSpan;
 use crate::{
     declare::Textured,
     scene::description::{EmissionDescription, ShapeKind},
@@ -26,7 +26,7 @@ pub enum MaterialRef {
 pub struct Covering {
     pub material: MaterialRef,
     pub opacity: Option<Textured<f64>>,
-    pub place: Place,
+    pub place: TextSpan,
 }
 
 /// A shape in the file, or in the definition of an object.

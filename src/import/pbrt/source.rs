@@ -19,7 +19,7 @@ const LEAST_REPEATED: u64 = 4096;
 
 /// A range of bytes in a text, with the line and column of its start, from 1.
 #[derive(Clone, Debug)]
-pub struct Place {
+pub struct TextSpan {
     pub source: Rc<SourceText>,
     pub start: usize,
     pub end: usize,
@@ -27,21 +27,21 @@ pub struct Place {
     pub column: u32,
 }
 
-impl Place {
+impl TextSpan {
     /// An error at this place. `label` stands at the caret.
     pub fn error(&self, message: impl Into<String>, label: impl Into<String>) -> SceneError {
         self.source.error(self.start..self.end, message, label)
     }
 }
 
-impl fmt::Display for Place {
+impl fmt::Display for TextSpan {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}:{}:{}", self.source.name, self.line, self.column)
     }
 }
 
 /// Reads the files of a scene.
-pub struct Files {
+pub struct SourceFiles {
     pub folder: Folder,
     known: HashSet<String>,
     repeated: Cell<u64>,
@@ -50,10 +50,10 @@ pub struct Files {
     memory: Reservation,
 }
 
-impl Files {
+impl SourceFiles {
     /// Reads files within a folder.
-    pub fn new(folder: Folder) -> Files {
-        Files { folder, known: HashSet::new(), repeated: Cell::new(0), bytes: 0, memory: Reservation::none() }
+    pub fn new(folder: Folder) -> SourceFiles {
+        SourceFiles { folder, known: HashSet::new(), repeated: Cell::new(0), bytes: 0, memory: Reservation::none() }
     }
 
     /// The text of a file, which may be packed by gzip. An error is a sentence without the path.

@@ -7,7 +7,7 @@ use super::{
     colour_spaces::ColourSpace,
     parameters::{Entity, Parameter},
     records::MaterialRef,
-    source::Place,
+    source::TextSpan,
 };
 use crate::scene::SceneError;
 
@@ -29,7 +29,7 @@ pub struct State {
 
 /// What the parameters of `Attribute` belong to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Target {
+pub enum AttributeTarget {
     Shape,
     Light,
     Material,
@@ -53,7 +53,7 @@ enum Saved {
 
 /// The stack of `AttributeBegin`, `TransformBegin` and `ObjectBegin`.
 #[derive(Default)]
-pub struct Stack(Vec<(Saved, Place)>);
+pub struct Stack(Vec<(Saved, TextSpan)>);
 
 impl Default for State {
     fn default() -> State {
@@ -83,12 +83,17 @@ impl State {
     }
 
     /// The parameters that `Attribute` has given to a kind of directives.
-    pub fn defaults(&self, target: Target) -> Rc<[Parameter]> {
+    pub fn defaults(&self, target: AttributeTarget) -> Rc<[Parameter]> {
         self.defaults[target as usize].clone()
     }
 
     /// Adds parameters of `Attribute`.
-    pub fn add_defaults(&mut self, target: Target, parameters: Vec<Parameter>, place: &Place) -> Result<(), SceneError> {
+    pub fn add_defaults(
+        &mut self,
+        target: AttributeTarget,
+        parameters: Vec<Parameter>,
+        place: &TextSpan,
+    ) -> Result<(), SceneError> {
         let known = &mut self.defaults[target as usize];
         let values: usize = known.iter().chain(&parameters).map(|parameter| parameter.values.len()).sum();
         if known.len() + parameters.len() > MOST_DEFAULTS || values > MOST_VALUES {
@@ -103,21 +108,21 @@ impl State {
 
 impl Stack {
     /// `AttributeBegin`.
-    pub fn save(&mut self, state: &State, place: Place) -> Result<(), SceneError> {
+    pub fn save(&mut self, state: &State, place: TextSpan) -> Result<(), SceneError> {
         self.push(Saved::All(Box::new(state.clone())), place)
     }
 
     /// `TransformBegin`.
-    pub fn save_transform(&mut self, state: &State, place: Place) -> Result<(), SceneError> {
+    pub fn save_transform(&mut self, state: &State, place: TextSpan) -> Result<(), SceneError> {
         self.push(Saved::Transform(state.maps), place)
     }
 
     /// `ObjectBegin`.
-    pub fn save_object(&mut self, state: &State, place: Place) -> Result<(), SceneError> {
+    pub fn save_object(&mut self, state: &State, place: TextSpan) -> Result<(), SceneError> {
         self.push(Saved::Object(Box::new(state.clone())), place)
     }
 
-    fn push(&mut self, saved: Saved, place: Place) -> Result<(), SceneError> {
+    fn push(&mut self, saved: Saved, place: TextSpan) -> Result<(), SceneError> {
         if self.0.len() >= DEEPEST {
             return Err(place.error(format!("attributes are nested more than {DEEPEST} deep"), "close some of them first"));
         }
@@ -126,7 +131,7 @@ impl Stack {
     }
 
     /// `AttributeEnd`, `TransformEnd` or `ObjectEnd`, by the word of the directive.
-    pub fn restore(&mut self, state: &mut State, word: &str, place: &Place) -> Result<(), SceneError> {
+    pub fn restore(&mut self, state: &mut State, word: &str, place: &TextSpan) -> Result<(), SceneError> {
         match (self.0.pop(), word) {
             (Some((Saved::All(saved), _)), "AttributeEnd") | (Some((Saved::Object(saved), _)), "ObjectEnd") => *state = *saved,
             (Some((Saved::Transform(maps), _)), "TransformEnd") => state.maps = maps,

@@ -6,7 +6,7 @@ use glam::DAffine3;
 use super::{
     import::Import,
     records::Surface,
-    source::Place,
+    source::TextSpan,
     transforms::{described, is_invertible},
 };
 use crate::{
@@ -50,7 +50,7 @@ impl Import {
     }
 
     /// The motion from the first to the second map.
-    fn motion(&mut self, [start, end]: [DAffine3; 2], place: &Place) -> Vec<Transform> {
+    fn motion(&mut self, [start, end]: [DAffine3; 2], place: &TextSpan) -> Vec<Transform> {
         if start == end {
             return Vec::new();
         }
@@ -73,7 +73,7 @@ impl Import {
     }
 
     /// `ObjectInstance`.
-    pub fn instance(&mut self, name: &str, by: [DAffine3; 2], place: &Place) -> Result<(), SceneError> {
+    pub fn instance(&mut self, name: &str, by: [DAffine3; 2], place: &TextSpan) -> Result<(), SceneError> {
         let unknown = || place.error(format!("`{name}` is not an object"), "define it by ObjectBegin first");
         let surfaces: Rc<_> = self.definitions.get(name).ok_or_else(unknown)?.clone();
         surfaces.iter().try_for_each(|surface| self.add_surface(surface, by))

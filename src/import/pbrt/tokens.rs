@@ -1,7 +1,7 @@
 //! The words of a scene: directives, quoted strings, brackets.
 use std::rc::Rc;
 
-use super::source::Place;
+use super::source::TextSpan;
 use crate::scene::{SceneError, SourceText};
 
 /// A piece of text with a meaning of its own.
@@ -25,7 +25,7 @@ pub struct Tokens {
     /// Where the line begins.
     line_start: usize,
     /// The token that was looked at but not taken.
-    peeked: Option<(Token, Place)>,
+    peeked: Option<(Token, TextSpan)>,
 }
 
 impl Tokens {
@@ -35,7 +35,7 @@ impl Tokens {
     }
 
     /// The next token, which is taken; `None` at the end of the text.
-    pub fn next(&mut self) -> Result<Option<(Token, Place)>, SceneError> {
+    pub fn next(&mut self) -> Result<Option<(Token, TextSpan)>, SceneError> {
         if let Some(peeked) = self.peeked.take() {
             return Ok(Some(peeked));
         }
@@ -51,21 +51,21 @@ impl Tokens {
     }
 
     /// The text at a place of this source.
-    pub fn text(&self, place: &Place) -> &str {
+    pub fn text(&self, place: &TextSpan) -> &str {
         &self.source.text[place.start..place.end]
     }
 
     /// The end of the text, as a place.
-    pub fn end(&self) -> Place {
+    pub fn end(&self) -> TextSpan {
         self.place(self.source.text.len())
     }
 
-    fn place(&self, start: usize) -> Place {
+    fn place(&self, start: usize) -> TextSpan {
         let column = (start - self.line_start.min(start)) as u32 + 1;
-        Place { source: self.source.clone(), start, end: start, line: self.line, column }
+        TextSpan { source: self.source.clone(), start, end: start, line: self.line, column }
     }
 
-    fn scan(&mut self) -> Result<Option<(Token, Place)>, SceneError> {
+    fn scan(&mut self) -> Result<Option<(Token, TextSpan)>, SceneError> {
         self.skip_blanks();
         let bytes = self.source.text.as_bytes();
         let Some(first) = bytes.get(self.at) else { return Ok(None) };
@@ -80,7 +80,7 @@ impl Tokens {
             Token::Open | Token::Close => 1,
             Token::Word => bytes[self.at..].iter().position(|byte| is_end_of_word(*byte)).unwrap_or(bytes.len() - self.at),
             Token::Quoted => quoted_length(&bytes[self.at..]).ok_or_else(|| {
-                let line = Place { end: (place.start + 1).min(bytes.len()), ..place.clone() };
+                let line = TextSpan { end: (place.start + 1).min(bytes.len()), ..place.clone() };
                 line.error("a quoted string does not end", "its closing quote is missing on this line")
             })?,
         };

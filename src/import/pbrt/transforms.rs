@@ -3,10 +3,10 @@ use glam::{DAffine3, DMat3, DMat4, DVec3};
 
 use crate::{scene::SceneError, shape::Transform};
 
-use super::source::Place;
+use super::source::TextSpan;
 
 /// A transform of 16 numbers, column by column.
-pub fn matrix(numbers: &[f64], place: &Place) -> Result<DAffine3, SceneError> {
+pub fn matrix(numbers: &[f64], place: &TextSpan) -> Result<DAffine3, SceneError> {
     let Ok(columns) = <[f64; 16]>::try_from(numbers) else {
         return Err(place.error("a transform has 16 numbers", format!("there are {}", numbers.len())));
     };
@@ -19,7 +19,7 @@ pub fn matrix(numbers: &[f64], place: &Place) -> Result<DAffine3, SceneError> {
 }
 
 /// From the world to a camera at `eye` that looks along its +z, with +y up and +x to the right: left-handed.
-pub fn look_at(numbers: &[f64], place: &Place) -> Result<DAffine3, SceneError> {
+pub fn look_at(numbers: &[f64], place: &TextSpan) -> Result<DAffine3, SceneError> {
     let vector = |at: usize| DVec3::new(numbers[at], numbers[at + 1], numbers[at + 2]);
     let (eye, target, up) = (vector(0), vector(3), vector(6));
     let forward = (target - eye).try_normalize();
@@ -34,7 +34,7 @@ pub fn look_at(numbers: &[f64], place: &Place) -> Result<DAffine3, SceneError> {
 }
 
 /// A rotation about an axis, degrees.
-pub fn rotation(numbers: &[f64], place: &Place) -> Result<DAffine3, SceneError> {
+pub fn rotation(numbers: &[f64], place: &TextSpan) -> Result<DAffine3, SceneError> {
     let axis = DVec3::new(numbers[1], numbers[2], numbers[3]).try_normalize();
     let axis = axis.ok_or_else(|| place.error("the axis of rotation is zero", "it needs a direction"))?;
     Ok(DAffine3::from_axis_angle(axis, numbers[0].to_radians()))

@@ -11,7 +11,7 @@ mod pilot;
 pub use self::pilot::thresholds;
 use super::{
     batch::Batch,
-    bright_samples::{BrightSample, Found, Replays, Thresholds, brightness},
+    bright_samples::{BrightBuffers, BrightSample, Replays, Thresholds, brightness},
     interrupted::Interrupted,
     slots::{SLOTS, TILE},
     trace::{Observer, trace_alone, trace_in},
@@ -67,7 +67,7 @@ impl BrightSharing<'_> {
     /// Replays the samples that were set aside, as many at a time as a batch takes, and adds them to the radiance of all pixels that
     /// share them.
     pub fn share(self, level: SimdLevel, batch: &mut Batch, interrupted: &dyn Fn() -> bool) -> Result<(), Interrupted> {
-        let Found { mut samples, mut replays, mut radiance } = *std::mem::take(batch.bright.get_or_insert_default());
+        let BrightBuffers { mut samples, mut replays, mut radiance } = *std::mem::take(batch.bright.get_or_insert_default());
         radiance.clear();
         radiance.extend_from_slice(batch.radiance());
         for some in samples.chunks_mut(SLOTS / MEMBERS) {
@@ -84,7 +84,7 @@ impl BrightSharing<'_> {
             }
         }
         batch.radiance[..SLOTS].copy_from_slice(&radiance);
-        batch.bright = Some(Box::new(Found { samples, replays, radiance }));
+        batch.bright = Some(Box::new(BrightBuffers { samples, replays, radiance }));
         Ok(())
     }
 

@@ -3,7 +3,7 @@ use super::replays::Replays;
 
 /// What sharing needs beside the queues of a batch. Allocated by the first trace that shares.
 #[derive(Default)]
-pub struct Found {
+pub struct BrightBuffers {
     pub samples: Vec<BrightSample>,
     pub replays: Replays,
     /// The radiance of the tile, while the batch traces replays.
@@ -20,7 +20,7 @@ pub struct BrightSample {
     pub n: u32,
 }
 
-impl Found {
+impl BrightBuffers {
     /// The number of pixels that share the sample of a pixel; `None` if it is not bright.
     pub fn sharers(&self, place: [u32; 2]) -> Option<u32> {
         self.samples.iter().find(|sample| sample.place == place).map(|sample| sample.n)

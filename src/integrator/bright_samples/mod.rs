@@ -4,7 +4,7 @@ mod replays;
 mod thresholds;
 
 pub use self::{
-    found::{BrightSample, Found},
+    found::{BrightBuffers, BrightSample},
     replays::Replays,
     thresholds::{Thresholds, brightness},
 };

@@ -1,6 +1,6 @@
 //! Records a light sample and whether it arrives.
 use super::{
-    terms::{Outcome, SampledLight},
+    terms::{LightOutcome, SampledLight},
     throughput::{BLACK, WHITE, own},
 };
 use crate::{
@@ -35,7 +35,7 @@ pub(super) fn sampled_light(
         f_cos: f_cos.lane(0),
         weight: if sample.pdf.0 > 0.0 { weight.0 } else { 0.0 },
         radiance: sample.radiance.lane(0),
-        outcome: Outcome::Void,
+        outcome: LightOutcome::Void,
         distance: None,
         passed: BLACK,
         contribution: BLACK,
@@ -47,7 +47,7 @@ pub(super) fn sampled_light(
     let left = crossings_left(One, work, &batch.crossings, M(true), &shadow, batch.bounce);
     let end_of = |shadow: &Shadow<One>| arriving(One, work, (M(true), left), shadow, media, batch.bounce + 1, &mut 0);
     let arriving = end_of(&shadow);
-    light.outcome = if arriving.seen.0 { Outcome::Seen } else { Outcome::Hidden };
+    light.outcome = if arriving.seen.0 { LightOutcome::Seen } else { LightOutcome::Hidden };
     light.distance = Some(arriving.t.0).filter(|t| t.is_finite());
     if arriving.seen.0 {
         light.passed = end_of(&Shadow { radiance: V::splat(One, WHITE), ..shadow }).light.lane(0);

@@ -18,7 +18,7 @@ use self::{both_ends::both_ends, follower::Follower};
 pub use self::{
     both_ends::{BothEnds, PathPoint, StrategyTerm},
     samples::pixel_samples,
-    terms::{EmitterHit, End, Outcome, Reflection, SampledLight, SharedLight, Surface, Vertex},
+    terms::{EmitterHit, End, LightOutcome, Reflection, SampledLight, SharedLight, Surface, Vertex},
     visible::seen_by_camera,
 };
 use super::{

@@ -144,7 +144,7 @@ pub struct SampledLight {
     /// it, W/m².
     pub radiance: [f32; 3],
     /// The outcome of the sample.
-    pub outcome: Outcome,
+    pub outcome: LightOutcome,
     /// Distance to the light or its occluder; `None` if there is neither, or the ray was not traced.
     pub distance: Option<f32>,
     /// Transmittance of media and of surfaces, times the opacity and the texture of the light; 0 if the light is not visible.
@@ -158,7 +158,7 @@ pub struct SampledLight {
 /// The outcome of a light sample.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Outcome {
+pub enum LightOutcome {
     /// Nothing lies between.
     Seen,
     /// The light is occluded.

@@ -11,14 +11,14 @@ use crate::{declare::Problem, math::colour::luminance, texture::ImageTexture};
 
 /// A lamp as the renderer needs it.
 pub struct Lamp {
-    source: Source,
+    source: LampOrigin,
     /// Radiant intensity, W/sr, where the beam is 1; of a directional lamp the irradiance, W/m².
     power: [f32; 3],
     shape: Shape,
 }
 
 /// The origin of the light.
-enum Source {
+enum LampOrigin {
     At(DVec3),
     /// Unit direction towards the light.
     Towards(DVec3),
@@ -66,30 +66,30 @@ pub struct LampBound {
 impl Lamp {
     /// A lamp that shines equally in all directions.
     pub fn point(position: DVec3, intensity: [f64; 3]) -> Lamp {
-        Lamp { source: Source::At(position), power: single(intensity), shape: Shape::Even }
+        Lamp { source: LampOrigin::At(position), power: single(intensity), shape: Shape::Even }
     }
 
     /// A lamp that is infinitely far away in the unit direction `towards`.
     pub fn directional(towards: DVec3, irradiance: [f64; 3]) -> Lamp {
-        Lamp { source: Source::Towards(towards), power: single(irradiance), shape: Shape::Even }
+        Lamp { source: LampOrigin::Towards(towards), power: single(irradiance), shape: Shape::Even }
     }
 
     /// A lamp that shines in a cone around a unit axis. The angles are in radians.
     pub fn spot(position: DVec3, intensity: [f64; 3], axis: DVec3, [inner, edge]: [f64; 2], falloff: Falloff) -> Lamp {
         let shape = Shape::Cone { axis, edge, inner: inner.min(edge), falloff };
-        Lamp { source: Source::At(position), power: single(intensity), shape }
+        Lamp { source: LampOrigin::At(position), power: single(intensity), shape }
     }
 
     /// A lamp that casts a picture.
     pub fn projector(position: DVec3, intensity: [f64; 3], picture: Picture) -> Lamp {
-        Lamp { source: Source::At(position), power: single(intensity), shape: Shape::Picture(picture) }
+        Lamp { source: LampOrigin::At(position), power: single(intensity), shape: Shape::Picture(picture) }
     }
 
     /// Checks the position, which a transform may take beyond the numbers of the renderer.
     pub fn check(&self) -> Result<(), Problem> {
         const LARGEST: f64 = 1e12;
         match self.source {
-            Source::At(position) if position.is_nan() || position.abs().max_element() > LARGEST => {
+            LampOrigin::At(position) if position.is_nan() || position.abs().max_element() > LARGEST => {
                 Err(Problem::at("", "the lamp is too far away", format!("expected coordinates up to {LARGEST:e} m")))
             }
             _ => Ok(()),
@@ -104,22 +104,22 @@ impl Lamp {
     /// Where it stands; `None` if it is infinitely far away.
     pub fn position(&self) -> Option<DVec3> {
         match self.source {
-            Source::At(position) => Some(position),
-            Source::Towards(_) => None,
+            LampOrigin::At(position) => Some(position),
+            LampOrigin::Towards(_) => None,
         }
     }
 
     /// The unit direction towards a lamp that is infinitely far away, and its irradiance, W/m².
     pub(super) fn far_light(&self) -> Option<(DVec3, [f32; 3])> {
         match self.source {
-            Source::At(_) => None,
-            Source::Towards(direction) => Some((direction, self.power)),
+            LampOrigin::At(_) => None,
+            LampOrigin::Towards(direction) => Some((direction, self.power)),
         }
     }
 
     /// The same lamp at the origin.
     pub(super) fn at_origin(self) -> Lamp {
-        Lamp { source: Source::At(DVec3::ZERO), ..self }
+        Lamp { source: LampOrigin::At(DVec3::ZERO), ..self }
     }
 
     /// The image that it casts.
@@ -149,8 +149,8 @@ impl Lamp {
     /// The rows of the lamp; `image` is the number of its image among those of the scene, which count from 1.
     pub(in crate::light) fn rows(&self, image: u32) -> LampRows {
         let (origin, w) = match self.source {
-            Source::At(position) => (position, 1.0),
-            Source::Towards(direction) => (direction, 0.0),
+            LampOrigin::At(position) => (position, 1.0),
+            LampOrigin::Towards(direction) => (direction, 0.0),
         };
         let even = LampRow {
             origin: numbers(origin),

@@ -28,14 +28,14 @@ impl Tree {
             let (head, others) = rest.split_at_mut(size);
             rest = others;
             let candidate = (single.len() + tree.heads.len()) as u32;
-            let word = tree.grow(head, Place { candidate, trail: 0, level: 0 });
+            let word = tree.grow(head, BuildPosition { candidate, trail: 0, level: 0 });
             tree.heads.push(rows(head, word));
         }
         tree
     }
 
     /// Adds the subtree below a node of these lights, and returns the word of the node.
-    fn grow(&mut self, items: &mut [Item], place: Place) -> u32 {
+    fn grow(&mut self, items: &mut [Item], place: BuildPosition) -> u32 {
         if let [item] = items {
             self.places[item.light as usize] = [f32::from_bits(place.candidate), f32::from_bits(place.trail), 0.0, 0.0];
             return word_of_light(item.light);
@@ -53,7 +53,7 @@ impl Tree {
             let (part, others) = rest.split_at_mut(*size);
             rest = others;
             let trail = place.trail | (way as u32) << (BITS * place.level);
-            let word = self.grow(part, Place { trail, level: place.level + 1, ..place });
+            let word = self.grow(part, BuildPosition { trail, level: place.level + 1, ..place });
             let node: Rows = rows(part, word);
             self.nodes[2 * (first + way)..][..2].copy_from_slice(&node);
         }
@@ -63,7 +63,7 @@ impl Tree {
 
 /// The current position of the build.
 #[derive(Clone, Copy)]
-struct Place {
+struct BuildPosition {
     candidate: u32,
     trail: u32,
     level: u32,
@@ -86,7 +86,7 @@ mod tests {
         };
         let mut items: Vec<_> = (0..WAYS.pow(2) as u32).map(item).collect();
         let mut tree = Tree { places: vec![[0.0; 4]; items.len()], ..Tree::default() };
-        tree.grow(&mut items, Place { candidate: 0, trail: 0, level: MOST_LEVELS - 2 });
+        tree.grow(&mut items, BuildPosition { candidate: 0, trail: 0, level: MOST_LEVELS - 2 });
         let mut trails: Vec<_> = tree.places.iter().map(|place| place[1].to_bits()).collect();
         trails.sort_unstable();
         let last_levels = |i: u32| i << (BITS * (MOST_LEVELS - 2));

@@ -7,7 +7,7 @@ const BINS: usize = 12;
 
 /// A group of lights, and its cost: power × extent² × the measure of its cone.
 #[derive(Clone, Copy)]
-struct Group {
+struct LightGroup {
     count: usize,
     power: f32,
     /// Sum of power × normal.
@@ -16,13 +16,14 @@ struct Group {
     high: Vec3,
 }
 
-impl Group {
-    const NONE: Group = Group { count: 0, power: 0.0, along: Vec3::ZERO, low: Vec3::INFINITY, high: Vec3::NEG_INFINITY };
+impl LightGroup {
+    const NONE: LightGroup =
+        LightGroup { count: 0, power: 0.0, along: Vec3::ZERO, low: Vec3::INFINITY, high: Vec3::NEG_INFINITY };
 
-    fn of(item: &Item) -> Group {
+    fn of(item: &Item) -> LightGroup {
         // Of two-sided lights, which have no side, normals are made comparable by one of their signs.
         let axis = if item.two_sided && item.axis.dot(Vec3::new(0.1, 1.0, 0.01)) < 0.0 { -item.axis } else { item.axis };
-        Group {
+        LightGroup {
             count: 1,
             power: item.power,
             along: axis * item.power,
@@ -31,7 +32,7 @@ impl Group {
         }
     }
 
-    fn merge(&mut self, other: &Group) {
+    fn merge(&mut self, other: &LightGroup) {
         self.count += other.count;
         self.power += other.power;
         self.along += other.along;
@@ -57,9 +58,9 @@ fn split(items: &mut [Item]) -> [(usize, f32); 2] {
     let count = BINS.min(items.len());
     let scale = (high - low).map(|extent| if extent > 0.0 { count as f32 / extent } else { 0.0 });
     let bin = |item: &Item, axis: usize| (((item.center[axis] - low[axis]) * scale[axis]) as usize).min(count - 1);
-    let mut bins = [[Group::NONE; BINS]; 3];
+    let mut bins = [[LightGroup::NONE; BINS]; 3];
     for item in items.iter() {
-        let group = Group::of(item);
+        let group = LightGroup::of(item);
         for (axis, bins) in bins.iter_mut().enumerate() {
             bins[bin(item, axis)].merge(&group);
         }
@@ -87,14 +88,14 @@ struct Cut {
 }
 
 /// Sets `best` to the cheapest split between these bins, if it is cheaper.
-fn best_cut(bins: &[Group], axis: usize, best: &mut Cut) {
+fn best_cut(bins: &[LightGroup], axis: usize, best: &mut Cut) {
     let mut above = [0.0; BINS];
-    let mut upper = Group::NONE;
+    let mut upper = LightGroup::NONE;
     for (i, bin) in bins.iter().enumerate().rev() {
         upper.merge(bin);
         above[i] = if upper.count > 0 { upper.cost() } else { f32::INFINITY };
     }
-    let mut lower = Group::NONE;
+    let mut lower = LightGroup::NONE;
     for (i, bin) in bins.iter().enumerate().take(bins.len() - 1) {
         lower.merge(bin);
         let cost = if lower.count > 0 { [lower.cost(), above[i + 1]] } else { [f32::INFINITY; 2] };
@@ -142,11 +143,12 @@ mod tests {
     /// At x = 0, 1/2 and 1 the measure of the cone is 1, 3.57 and 4 times π.
     #[test]
     fn the_cost_of_a_group_is_its_power_extent_and_cone() {
-        let group = |along: f32| Group { count: 2, power: 3.0, along: Vec3::X * along, low: Vec3::ZERO, high: Vec3::splat(2.0) };
+        let group =
+            |along: f32| LightGroup { count: 2, power: 3.0, along: Vec3::X * along, low: Vec3::ZERO, high: Vec3::splat(2.0) };
         for (along, cone) in [(3.0, 1.0), (1.5, 3.57), (0.0, 4.0)] {
             let cost = group(along).cost();
             assert!((cost / (3.0 * 12.0) - cone).abs() < 1e-4, "{along}: {cost}");
         }
-        assert_eq!(Group { power: 0.0, ..group(0.0) }.cost(), 0.0);
+        assert_eq!(LightGroup { power: 0.0, ..group(0.0) }.cost(), 0.0);
     }
 }

@@ -36,7 +36,7 @@ pub struct Values<L: Lanes> {
 /// This is a call, so that the lookups are compiled once per SIMD level, and not once more for each stage.
 #[simd]
 pub fn values<'a, L: Lanes>(l: L, rows: &[[f32; 4]], first: U<L>, lookup: Lookup<'a, L>) -> Values<L> {
-    let reader = Reader { l, rows, first, lookup };
+    let reader = RowReader { l, rows, first, lookup };
     let none = [l.u(0); 4];
     let (colors, weights) = if lookup.is_some() { (reader.ids(IDS_OF_COLORS), reader.ids(IDS_OF_WEIGHTS)) } else { (none, none) };
     let (specular_color, specular_weight) = reader.layer(SPECULAR, &colors, &weights);
@@ -69,14 +69,14 @@ pub fn values<'a, L: Lanes>(l: L, rows: &[[f32; 4]], first: U<L>, lookup: Lookup
 }
 
 /// Reads the further rows of materials.
-struct Reader<'a, L: Lanes> {
+struct RowReader<'a, L: Lanes> {
     l: L,
     rows: &'a [[f32; 4]],
     first: U<L>,
     lookup: Lookup<'a, L>,
 }
 
-impl<L: Lanes> Reader<'_, L> {
+impl<L: Lanes> RowReader<'_, L> {
     #[inline(always)]
     fn row(&self, row: u32) -> [F<L>; 4] {
         self.l.rows(self.rows, self.first + row)
@@ -105,7 +105,7 @@ impl<L: Lanes> Reader<'_, L> {
             return [a, b, c, d];
         }
         let [ids_a, ids_b, ids_c, ids_d] = self.ids(row + TO_IDS);
-        let Reader { l, lookup, .. } = self;
+        let RowReader { l, lookup, .. } = self;
         [number(*l, a, ids_a, lookup), number(*l, b, ids_b, lookup), number(*l, c, ids_c, lookup), number(*l, d, ids_d, lookup)]
     }
 }

@@ -24,7 +24,7 @@ use self::{
     lists::{Lists, WHITE},
     text::Chunks,
 };
-use super::{Model, ModelFormatError, Part, Parts, polygon, weld::distinct};
+use super::{Model, ModelFormatError, ObjParts, Part, polygon, weld::distinct};
 use crate::{
     memory::{Reservation, reserve},
     progress::{Progress, Stage},
@@ -39,7 +39,7 @@ pub(super) fn decode(bytes: &[u8], progress: &Progress) -> Result<Model, ModelFo
 }
 
 /// Reads the file as one mesh per material.
-pub(super) fn decode_parts(bytes: &[u8], progress: &Progress) -> Result<Parts, ModelFormatError> {
+pub(super) fn decode_parts(bytes: &[u8], progress: &Progress) -> Result<ObjParts, ModelFormatError> {
     read(bytes, progress, |lists, faces| {
         let libraries = faces.libraries.iter().map(|library| (*library).to_owned()).collect();
         let (mut local, _room) = parts::local_table(lists)?;
@@ -49,7 +49,7 @@ pub(super) fn decode_parts(bytes: &[u8], progress: &Progress) -> Result<Parts, M
             let model = model(lists, part.faces, used.len(), |corner| local[corner.place as usize] as usize)?;
             list.push(Part { material: part.material.map(str::to_owned), model });
         }
-        Ok(Parts { libraries, list })
+        Ok(ObjParts { libraries, list })
     })
 }
 

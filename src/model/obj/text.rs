@@ -3,7 +3,7 @@ use std::borrow::Cow;
 
 use memchr::memchr;
 
-use super::super::{ModelFormatError, Place};
+use super::super::{FilePosition, ModelFormatError};
 use crate::progress::{Cancelled, Progress};
 
 /// Bytes of a chunk, about.
@@ -13,7 +13,7 @@ const CHUNK: usize = 1 << 22;
 pub fn decode(bytes: &[u8]) -> Result<Cow<'_, str>, ModelFormatError> {
     if let Some(at) = memchr(0, bytes) {
         let lines = bytes[..at].iter().filter(|byte| **byte == b'\n').count();
-        return Err(Place::Line(lines + 1).broken("this is not text in an encoding that extends ASCII"));
+        return Err(FilePosition::Line(lines + 1).broken("this is not text in an encoding that extends ASCII"));
     }
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     Ok(str::from_utf8(bytes).map_or_else(|_| String::from_utf8_lossy(bytes), Cow::Borrowed))
@@ -70,7 +70,7 @@ impl<'a> Chunks<'a> {
                 ChunkError::Line(line, reason) => {
                     let lines = |chunk: &&str| chunk.bytes().filter(|byte| *byte == self.end).count();
                     let before: usize = self.list[..chunk].iter().map(lines).sum();
-                    Place::Line(before + line).broken(reason)
+                    FilePosition::Line(before + line).broken(reason)
                 }
                 ChunkError::Cancelled(cancelled) => cancelled.into(),
             })

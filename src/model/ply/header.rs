@@ -1,5 +1,5 @@
 //! The header of a PLY file, which declares the layout of its values.
-use super::super::{ModelFormatError, Place};
+use super::super::{FilePosition, ModelFormatError};
 use crate::quote;
 
 /// Encoding of the values.
@@ -117,7 +117,7 @@ impl Header {
         for line in bytes.split_inclusive(|byte| *byte == end_of_line) {
             header.end += line.len();
             header.lines += 1;
-            let place = Place::Line(header.lines);
+            let place = FilePosition::Line(header.lines);
             let line = line.trim_ascii();
             // Names, in whatever encoding, are only compared, and comments are not even that.
             let text = String::from_utf8_lossy(line);
@@ -139,7 +139,7 @@ impl Header {
                 _ => return Err(unknown(place, line)),
             }
         }
-        Err(Place::Line(header.lines).broken("the file ends within its header"))
+        Err(FilePosition::Line(header.lines).broken("the file ends within its header"))
     }
 
     pub fn element(&self, name: &str) -> Option<&Element> {
@@ -211,7 +211,7 @@ fn end_of_line(bytes: &[u8]) -> u8 {
     }
 }
 
-fn unknown(place: Place, line: &[u8]) -> ModelFormatError {
+fn unknown(place: FilePosition, line: &[u8]) -> ModelFormatError {
     place.broken(format!("{} is not a line of a PLY 1.0 header", quote::bytes(line)))
 }
 /// Whether the file begins with the signature of PLY.

@@ -1,6 +1,6 @@
 //! Readers of the values of a PLY file, as text or binary.
 use super::{
-    super::{ModelFormatError, Place, number},
+    super::{FilePosition, ModelFormatError, number},
     header::Kind,
 };
 use crate::quote;
@@ -10,7 +10,7 @@ pub trait Values {
     fn least_bytes(kind: Kind) -> usize;
 
     /// Position of the next value.
-    fn place(&self) -> Place;
+    fn place(&self) -> FilePosition;
 
     /// Bytes to the end of the file.
     fn left(&self) -> usize;
@@ -84,8 +84,8 @@ impl Values for Text<'_> {
         2
     }
 
-    fn place(&self) -> Place {
-        Place::Line(self.line)
+    fn place(&self) -> FilePosition {
+        FilePosition::Line(self.line)
     }
 
     fn left(&self) -> usize {
@@ -139,7 +139,7 @@ impl<'a, const BIG_ENDIAN: bool> Binary<'a, BIG_ENDIAN> {
     /// The next bytes in little-endian order.
     fn bytes<const N: usize>(&mut self) -> Result<[u8; N], ModelFormatError> {
         let Some((bytes, rest)) = self.rest.split_first_chunk::<N>() else {
-            return Err(Place::Byte(self.length).broken(ENDS));
+            return Err(FilePosition::Byte(self.length).broken(ENDS));
         };
         self.rest = rest;
         let mut bytes = *bytes;
@@ -155,8 +155,8 @@ impl<const BIG_ENDIAN: bool> Values for Binary<'_, BIG_ENDIAN> {
         kind.size()
     }
 
-    fn place(&self) -> Place {
-        Place::Byte(self.length - self.rest.len())
+    fn place(&self) -> FilePosition {
+        FilePosition::Byte(self.length - self.rest.len())
     }
 
     fn left(&self) -> usize {
@@ -185,7 +185,7 @@ impl<const BIG_ENDIAN: bool> Values for Binary<'_, BIG_ENDIAN> {
 
     fn skip(&mut self, kind: Kind, count: u64) -> Result<(), ModelFormatError> {
         let rest = usize::try_from(count).ok().and_then(|count| self.rest.get(count.checked_mul(kind.size())?..));
-        self.rest = rest.ok_or_else(|| Place::Byte(self.length).broken(ENDS))?;
+        self.rest = rest.ok_or_else(|| FilePosition::Byte(self.length).broken(ENDS))?;
         Ok(())
     }
 

@@ -18,7 +18,7 @@ const LEAST_SPP: u32 = 4;
 
 /// Sessions to go back to, within a budget of memory.
 pub(in crate::render) struct KeptSessions {
-    kept: Vec<Kept>,
+    kept: Vec<KeptSession>,
     most_bytes: u64,
     /// The number of sessions so far.
     count: u64,
@@ -26,7 +26,7 @@ pub(in crate::render) struct KeptSessions {
     current: Option<Arc<()>>,
 }
 
-struct Kept {
+struct KeptSession {
     session: Session,
     /// The number of sessions that were kept before it.
     number: u64,
@@ -64,7 +64,7 @@ impl KeptSessions {
         let memory = self.reserve(|| Film::reserve_kept(session.request.camera.resolution));
         session.memory[0] = Some(memory?);
         self.count += 1;
-        self.kept.push(Kept { session, number: self.count, bytes });
+        self.kept.push(KeptSession { session, number: self.count, bytes });
         None
     }
 
@@ -129,7 +129,7 @@ impl KeptSessions {
     /// Drops the session with the least render time per session kept since: a drag of the camera leaves many short renders, which
     /// must not push out a long one.
     fn drop_one(&mut self) {
-        let worth = |kept: &Kept| kept.session.elapsed.as_secs_f64() / (self.count - kept.number + 1) as f64;
+        let worth = |kept: &KeptSession| kept.session.elapsed.as_secs_f64() / (self.count - kept.number + 1) as f64;
         let least = (0..self.kept.len()).min_by(|a, b| worth(&self.kept[*a]).total_cmp(&worth(&self.kept[*b])));
         least.into_iter().for_each(|at| drop(self.kept.remove(at)));
     }

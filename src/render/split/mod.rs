@@ -1,7 +1,7 @@
 //! Renders that are split into ranges of samples, on any number of machines, and joined to the bits of one run.
 //!
 //! A [`SampleFilm`] takes a range of samples of every pixel into exact sums, which are written to a file and joined with others by
-//! [`Join`]. [`Picture`] is the image of such sums: a function of the multiset of samples, however they were split.
+//! [`Join`]. [`SplitPicture`] is the image of such sums: a function of the multiset of samples, however they were split.
 mod file;
 mod film;
 mod join;
@@ -16,6 +16,6 @@ pub use self::{
     file::{SampleFile, SampleFileError, write},
     film::{SampleFilm, SplitError},
     join::{Join, JoinError},
-    picture::{NoSamples, Picture},
+    picture::{NoSamples, SplitPicture},
     ranges::SampleRanges,
 };

@@ -20,7 +20,7 @@ use crate::{
 pub struct NoSamples(pub SampleRanges);
 
 /// An image that is filled tile by tile. All of it is a function of the sums, so that it does not depend on how they were joined.
-pub struct Picture {
+pub struct SplitPicture {
     resolution: [u32; 2],
     samples: SampleRanges,
     sharing: Sharing,
@@ -34,16 +34,16 @@ pub struct Picture {
     _memory: Reservation,
 }
 
-impl Picture {
+impl SplitPicture {
     /// An empty image, with memory for its file. `sharing` says what pixels share.
-    pub fn new(resolution: [u32; 2], samples: SampleRanges, sharing: Sharing) -> Result<Picture, TooMuch> {
+    pub fn new(resolution: [u32; 2], samples: SampleRanges, sharing: Sharing) -> Result<SplitPicture, TooMuch> {
         /// Bytes per pixel: two means and a count, the planes of an EXR, and the file.
         const PIXEL: u64 = 2 * 12 + 4 + 2 * 28;
         let [width, height] = resolution;
         let what = format_args!("images of {width} × {height} pixels");
         let memory = memory::reserve(what, PIXEL * u64::from(width) * u64::from(height))?;
         let pixels = width as usize * height as usize;
-        Ok(Picture {
+        Ok(SplitPicture {
             resolution,
             samples,
             sharing,
@@ -129,7 +129,7 @@ impl Picture {
         let least = self.counts.iter().copied().min().unwrap_or(0);
         let rel_mse_estimate = (least > 1).then(|| self.rel_mse());
         let [sum, squares] = self.variances;
-        let Picture { resolution: [width, height], sharing, radiance, variance, counts, tiles, .. } = self;
+        let SplitPicture { resolution: [width, height], sharing, radiance, variance, counts, tiles, .. } = self;
         let noise = (least > 1).then(|| SampleNoise {
             width,
             variance,

@@ -14,7 +14,7 @@ use crate::render::frame::Frame;
 const INTERVAL: Duration = Duration::from_secs(1);
 
 /// A frame to show.
-struct Picture {
+struct NamedFrame {
     name: String,
     frame: Arc<Frame>,
 }
@@ -24,7 +24,7 @@ pub struct TevStream {
     address: String,
     socket: TcpStream,
     /// The frame that is sent next.
-    next: Arc<Mutex<Option<Picture>>>,
+    next: Arc<Mutex<Option<NamedFrame>>>,
     wake: Option<Sender<()>>,
     ended: Receiver<Result<(), TevError>>,
     /// The frame that was shown last.
@@ -55,7 +55,7 @@ impl TevStream {
     pub fn show(&mut self, name: &str, frame: &Arc<Frame>) {
         let of_frame = Arc::downgrade(frame);
         if !of_frame.ptr_eq(&self.last) {
-            *lock(&self.next) = Some(Picture { name: name.to_owned(), frame: frame.clone() });
+            *lock(&self.next) = Some(NamedFrame { name: name.to_owned(), frame: frame.clone() });
             self.wake.iter().for_each(|wake| _ = wake.try_send(()));
             self.last = of_frame;
         }
@@ -81,12 +81,12 @@ impl Drop for TevStream {
     }
 }
 
-fn lock(next: &Mutex<Option<Picture>>) -> MutexGuard<'_, Option<Picture>> {
+fn lock(next: &Mutex<Option<NamedFrame>>) -> MutexGuard<'_, Option<NamedFrame>> {
     next.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// Sends frames until nobody can show any more.
-fn send_latest(mut tev: Tev, woken: &Receiver<()>, next: &Mutex<Option<Picture>>) -> Result<(), TevError> {
+fn send_latest(mut tev: Tev, woken: &Receiver<()>, next: &Mutex<Option<NamedFrame>>) -> Result<(), TevError> {
     let mut earliest = Instant::now();
     loop {
         let mut is_last = woken.recv().is_err();
@@ -99,7 +99,7 @@ fn send_latest(mut tev: Tev, woken: &Receiver<()>, next: &Mutex<Option<Picture>>
             }
         }
         let picture = lock(next).take();
-        if let Some(Picture { name, frame }) = picture {
+        if let Some(NamedFrame { name, frame }) = picture {
             tev.show(&name, &frame)?;
             earliest = Instant::now() + INTERVAL;
         }

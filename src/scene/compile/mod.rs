@@ -69,7 +69,7 @@ pub fn compile(
     let Files { folder, assets, progress } = files;
     let resources = Resources::after(folder, memo).with_assets(assets.clone()).with_progress(progress);
     let mut problems = Problems::new(damage);
-    let parts = Parts::new(description, &resources, before, &mut problems);
+    let parts = CompiledParts::new(description, &resources, before, &mut problems);
     let Some(parts) = parts.filter(|_| problems.found.is_empty()) else { return Err(problems.found) };
     let mut scene = parts.build(description, source, resources, before).map_err(|problem| vec![problem])?;
     scene.compiled.took = start.elapsed();
@@ -79,7 +79,7 @@ pub fn compile(
 }
 
 /// The compiled tables of a description.
-struct Parts {
+struct CompiledParts {
     camera: Camera,
     camera_motion: Motion,
     background: Option<Background>,
@@ -94,14 +94,14 @@ struct Parts {
     truth: Option<Truth>,
 }
 
-impl Parts {
+impl CompiledParts {
     /// All tables are looked at, whatever is wrong with one of them.
     fn new(
         description: &SceneDescription,
         resources: &Resources,
         before: Option<Before>,
         problems: &mut Problems,
-    ) -> Option<Parts> {
+    ) -> Option<CompiledParts> {
         let at = Path::of;
         let camera = problems.keep(&at("camera"), || camera(&description.camera));
         let camera_motion = problems.keep(&at("camera.motion"), || motion(&description.camera.motion));
@@ -121,7 +121,7 @@ impl Parts {
         let lamps = lamps(&description.lamps, resources, problems);
         let RenderDescription { settings, spp, exposure } = description.render;
         let truth = description.truth.as_ref().map(|described| problems.keep(&at("truth"), || truth(described, resources)));
-        Some(Parts {
+        Some(CompiledParts {
             camera: camera?,
             camera_motion: camera_motion?,
             background: background.flatten().flatten(),
@@ -145,8 +145,8 @@ impl Parts {
         resources: Resources,
         before: Option<Before>,
     ) -> Result<Scene, Problem> {
-        let Parts { camera, camera_motion, background, textures, materials, tables, objects, lamps, .. } = self;
-        let Parts { settings, spp, exposure, truth, .. } = self;
+        let CompiledParts { camera, camera_motion, background, textures, materials, tables, objects, lamps, .. } = self;
+        let CompiledParts { settings, spp, exposure, truth, .. } = self;
         let (lamp_instances, lamps): (Vec<_>, Vec<_>) = lamps.into_iter().unzip();
         reserve_tables(&resources, &objects, lamps.len())?;
         let owners = objects.iter().enumerate().flat_map(|(i, o)| vec![i as u32; o.shape.piece_count()]).collect();

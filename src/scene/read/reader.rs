@@ -19,7 +19,7 @@ use crate::{
 pub(super) struct Reader<'t> {
     pub(super) source: &'t SourceText,
     /// The tables around, the innermost last.
-    frames: Vec<Frame<'t>>,
+    frames: Vec<TableFrame<'t>>,
     pub(super) path: Path,
     /// Lengths of the paths of the enclosing tables.
     lengths: Vec<usize>,
@@ -28,7 +28,7 @@ pub(super) struct Reader<'t> {
 }
 
 /// A table while it is read.
-pub(super) struct Frame<'t> {
+pub(super) struct TableFrame<'t> {
     /// `None` if there is no table, or another item in its place.
     pub(super) table: Option<&'t DeTable<'t>>,
     pub(super) span: Range<usize>,
@@ -47,9 +47,9 @@ pub(super) struct Frame<'t> {
     is_damaged: bool,
 }
 
-impl<'t> Frame<'t> {
-    pub(super) fn new(span: Range<usize>) -> Frame<'t> {
-        Frame {
+impl<'t> TableFrame<'t> {
+    pub(super) fn new(span: Range<usize>) -> TableFrame<'t> {
+        TableFrame {
             table: None,
             span,
             mistaken: None,
@@ -67,7 +67,7 @@ impl<'t> Reader<'t> {
     pub(super) fn new(table: &'t DeTable<'t>, source: &'t SourceText) -> Reader<'t> {
         Reader {
             source,
-            frames: vec![Frame { table: Some(table), ..Frame::new(0..0) }],
+            frames: vec![TableFrame { table: Some(table), ..TableFrame::new(0..0) }],
             path: Path::default(),
             lengths: Vec::new(),
             damage: Damage::default(),
@@ -75,7 +75,7 @@ impl<'t> Reader<'t> {
         }
     }
 
-    pub(super) fn frame(&mut self) -> &mut Frame<'t> {
+    pub(super) fn frame(&mut self) -> &mut TableFrame<'t> {
         self.frames.last_mut().expect("the whole file is around")
     }
 
@@ -109,7 +109,7 @@ impl<'t> Reader<'t> {
         }
     }
 
-    pub(super) fn descend(&mut self, path: Path, frame: Frame<'t>) {
+    pub(super) fn descend(&mut self, path: Path, frame: TableFrame<'t>) {
         self.lengths.push(self.path.0.len());
         self.path = path;
         self.frames.push(frame);
@@ -117,13 +117,13 @@ impl<'t> Reader<'t> {
 
     /// Enters a table of a list or of named tables, if it is given.
     pub(super) fn descend_to(&mut self, path: Path, parameter: &Parameter, table: Option<&'t Spanned<DeValue<'t>>>) {
-        let frame = table.map_or_else(|| Frame::new(0..0), |value| self.table_in(parameter.key, value, Form::Table));
+        let frame = table.map_or_else(|| TableFrame::new(0..0), |value| self.table_in(parameter.key, value, Form::Table));
         self.descend(path, frame);
     }
 
     /// Reports a value in the place of a list or of a table of tables.
     pub(super) fn mistake(&mut self, parameter: &Parameter, value: &'t Spanned<DeValue<'t>>, choice: Option<&'static str>) {
-        let frame = Frame { mistaken: Some((value, parameter.key, Form::Table)), choice, ..Frame::new(value.span()) };
+        let frame = TableFrame { mistaken: Some((value, parameter.key, Form::Table)), choice, ..TableFrame::new(value.span()) };
         self.descend(self.path.key(parameter.key), frame);
         self.ascend();
     }
@@ -140,15 +140,15 @@ impl<'t> Reader<'t> {
     }
 
     /// A frame for a value where a table is expected.
-    pub(super) fn table_in(&mut self, key: &'static str, value: &'t Spanned<DeValue<'t>>, form: Form) -> Frame<'t> {
-        let frame = Frame::new(value.span());
+    pub(super) fn table_in(&mut self, key: &'static str, value: &'t Spanned<DeValue<'t>>, form: Form) -> TableFrame<'t> {
+        let frame = TableFrame::new(value.span());
         if self.is_full() {
             return frame;
         }
         match value.get_ref() {
-            DeValue::Table(table) => Frame { table: Some(table), ..frame },
-            DeValue::String(_) if form == Form::NameOrTable => Frame { name: Some(value), ..frame },
-            _ => Frame { mistaken: Some((value, key, form)), ..frame },
+            DeValue::Table(table) => TableFrame { table: Some(table), ..frame },
+            DeValue::String(_) if form == Form::NameOrTable => TableFrame { name: Some(value), ..frame },
+            _ => TableFrame { mistaken: Some((value, key, form)), ..frame },
         }
     }
 
@@ -188,7 +188,7 @@ impl<'t> Reader<'t> {
 }
 
 /// The error of a value in the place of a table.
-fn wrong_table(source: &SourceText, key: &str, value: &Spanned<DeValue>, form: Form, frame: &Frame) -> SceneError {
+fn wrong_table(source: &SourceText, key: &str, value: &Spanned<DeValue>, form: Form, frame: &TableFrame) -> SceneError {
     let text = text_at(source, &value.span());
     let found = found(value.get_ref(), text);
     if frame.choice == Some("items") {

@@ -1,7 +1,7 @@
 //! Noise and time of settings, from several images of each.
 use rayon::prelude::*;
 
-use super::rounds::{Picture, Series};
+use super::rounds::{RoundPicture, Series};
 use crate::{measure::Floor, scene::RenderSettings, study::outcome::ROUNDING};
 
 /// Measurements of some settings, by round.
@@ -29,7 +29,7 @@ pub fn measured(series: &[Series]) -> Vec<Measured> {
 }
 
 /// The mean of images, per channel of each pixel.
-fn mean<'a>(pictures: impl Iterator<Item = &'a Picture>) -> Vec<f64> {
+fn mean<'a>(pictures: impl Iterator<Item = &'a RoundPicture>) -> Vec<f64> {
     let (mut sum, mut count) = (Vec::new(), 0.0);
     for picture in pictures {
         let values = picture.radiance.as_flattened();
@@ -43,7 +43,7 @@ fn mean<'a>(pictures: impl Iterator<Item = &'a Picture>) -> Vec<f64> {
 impl Measured {
     fn of(series: &Series, common: &[f64], weights: &[f64]) -> Measured {
         let Series { settings, pictures } = series;
-        let difference = |a: &Picture, b: &Picture| {
+        let difference = |a: &RoundPicture, b: &RoundPicture| {
             let values = a.radiance.as_flattened().iter().zip(b.radiance.as_flattened()).zip(weights);
             let sum: f64 = values.map(|((a, b), weight)| (f64::from(*a) - f64::from(*b)).powi(2) * weight).sum();
             sum / weights.len() as f64

@@ -12,7 +12,7 @@ use crate::{
 pub const SPP: u32 = 16;
 
 /// An image of one round.
-pub struct Picture {
+pub struct RoundPicture {
     pub round: u32,
     /// Rendering time.
     pub seconds: f64,
@@ -22,7 +22,7 @@ pub struct Picture {
 /// The images of some settings, at most one per round.
 pub struct Series {
     pub settings: RenderSettings,
-    pub pictures: Vec<Picture>,
+    pub pictures: Vec<RoundPicture>,
 }
 
 /// All images so far.
@@ -52,7 +52,7 @@ impl<'a> Rounds<'a> {
         Ok(())
     }
 
-    fn picture(&mut self, settings: &RenderSettings, round: u32) -> Result<Picture, StudyError> {
+    fn picture(&mut self, settings: &RenderSettings, round: u32) -> Result<RoundPicture, StudyError> {
         // Reuses memory, because allocation would add to the measured time.
         let used = self.film.take();
         let mut film = used.map_or_else(|| self.bench.film(), |film| film.recycled(self.bench.camera.resolution));
@@ -60,6 +60,6 @@ impl<'a> Rounds<'a> {
         let (took, _) = self.bench.pass(&seeded, &mut film, SPP)?;
         let radiance = self.bench.frame(&film).radiance;
         self.film = Some(film);
-        Ok(Picture { round, seconds: took.as_secs_f64(), radiance })
+        Ok(RoundPicture { round, seconds: took.as_secs_f64(), radiance })
     }
 }

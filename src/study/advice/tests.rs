@@ -14,7 +14,7 @@ use crate::{
         hash::{hash, unit},
     },
     scene::{Estimator, Roulette, parse},
-    study::advice::rounds::{Picture, Series},
+    study::advice::rounds::{RoundPicture, Series},
 };
 
 const IN_USE: RenderSettings = RenderSettings {
@@ -39,7 +39,7 @@ fn uniform(i: u32) -> f64 {
 }
 
 fn series(settings: RenderSettings, pictures: impl IntoIterator<Item = Vec<[f32; 3]>>) -> Series {
-    let picture = |(round, radiance)| Picture { round, seconds: 2.0, radiance };
+    let picture = |(round, radiance)| RoundPicture { round, seconds: 2.0, radiance };
     Series { settings, pictures: (0..).zip(pictures).map(picture).collect() }
 }
 
@@ -231,7 +231,7 @@ fn by_counted_work_a_roulette_that_kills_most_paths_is_advised_against() {
         let picture = |round| {
             let (seeded, mut film) = (RenderSettings { seed: settings.seed + round, ..settings }, bench.film());
             let (_, count) = bench.pass(&seeded, &mut film, SPP).expect("a picture");
-            Picture { round, seconds: count.rays as f64, radiance: bench.frame(&film).radiance }
+            RoundPicture { round, seconds: count.rays as f64, radiance: bench.frame(&film).radiance }
         };
         Series { settings, pictures: (0..6).map(picture).collect() }
     };

@@ -1,6 +1,6 @@
 //! The files of the chapter.
 use super::{
-    exhibits::{Exhibits, Picture},
+    exhibits::{Exhibits, SheetPicture},
     page,
 };
 use crate::report::{picture::svg, plot::Plot, table::Table};
@@ -36,7 +36,7 @@ impl Chapter {
         self.add(format!("{name}.png"), plot.png());
     }
 
-    fn add_picture(&mut self, picture: &Picture) {
+    fn add_picture(&mut self, picture: &SheetPicture) {
         self.add(format!("{}.svg", picture.name), svg(&picture.png));
         self.add(format!("{}.png", picture.name), Ok(picture.png.clone()));
     }

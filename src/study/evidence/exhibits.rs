@@ -18,14 +18,14 @@ pub struct Exhibits<'a> {
     pub study_scene: &'a StudyScene,
     /// Findings by the setting that they compare.
     pub findings: &'a [(Setting, Findings)],
-    pub pictures: [Picture; 2],
+    pub pictures: [SheetPicture; 2],
     pub spp: u32,
     pub repeats: u32,
     pub machine: &'a Machine,
 }
 
 /// A labelled sheet.
-pub struct Picture {
+pub struct SheetPicture {
     pub name: &'static str,
     pub caption: String,
     pub png: Vec<u8>,
@@ -37,7 +37,7 @@ fn quadrupling(most: u32) -> impl Iterator<Item = u32> {
 }
 
 /// Sheets of images at growing sample counts and at growing caps.
-pub fn pictures(bench: Bench, spp: u32, display: Display) -> Result<[Picture; 2], StudyError> {
+pub fn pictures(bench: Bench, spp: u32, display: Display) -> Result<[SheetPicture; 2], StudyError> {
     /// Samples per pixel of the images with caps.
     const SPP_OF_CAPS: u32 = 64;
     let settings = RenderSettings { max_bounces: None, ..bench.scene.settings };
@@ -61,7 +61,7 @@ pub fn pictures(bench: Bench, spp: u32, display: Display) -> Result<[Picture; 2]
     }
     let of = |name, caption, cells: &[Cell]| {
         let png = bench.threads.install(|| sheet(bench.camera.resolution, 3, &[], cells)).map_err(StudyError::Renderer)?;
-        Ok::<_, StudyError>(Picture { name, caption, png })
+        Ok::<_, StudyError>(SheetPicture { name, caption, png })
     };
     let [width, height] = bench.camera.resolution;
     let how = format!("{}; {width} × {height} pixels", label(&settings));

@@ -13,7 +13,7 @@ use crate::{
     scene::{Camera, Estimator, RenderSettings, Roulette, parse},
     study::{
         Bench, Findings, Lists, Plan, Run, Store, Study, StudyScene,
-        evidence::exhibits::{Exhibits, Picture, pictures},
+        evidence::exhibits::{Exhibits, SheetPicture, pictures},
         setting::Setting,
     },
 };
@@ -53,7 +53,7 @@ fn roulettes() -> Findings {
 
 fn with_exhibits<T>(findings: Findings, setting: Setting, use_them: impl FnOnce(&Exhibits) -> T) -> T {
     let (study_scene, machine) = (furnace(), machine());
-    let pictures = ["a", "b"].map(|name| Picture { name, caption: String::new(), png: Vec::new() });
+    let pictures = ["a", "b"].map(|name| SheetPicture { name, caption: String::new(), png: Vec::new() });
     let findings = &[(setting, findings)][..];
     use_them(&Exhibits { study_scene: &study_scene, findings, pictures, spp: 16, repeats: 2, machine: &machine })
 }

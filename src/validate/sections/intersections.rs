@@ -142,14 +142,14 @@ impl Tally {
 }
 
 /// An intersection in f64, and how far rounding may move it sideways and along the ray.
-struct Known {
+struct ExactIntersection {
     intersection: Intersection,
     /// εS.
     digit: f64,
     along: f64,
 }
 
-impl Known {
+impl ExactIntersection {
     /// The distance of a hit at `t` from the surface, in εS.
     fn error(&self, t: f64) -> f64 {
         (t - self.intersection.t).abs() * self.intersection.cos / self.digit
@@ -186,14 +186,14 @@ impl Kind {
     }
 
     /// All intersections of the ray in f64, including near misses.
-    fn known(&self, o: DVec3, d: DVec3) -> Vec<Known> {
+    fn known(&self, o: DVec3, d: DVec3) -> Vec<ExactIntersection> {
         let of = |piece: &Shape| {
             let (center, radius) = piece.bounding_sphere();
             // Spheres are anchored near the origin; other shapes count with their full size.
             let own = if matches!(piece, Shape::Sphere { .. }) && radius > 10.0 { 0.0 } else { radius + center.length() };
             let known = move |intersection: Intersection| {
                 let digit = EPSILON * (o.length() + (o + d * intersection.t).length() + intersection.t.abs() + own);
-                Known { digit, along: DIGITS * digit / intersection.cos.max(1e-9), intersection }
+                ExactIntersection { digit, along: DIGITS * digit / intersection.cos.max(1e-9), intersection }
             };
             intersections(piece, o, d, f64::INFINITY).into_iter().map(known)
         };
@@ -205,9 +205,12 @@ impl Kind {
         let Nearest { t, primitive: U(primitive), .. } = shapes.closest(One, M(true), splat(o), splat(d), F(0.0));
         let found = (primitive != MISS).then_some(f64::from(t.0));
         let known = self.known(o, d);
-        let sure = |known: &&Known| known.intersection.clearance > DIGITS * known.digit && known.intersection.t > known.along;
-        let possible =
-            |known: &&Known| known.intersection.clearance > -DIGITS * known.digit && known.intersection.t > -known.along;
+        let sure = |known: &&ExactIntersection| {
+            known.intersection.clearance > DIGITS * known.digit && known.intersection.t > known.along
+        };
+        let possible = |known: &&ExactIntersection| {
+            known.intersection.clearance > -DIGITS * known.digit && known.intersection.t > -known.along
+        };
         let first = known.iter().filter(sure).min_by(|a, b| a.intersection.t.total_cmp(&b.intersection.t));
         let is_there = |t: f64| known.iter().filter(possible).any(|known| (known.intersection.t - t).abs() <= known.along);
         if let Some(first) = first {

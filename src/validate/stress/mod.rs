@@ -18,7 +18,7 @@ use rayon::prelude::*;
 use self::{
     dice::Dice,
     families::{Family, GROUPS},
-    trial::Outcome,
+    trial::TrialOutcome,
     trial_scene::{Expected, TrialScene},
 };
 use super::{Effort, Section, Validation};
@@ -33,7 +33,7 @@ struct Trial {
     name: String,
     text: String,
     trial_scene: TrialScene,
-    outcome: Outcome,
+    outcome: TrialOutcome,
 }
 
 impl Trial {

@@ -1,7 +1,7 @@
 //! Sections of the report from the outcomes of scenes.
 use super::{
     Trial,
-    families::{Family, Group},
+    families::{Family, FamilyGroup},
     figures::figures,
     surfaces::LIMIT,
     trial::ENERGY,
@@ -25,7 +25,7 @@ pub fn breaks(trial: &Trial) -> Option<String> {
     outcome.trouble.clone().or(invalid).or(energy).or(loss).or(z).or_else(|| surfaces.first.clone())
 }
 
-pub fn section(group: &Group, trials: &[Trial]) -> Section {
+pub fn section(group: &FamilyGroup, trials: &[Trial]) -> Section {
     let of = |family: &Family| trials.iter().filter(|trial| trial.family.name == family.name).collect::<Vec<_>>();
     let mut statements = Vec::new();
     for family in group.families {
@@ -143,7 +143,7 @@ mod tests {
     use super::{super::families::random, *};
     use crate::validate::stress::{
         surfaces::Comparison,
-        trial::Outcome,
+        trial::TrialOutcome,
         trial_scene::{Expected, TrialScene},
     };
 
@@ -154,10 +154,10 @@ mod tests {
             name: name.to_owned(),
             text: String::new(),
             trial_scene: TrialScene::of(String::new(), Expected::Valid),
-            outcome: Outcome {
+            outcome: TrialOutcome {
                 surfaces: Comparison { rays: 3, worst, ..Comparison::default() },
                 z: Some(-worst),
-                ..Outcome::default()
+                ..TrialOutcome::default()
             },
         };
         let all = [trial("good", 1.0), trial("bad", 1e9), trial("fair", 5.0)];
@@ -170,38 +170,45 @@ mod tests {
         assert!(of_rays[0].what.contains("9 rays") && of_rays[0].holds);
     }
 
-    fn trial(expected: Expected, outcome: Outcome) -> Trial {
+    fn trial(expected: Expected, outcome: TrialOutcome) -> Trial {
         let (family, name) = (&random::FAMILIES[0], "it".to_owned());
         Trial { family, name, text: String::new(), trial_scene: TrialScene::of(String::new(), expected), outcome }
     }
 
     #[test]
     fn every_invariant_is_broken_beyond_its_limit_and_kept_below() {
-        let said = |outcome: Outcome| breaks(&trial(Expected::Within { radiance: 1.0, loss: 0.25 }, outcome)).unwrap_or_default();
-        let energy =
-            |energy| said(Outcome { energy: Some(energy), off: 7, first_off: Some("here".to_owned()), ..Outcome::default() });
+        let said =
+            |outcome: TrialOutcome| breaks(&trial(Expected::Within { radiance: 1.0, loss: 0.25 }, outcome)).unwrap_or_default();
+        let energy = |energy| {
+            said(TrialOutcome { energy: Some(energy), off: 7, first_off: Some("here".to_owned()), ..TrialOutcome::default() })
+        };
         assert_eq!([energy(0.9e-4), energy(1.1e-4)], ["", "energy off by up to 1.1e-4 in 7 samples, first here"]);
-        let lost = |lost| said(Outcome { lost: Some(lost), ..Outcome::default() });
+        let lost = |lost| said(TrialOutcome { lost: Some(lost), ..TrialOutcome::default() });
         assert_eq!([lost(0.24), lost(0.26)], ["", "2.6e-1 of the light is lost; the limit is 2.5e-1"]);
-        let z = |z| said(Outcome { z: Some(z), ..Outcome::default() });
+        let z = |z| said(TrialOutcome { z: Some(z), ..TrialOutcome::default() });
         assert_eq!([z(4.4), z(-4.4), z(-4.6)], ["", "", "mean off by -4.6 standard errors"]);
         assert!([energy(f64::NAN), lost(f64::NAN), z(f64::NAN)].iter().all(|said| !said.is_empty()), "NaN fails");
-        assert_eq!(said(Outcome { invalid: 3, ..Outcome::default() }), "3 invalid samples");
-        assert_eq!(said(Outcome { trouble: Some("panics".to_owned()), invalid: 3, ..Outcome::default() }), "panics");
+        assert_eq!(said(TrialOutcome { invalid: 3, ..TrialOutcome::default() }), "3 invalid samples");
+        assert_eq!(said(TrialOutcome { trouble: Some("panics".to_owned()), invalid: 3, ..TrialOutcome::default() }), "panics");
         let missed = Comparison { first: Some("a surface is missed".to_owned()), ..Comparison::default() };
-        assert_eq!(said(Outcome { surfaces: missed, ..Outcome::default() }), "a surface is missed");
+        assert_eq!(said(TrialOutcome { surfaces: missed, ..TrialOutcome::default() }), "a surface is missed");
         // Only rooms with a limit have a statement about lost light.
-        assert_eq!(breaks(&trial(Expected::Valid, Outcome { lost: Some(1.0), ..Outcome::default() })), None);
+        assert_eq!(breaks(&trial(Expected::Valid, TrialOutcome { lost: Some(1.0), ..TrialOutcome::default() })), None);
     }
 
     #[test]
     fn rows_fail_with_the_scenes_that_break_them() {
         let within = Expected::Within { radiance: 1.0, loss: 0.25 };
-        let good = trial(within, Outcome { energy: Some(1e-5), lost: Some(0.125), samples: 100, ..Outcome::default() });
-        let bad = trial(within, Outcome { energy: Some(1.0), lost: Some(0.5), invalid: 1, samples: 23, ..Outcome::default() });
+        let good = trial(within, TrialOutcome { energy: Some(1e-5), lost: Some(0.125), samples: 100, ..TrialOutcome::default() });
+        let bad = trial(
+            within,
+            TrialOutcome { energy: Some(1.0), lost: Some(0.5), invalid: 1, samples: 23, ..TrialOutcome::default() },
+        );
         let escaped = Comparison { rays: 5, escaped: 1, missed: 2, self_hits: 4, ..Comparison::default() };
-        let out =
-            trial(within, Outcome { surfaces: escaped, refused: true, trouble: Some("no end".to_owned()), ..Outcome::default() });
+        let out = trial(
+            within,
+            TrialOutcome { surfaces: escaped, refused: true, trouble: Some("no end".to_owned()), ..TrialOutcome::default() },
+        );
         let row = |statement: Option<Statement>| statement.map(|row| (row.measured, row.holds)).expect("a row");
         assert_eq!([energy(&[&good]), losses(&[&good])].map(row), [(1e-5, true), (0.5, true)]);
         assert_eq!([energy(&[&good, &bad]), losses(&[&good, &bad])].map(row), [(1.0, false), (2.0, false)]);

@@ -1,6 +1,6 @@
 //! Injected faults in the integrator fail scenes, and every scene can be generated again. A test of the program runs a tenth of
 //! them.
-use super::{Dice, Expected, FailedScene, GROUPS, Outcome, Trial, TrialScene, figures::figures, trial::run};
+use super::{Dice, Expected, FailedScene, GROUPS, Trial, TrialOutcome, TrialScene, figures::figures, trial::run};
 use crate::{
     scene::InjectedFault,
     validate::{Effort, SIGMAS, Validation, check::TABLES},
@@ -70,7 +70,7 @@ fn errors_are_drawn_above_the_sizes_of_their_scenes() {
         name: String::new(),
         text: String::new(),
         trial_scene: TrialScene { size, ..TrialScene::of(String::new(), Expected::Everywhere(1.0)) },
-        outcome: Outcome { energy: Some(1e-7), ..Outcome::default() },
+        outcome: TrialOutcome { energy: Some(1e-7), ..TrialOutcome::default() },
     };
     let drawn = figures(&[trial(1e-3), trial(1e3)]);
     let number = |circle: &str, key: &str| circle.split_once(key)?.1.split_once('"')?.0.parse::<f64>().ok();

@@ -25,7 +25,7 @@ pub const ENERGY: f64 = 1e-4;
 
 /// Outcome of a scene.
 #[derive(Default)]
-pub struct Outcome {
+pub struct TrialOutcome {
     pub samples: u64,
     /// Samples that are negative or not finite.
     pub invalid: u64,
@@ -52,10 +52,10 @@ thread_local! {
 }
 
 /// Tries a scene. `text` is the whole file of the trial scene.
-pub fn run(text: &str, trial_scene: &TrialScene, settings: impl Fn(RenderSettings) -> RenderSettings) -> Outcome {
+pub fn run(text: &str, trial_scene: &TrialScene, settings: impl Fn(RenderSettings) -> RenderSettings) -> TrialOutcome {
     let start = Instant::now();
     let tried = catch_unwind(AssertUnwindSafe(|| try_scene(text, trial_scene, settings, start)));
-    let mut outcome = tried.unwrap_or_else(|panic| Outcome::trouble(format!("panics: {}", panic_message(&*panic))));
+    let mut outcome = tried.unwrap_or_else(|panic| TrialOutcome::trouble(format!("panics: {}", panic_message(&*panic))));
     outcome.seconds = start.elapsed().as_secs_f64();
     if outcome.trouble.is_none() && start.elapsed() > PATIENCE {
         outcome.trouble = Some(format!("takes {:.0} s", outcome.seconds));
@@ -63,9 +63,9 @@ pub fn run(text: &str, trial_scene: &TrialScene, settings: impl Fn(RenderSetting
     outcome
 }
 
-impl Outcome {
-    fn trouble(what: impl Into<String>) -> Outcome {
-        Outcome { trouble: Some(what.into()), ..Outcome::default() }
+impl TrialOutcome {
+    fn trouble(what: impl Into<String>) -> TrialOutcome {
+        TrialOutcome { trouble: Some(what.into()), ..TrialOutcome::default() }
     }
 }
 
@@ -74,22 +74,22 @@ fn try_scene(
     trial_scene: &TrialScene,
     settings: impl Fn(RenderSettings) -> RenderSettings,
     start: Instant,
-) -> Outcome {
+) -> TrialOutcome {
     let may_be_refused = matches!(trial_scene.expected, Expected::Refused | Expected::ValidOrRefused);
     let scene = match parse("stress", text.to_owned()) {
-        Ok(_) if trial_scene.expected == Expected::Refused => return Outcome::trouble("is not rejected"),
+        Ok(_) if trial_scene.expected == Expected::Refused => return TrialOutcome::trouble("is not rejected"),
         Ok(scene) => scene,
         Err(error) if may_be_refused && error.line_column().is_some() && !error.to_string().is_empty() => {
-            return Outcome { refused: true, ..Outcome::default() };
+            return TrialOutcome { refused: true, ..TrialOutcome::default() };
         }
-        Err(error) => return Outcome::trouble(format!("is refused: {error}")),
+        Err(error) => return TrialOutcome::trouble(format!("is refused: {error}")),
     };
     let (settings, rays) = (settings(scene.settings), scene.rays(&scene.camera));
     let Some(outcome) = render(&scene, &settings, &rays, trial_scene, start) else {
-        return Outcome::trouble(format!("is not finished after {} s", PATIENCE.as_secs()));
+        return TrialOutcome::trouble(format!("is not finished after {} s", PATIENCE.as_secs()));
     };
     let surfaces = compare(&scene, &settings, &rays, matches!(trial_scene.expected, Expected::Everywhere(_)));
-    Outcome { surfaces, ..outcome }
+    TrialOutcome { surfaces, ..outcome }
 }
 
 /// Renders the scene. Returns `None` if that takes too long.
@@ -99,9 +99,9 @@ fn render(
     rays: &CameraRays,
     trial_scene: &TrialScene,
     start: Instant,
-) -> Option<Outcome> {
+) -> Option<TrialOutcome> {
     let size = scene.camera.resolution.map(|side| side.min(TILE));
-    let mut outcome = Outcome::default();
+    let mut outcome = TrialOutcome::default();
     let (mut sum, mut square, mut worst) = (0.0, 0.0, 0.0f64);
     let exact = match trial_scene.expected {
         Expected::Everywhere(exact) | Expected::Mean(exact) | Expected::Within { radiance: exact, .. } => exact,
@@ -148,8 +148,8 @@ fn render_both_ends(
     trial_scene: &TrialScene,
     exact: f64,
     start: Instant,
-) -> Option<Outcome> {
-    let mut outcome = Outcome::default();
+) -> Option<TrialOutcome> {
+    let mut outcome = TrialOutcome::default();
     let (mut sum, mut square) = (0.0, 0.0);
     for sample in 0..trial_scene.spp {
         let image = sample_image(scene, rays, settings, sample, &|| start.elapsed() > PATIENCE).ok()?;

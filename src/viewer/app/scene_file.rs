@@ -3,7 +3,7 @@ use egui::ViewportCommand;
 use noisefall::render::State;
 
 use super::state::App;
-use crate::viewer::dialogs::unsaved::{self, Answer, Leaving};
+use crate::viewer::dialogs::unsaved::{self, Leaving, UnsavedAnswer};
 
 impl App {
     pub fn has_unsaved_changes(&self) -> bool {
@@ -58,12 +58,12 @@ impl App {
         let Some(answer) = unsaved::show(&self.ctx, name) else { return };
         let Some(leaving) = self.dialogs.unsaved.take() else { return };
         match answer {
-            Answer::Save => {
+            UnsavedAnswer::Save => {
                 self.window.leaving = Some(leaving);
                 self.save_scene();
             }
-            Answer::Discard => self.leave(leaving),
-            Answer::Cancel => {}
+            UnsavedAnswer::Discard => self.leave(leaving),
+            UnsavedAnswer::Cancel => {}
         }
     }
 

@@ -15,14 +15,14 @@ use super::background_task::BackgroundTask;
 /// Duration of a study.
 const TIME: Duration = Duration::from_secs(8);
 
-type Outcome = Result<Advice, String>;
+type AdviceResult = Result<Advice, String>;
 
 /// A study that is running or finished.
 pub struct Adviser {
     /// Rendered test images and their total.
     progress: Arc<Mutex<(usize, usize)>>,
-    pending: Option<BackgroundTask<Outcome>>,
-    pub advice: Option<Outcome>,
+    pending: Option<BackgroundTask<AdviceResult>>,
+    pub advice: Option<AdviceResult>,
     /// The scene, camera and settings of the study.
     pub request: RenderRequest,
 }

@@ -16,13 +16,13 @@ type Viewpoint = (Arc<Scene>, Camera);
 
 pub struct FeatureFinder {
     ctx: egui::Context,
-    found: Option<Found>,
+    found: Option<FoundFeatures>,
     /// The last requested viewpoint.
     viewpoint: Option<Viewpoint>,
     pending: Option<BackgroundTask<Option<(Features, Reservation)>>>,
 }
 
-struct Found {
+struct FoundFeatures {
     viewpoint: Viewpoint,
     features: Arc<Features>,
     _memory: Reservation,
@@ -39,8 +39,11 @@ impl FeatureFinder {
         if let (Some(features), Some(viewpoint)) = (BackgroundTask::take(&mut self.pending), &self.viewpoint) {
             // A failure here is not reported, because the render threads report the same one.
             let found = features.ok().flatten();
-            self.found =
-                found.map(|(features, _memory)| Found { viewpoint: viewpoint.clone(), features: Arc::new(features), _memory });
+            self.found = found.map(|(features, _memory)| FoundFeatures {
+                viewpoint: viewpoint.clone(),
+                features: Arc::new(features),
+                _memory,
+            });
         }
         // A running search is not cancelled; otherwise none would finish while the camera is dragged.
         if self.pending.is_none() && !self.viewpoint.as_ref().is_some_and(same) {
@@ -52,7 +55,9 @@ impl FeatureFinder {
 
     /// Whether the features are those of this scene and camera.
     pub fn has(&self, scene: &Arc<Scene>, camera: &Camera) -> bool {
-        self.found.as_ref().is_some_and(|Found { viewpoint, .. }| viewpoint.0.has_same_image(scene) && viewpoint.1 == *camera)
+        self.found
+            .as_ref()
+            .is_some_and(|FoundFeatures { viewpoint, .. }| viewpoint.0.has_same_image(scene) && viewpoint.1 == *camera)
     }
 
     fn search(&mut self, scene: &Arc<Scene>, camera: &Camera, threads: usize) {

@@ -29,7 +29,7 @@ pub struct Wanted<'a> {
 
 /// The answer of a frame.
 #[derive(Default)]
-struct Answer {
+struct FormAnswer {
     /// The path that was chosen or typed, which need not be that of a file.
     path: Option<PathBuf>,
     cancels: bool,
@@ -55,7 +55,7 @@ pub fn ask(
     let window = Window::new(title).open(&mut open).collapsible(false).resizable(false);
     let shown = window.anchor(Align2::CENTER_CENTER, [0.0, 0.0]).show(ctx, |ui| {
         let answer = form.show(ui, wanted);
-        Answer { path: below(ui).or(answer.path), ..answer }
+        FormAnswer { path: below(ui).or(answer.path), ..answer }
     });
     let answer = shown.and_then(|shown| shown.inner).unwrap_or_default();
     match answer.path.and_then(|path| form.existing(path)) {
@@ -80,7 +80,7 @@ impl PathForm {
         self.completion.matches.len() == count
     }
 
-    fn show(&mut self, ui: &mut Ui, wanted: &Wanted<'_>) -> Answer {
+    fn show(&mut self, ui: &mut Ui, wanted: &Wanted<'_>) -> FormAnswer {
         ui.set_width(WIDTH);
         ui.label(wanted.text);
         ui.add_space(4.0);
@@ -102,7 +102,7 @@ impl PathForm {
         let folder = path.as_ref().filter(|path| path.is_dir()).map(|path| path.join("").display().to_string());
         let is_folder = folder.is_some();
         folder.into_iter().for_each(|folder| self.field.set(ui, folder));
-        Answer { path: path.filter(|_| !is_folder), cancels }
+        FormAnswer { path: path.filter(|_| !is_folder), cancels }
     }
 
     /// Whether the file is taken, and whether the dialog is given up.

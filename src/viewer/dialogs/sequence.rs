@@ -16,19 +16,19 @@ const DEFAULT_SPP: u32 = 64;
 
 /// The source of the cameras.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Source {
+enum CameraSource {
     Turntable,
     Path,
 }
 
-const SOURCES: [(Source, &str, &str); 2] = [
-    (Source::Turntable, "Turntable", "Turns the camera once around its look-at point."),
-    (Source::Path, "Camera path", "Follows the cameras of a TOML file."),
+const SOURCES: [(CameraSource, &str, &str); 2] = [
+    (CameraSource::Turntable, "Turntable", "Turns the camera once around its look-at point."),
+    (CameraSource::Path, "Camera path", "Follows the cameras of a TOML file."),
 ];
 
 /// Asks for the frames and their files.
 pub struct SequenceDialog {
-    source: Source,
+    source: CameraSource,
     frames: u32,
     spp: u32,
     path: PathField,
@@ -48,7 +48,7 @@ impl SequenceDialog {
         let stem = scene.and_then(Path::file_stem).map_or_else(|| "frame".into(), |stem| stem.to_string_lossy());
         let files = std::env::current_dir().unwrap_or_default().join(format!("{stem}-####.png"));
         SequenceDialog {
-            source: Source::Turntable,
+            source: CameraSource::Turntable,
             frames: DEFAULT_FRAMES,
             spp: spp.unwrap_or(DEFAULT_SPP).max(1),
             path: PathField::new(String::new(), "path/to/cameras.toml"),
@@ -65,8 +65,8 @@ impl SequenceDialog {
         };
         self.files.refusal = checked.err();
         let cameras = match self.source {
-            Source::Turntable => CameraSequence::Turntable(self.frames),
-            Source::Path => {
+            CameraSource::Turntable => CameraSequence::Turntable(self.frames),
+            CameraSource::Path => {
                 let path = self.path.path().filter(|path| path.is_file());
                 self.path.refusal = path.is_none().then(|| "There is no such file.".to_owned());
                 CameraSequence::Path(path?)
@@ -101,7 +101,7 @@ fn dialog_body(ui: &mut Ui, asked: &mut SequenceDialog) -> (bool, bool) {
     choices(ui, &mut asked.source, &SOURCES);
     let mut renders = false;
     controls(ui, "sequence", |ui| {
-        if asked.source == Source::Turntable {
+        if asked.source == CameraSource::Turntable {
             row(ui, "Frames", "Number of images of the turn", |ui, label| {
                 _ = ui.add(DragValue::new(&mut asked.frames).range(2..=10_000)).labelled_by(label);
             });
@@ -110,7 +110,7 @@ fn dialog_body(ui: &mut Ui, asked: &mut SequenceDialog) -> (bool, bool) {
             _ = ui.add(DragValue::new(&mut asked.spp).range(1..=16_777_216).suffix(" spp")).labelled_by(label);
         });
     });
-    if asked.source == Source::Path {
+    if asked.source == CameraSource::Path {
         ui.label("Camera path");
         _ = asked.path.show(ui);
         asked.path.remark(ui, "");

@@ -43,21 +43,21 @@ impl SaveRequest {
 
 /// An answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Answer {
+pub enum UnsavedAnswer {
     Save,
     Discard,
     Cancel,
 }
 
 /// Asks the question about a scene of this name.
-pub fn show(ctx: &egui::Context, scene: &str) -> Option<Answer> {
+pub fn show(ctx: &egui::Context, scene: &str) -> Option<UnsavedAnswer> {
     let choices = [
-        Choice::new("Save changes", "Saves the scene, then continues.", Answer::Save),
-        Choice::new("Discard changes", "Continues without saving.", Answer::Discard),
-        Choice::new("Cancel", "Returns to the scene. (Esc)", Answer::Cancel),
+        Choice::new("Save changes", "Saves the scene, then continues.", UnsavedAnswer::Save),
+        Choice::new("Discard changes", "Continues without saving.", UnsavedAnswer::Discard),
+        Choice::new("Cancel", "Returns to the scene. (Esc)", UnsavedAnswer::Cancel),
     ];
     let explain = |ui: &mut Ui| _ = ui.label(format!("“{scene}” has changes that are not saved."));
-    ask(ctx, "Unsaved changes", 380.0, explain, choices, Answer::Cancel)
+    ask(ctx, "Unsaved changes", 380.0, explain, choices, UnsavedAnswer::Cancel)
 }
 
 #[cfg(test)]

@@ -14,7 +14,7 @@ pub fn evaluate(text: &str) -> Result<f64, String> {
         (1, false) => compact.replace(',', "."),
         _ => return Err(format!("expected one number, found “{found}”; use a dot for decimals, and no other separators")),
     };
-    let mut reader = Reader { rest: &compact, depth: 0 };
+    let mut reader = ExpressionReader { rest: &compact, depth: 0 };
     let value = reader.sum().filter(|_| reader.rest.is_empty());
     let value = value.ok_or_else(|| format!("expected a number, found “{found}”"))?;
     if value.is_finite() { Ok(value) } else { Err(format!("“{found}” is not a finite number")) }
@@ -31,12 +31,12 @@ fn ascii(c: char) -> char {
 }
 
 /// Reads an expression by recursive descent. `None`: the text is none.
-struct Reader<'t> {
+struct ExpressionReader<'t> {
     rest: &'t str,
     depth: usize,
 }
 
-impl Reader<'_> {
+impl ExpressionReader<'_> {
     fn sum(&mut self) -> Option<f64> {
         let mut value = self.product()?;
         loop {

@@ -1,6 +1,6 @@
 //! Choices of kinds and words, as their catalogues list them.
 use egui::{ComboBox, Id, Response, Ui};
-use noisefall::declare::{OneOf, Parameter, Parameters, Scale, Value, Words};
+use noisefall::declare::{OneOf, Parameter, Parameters, SliderScale, Value, Words};
 
 use super::{
     list::value_entry,
@@ -67,7 +67,7 @@ impl Parameters for NumberRows<'_> {
                     let field = number::field(ui, number, 3, ends).speed(speed).suffix(&suffix);
                     ui.add_enabled(self.is_enabled, field).labelled_by(label);
                 } else {
-                    let slider = number::slider(ui, number, 3, ends).logarithmic(range.scale == Scale::Log);
+                    let slider = number::slider(ui, number, 3, ends).logarithmic(range.scale == SliderScale::Log);
                     ui.add_enabled(self.is_enabled, slider.suffix(&suffix)).labelled_by(label);
                 }
             });

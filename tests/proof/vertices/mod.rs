@@ -4,7 +4,7 @@ mod tally;
 use std::{f32::consts::PI, path::Path};
 
 use noisefall::{
-    integrator::{Batch, Outcome, Replay, SharedLight, TILE, Vertex, Work, pixel_samples, replay, thresholds, trace},
+    integrator::{Batch, LightOutcome, Replay, SharedLight, TILE, Vertex, Work, pixel_samples, replay, thresholds, trace},
     math::SimdLevel,
     sampling::Sampler,
     scene::{Camera, CameraRays, Estimator, RenderSettings, Reuse, Roulette, Scene, load},
@@ -213,10 +213,10 @@ fn assert_terms(vertex: &Vertex, settings: &RenderSettings, what: &str) {
     if let Some(light) = &vertex.light {
         assert!(settings.estimator != Estimator::Path || light.object.is_none());
         assert!((0.0..=1.0).contains(&light.weight));
-        let seen = light.outcome == Outcome::Seen;
+        let seen = light.outcome == LightOutcome::Seen;
         assert!(seen || light.contribution == [0.0; 3]);
         // The shadow ray ends at the light or at an occluder. Backgrounds have no position.
-        let ends = if seen { light.object.is_some() } else { light.outcome == Outcome::Hidden };
+        let ends = if seen { light.object.is_some() } else { light.outcome == LightOutcome::Hidden };
         let has_end = light.distance.is_some_and(|distance| distance > 0.0);
         // A lamp without surface may be infinitely far away.
         assert!(has_end == ends || (seen && light.lamp.is_some()), "{what}");

@@ -1,5 +1,5 @@
 //! Counts of events on the replayed paths of a test, so that no kind of event goes untested.
-use noisefall::integrator::{Outcome, Vertex};
+use noisefall::integrator::{LightOutcome, Vertex};
 
 /// Number of times that each kind of event occurred.
 #[derive(Debug, Default)]
@@ -21,10 +21,10 @@ impl Tally {
     pub fn count(&mut self, vertex: &Vertex) {
         let outcome = vertex.light.as_ref().map(|light| light.outcome);
         let passed = vertex.light.as_ref().map_or([0.0; 3], |light| light.passed);
-        self.seen += u32::from(outcome == Some(Outcome::Seen));
-        self.hidden += u32::from(outcome == Some(Outcome::Hidden));
-        self.void += u32::from(outcome == Some(Outcome::Void));
-        self.textured += u32::from(outcome == Some(Outcome::Seen) && passed != [1.0; 3]);
+        self.seen += u32::from(outcome == Some(LightOutcome::Seen));
+        self.hidden += u32::from(outcome == Some(LightOutcome::Hidden));
+        self.void += u32::from(outcome == Some(LightOutcome::Void));
+        self.textured += u32::from(outcome == Some(LightOutcome::Seen) && passed != [1.0; 3]);
         self.weighted += u32::from(vertex.emission.as_ref().is_some_and(|met| met.weight > 0.0 && met.weight < 1.0));
         self.sky += u32::from(vertex.object.is_none() && vertex.emission.is_some());
         self.tinted += u32::from(vertex.transmittance != [1.0; 3]);

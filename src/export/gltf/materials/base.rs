@@ -1,7 +1,7 @@
 //! Colour, opacity, metal, roughness and interface.
 use serde_json::json;
 
-use super::Parts;
+use super::MaterialParts;
 use crate::{
     declare::Textured,
     export::{
@@ -22,7 +22,7 @@ impl Export<'_> {
     /// Writes the base, and returns what it uses of the colours of vertices.
     pub(super) fn base(
         &mut self,
-        parts: &mut Parts,
+        parts: &mut MaterialParts,
         material: &MaterialDescription,
         principled: &Principled,
     ) -> Result<VertexColors, ExportError> {
@@ -42,9 +42,9 @@ impl Export<'_> {
             }
             base.push(opacity);
             parts.material.insert("alphaMode".to_owned(), json!(if cutoff.is_some() { "MASK" } else { "BLEND" }));
-            Parts::set(&mut parts.material, "alphaCutoff", cutoff.map(|cutoff| json!(cutoff)));
+            MaterialParts::set(&mut parts.material, "alphaCutoff", cutoff.map(|cutoff| json!(cutoff)));
         }
-        Parts::set(&mut parts.pbr, "baseColorTexture", self.map(&mut base)?);
+        MaterialParts::set(&mut parts.pbr, "baseColorTexture", self.map(&mut base)?);
         let [r, g, b] = base[0].factor.map(|x| x.clamp(0.0, 1.0));
         let alpha = base.get(1).map_or(1.0, Part::number).clamp(0.0, 1.0);
         parts.pbr.insert("baseColorFactor".to_owned(), json!([r, g, b, alpha]));
@@ -76,16 +76,16 @@ impl Export<'_> {
         (opacity.clone(), None)
     }
 
-    fn metal(&mut self, parts: &mut Parts, principled: &Principled) -> Result<(), ExportError> {
+    fn metal(&mut self, parts: &mut MaterialParts, principled: &Principled) -> Result<(), ExportError> {
         let roughness = self.across(principled);
         let mut both = [self.number(&roughness, Channel::Green), self.number(&principled.base_metalness, Channel::Blue)];
-        Parts::set(&mut parts.pbr, "metallicRoughnessTexture", self.map(&mut both)?);
+        MaterialParts::set(&mut parts.pbr, "metallicRoughnessTexture", self.map(&mut both)?);
         parts.pbr.insert("roughnessFactor".to_owned(), json!(both[0].number()));
         parts.pbr.insert("metallicFactor".to_owned(), json!(both[1].number()));
         Ok(())
     }
 
-    fn interface(&mut self, parts: &mut Parts, principled: &Principled) -> Result<(), ExportError> {
+    fn interface(&mut self, parts: &mut MaterialParts, principled: &Principled) -> Result<(), ExportError> {
         if principled.specular_ior != 1.5 {
             let content = json!({ "ior": principled.specular_ior });
             self.document.extend(&mut parts.material, "KHR_materials_ior", content);
@@ -101,8 +101,8 @@ impl Export<'_> {
         let mut weight = [self.number(weight, Channel::Alpha)];
         let mut color = [self.color(color)];
         let mut content = serde_json::Map::new();
-        Parts::set(&mut content, "specularTexture", self.map(&mut weight)?);
-        Parts::set(&mut content, "specularColorTexture", self.map(&mut color)?);
+        MaterialParts::set(&mut content, "specularTexture", self.map(&mut weight)?);
+        MaterialParts::set(&mut content, "specularColorTexture", self.map(&mut color)?);
         content.insert("specularFactor".to_owned(), json!(weight[0].number()));
         content.insert("specularColorFactor".to_owned(), json!(color[0].factor));
         self.document.extend(&mut parts.material, "KHR_materials_specular", content.into());

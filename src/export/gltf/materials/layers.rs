@@ -1,7 +1,7 @@
 //! Transmission, coat, sheen, thin film and anisotropy.
 use serde_json::{Map, Value, json};
 
-use super::Parts;
+use super::MaterialParts;
 use crate::{
     declare::Textured,
     export::{ExportError, gltf::context::Export},
@@ -19,7 +19,12 @@ const NONE: &Textured<f64> = &Textured::Constant(0.0);
 
 impl Export<'_> {
     /// Writes the extensions of a material. The normal map holds for the coat too.
-    pub(super) fn layers(&mut self, parts: &mut Parts, of: &Principled, normals: Option<Value>) -> Result<(), ExportError> {
+    pub(super) fn layers(
+        &mut self,
+        parts: &mut MaterialParts,
+        of: &Principled,
+        normals: Option<Value>,
+    ) -> Result<(), ExportError> {
         if of.transmission_weight != *NONE {
             self.transmission(parts, of)?;
         }
@@ -28,7 +33,7 @@ impl Export<'_> {
                 ("clearcoat", &of.coat_weight, Channel::Red),
                 ("clearcoatRoughness", &of.coat_roughness, Channel::Green),
             ])?;
-            Parts::set(&mut coat, "clearcoatNormalTexture", normals);
+            MaterialParts::set(&mut coat, "clearcoatNormalTexture", normals);
             self.document.extend(&mut parts.material, "KHR_materials_clearcoat", coat.into());
         }
         if of.fuzz_weight != *NONE {
@@ -54,7 +59,7 @@ impl Export<'_> {
         let mut content = Map::new();
         for (name, number, channel) in members {
             let mut part = [self.number(number, channel)];
-            Parts::set(&mut content, &format!("{name}Texture"), self.map(&mut part)?);
+            MaterialParts::set(&mut content, &format!("{name}Texture"), self.map(&mut part)?);
             content.insert(format!("{name}Factor"), json!(part[0].number()));
         }
         Ok(content)
@@ -67,7 +72,7 @@ impl Export<'_> {
         self.colors.mean_number(number)
     }
 
-    fn transmission(&mut self, parts: &mut Parts, of: &Principled) -> Result<(), ExportError> {
+    fn transmission(&mut self, parts: &mut MaterialParts, of: &Principled) -> Result<(), ExportError> {
         let content = self.numbers([("transmission", &of.transmission_weight, Channel::Red)])?;
         self.document.extend(&mut parts.material, "KHR_materials_transmission", content.into());
         let is_tinted = of.transmission_depth == 0.0 || of.thin_walled;
@@ -93,17 +98,17 @@ impl Export<'_> {
         Ok(())
     }
 
-    fn sheen(&mut self, parts: &mut Parts, of: &Principled) -> Result<(), ExportError> {
+    fn sheen(&mut self, parts: &mut MaterialParts, of: &Principled) -> Result<(), ExportError> {
         let weight = self.mean("fuzz_weight", &of.fuzz_weight);
         let mut color = [self.color(&of.fuzz_color)];
         let mut content = self.numbers([("sheenRoughness", &of.fuzz_roughness, Channel::Alpha)])?;
-        Parts::set(&mut content, "sheenColorTexture", self.map(&mut color)?);
+        MaterialParts::set(&mut content, "sheenColorTexture", self.map(&mut color)?);
         content.insert("sheenColorFactor".to_owned(), json!(color[0].factor.map(|x| (x * weight).min(1.0))));
         self.document.extend(&mut parts.material, "KHR_materials_sheen", content.into());
         Ok(())
     }
 
-    fn film(&mut self, parts: &mut Parts, of: &Principled) -> Result<(), ExportError> {
+    fn film(&mut self, parts: &mut MaterialParts, of: &Principled) -> Result<(), ExportError> {
         let mut content = self.numbers([("iridescence", &of.thin_film_weight, Channel::Red)])?;
         let mut thickness = [self.number(&of.thin_film_thickness, Channel::Green)];
         if let Some(map) = self.map(&mut thickness)? {

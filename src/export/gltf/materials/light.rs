@@ -1,7 +1,7 @@
 //! Emission, sides and bumps.
 use serde_json::{Value, json};
 
-use super::Parts;
+use super::MaterialParts;
 use crate::{
     export::{ExportError, gltf::context::Export},
     light::emission::EmissionSource,
@@ -30,10 +30,10 @@ impl Export<'_> {
     }
 
     /// Radiance as factor × texture × strength.
-    pub(super) fn emission(&mut self, parts: &mut Parts, emission: &EmissionDescription) -> Result<(), ExportError> {
+    pub(super) fn emission(&mut self, parts: &mut MaterialParts, emission: &EmissionDescription) -> Result<(), ExportError> {
         let radiance = self.colors.radiance(&emission.source, &mut self.notes);
         let mut part = [self.color(&radiance)];
-        Parts::set(&mut parts.material, "emissiveTexture", self.map(&mut part)?);
+        MaterialParts::set(&mut parts.material, "emissiveTexture", self.map(&mut part)?);
         let [part] = part;
         let strongest = part.factor.iter().fold(1.0, |a: f64, b| a.max(*b));
         parts.material.insert("emissiveFactor".to_owned(), json!(part.factor.map(|x| x / strongest)));
@@ -46,7 +46,11 @@ impl Export<'_> {
     }
 
     /// The use of the normal map, if there is one.
-    pub(super) fn bumps(&mut self, parts: &mut Parts, material: &MaterialDescription) -> Result<Option<Value>, ExportError> {
+    pub(super) fn bumps(
+        &mut self,
+        parts: &mut MaterialParts,
+        material: &MaterialDescription,
+    ) -> Result<Option<Value>, ExportError> {
         if let Some(bump) = &material.bump {
             self.remark(format!("the heights `{}`", bump.texture), "no bump map", "the surface is smooth");
         }

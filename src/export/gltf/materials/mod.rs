@@ -26,12 +26,12 @@ const DEEPEST: usize = 16;
 
 /// The parts of a material of the file.
 #[derive(Default)]
-struct Parts {
+struct MaterialParts {
     material: Map<String, Value>,
     pbr: Map<String, Value>,
 }
 
-impl Parts {
+impl MaterialParts {
     /// Sets a member of a table, unless it is absent.
     fn set(table: &mut Map<String, Value>, key: &str, value: Option<Value>) {
         table.extend(value.map(|value| (key.to_owned(), value)));
@@ -84,7 +84,7 @@ impl Export<'_> {
         emission: Option<&EmissionDescription>,
         sides: Option<bool>,
     ) -> Result<Made, ExportError> {
-        let mut parts = Parts::default();
+        let mut parts = MaterialParts::default();
         self.uses_coordinates = false;
         if self.description.materials.get(name).is_some_and(|material| matches!(material.kind, Material::Blend(_))) {
             self.remark("a `blend`", "the material that is met more often", "the other one is missing");
@@ -102,7 +102,7 @@ impl Export<'_> {
         if sides.unwrap_or(description.two_sided != Some(false)) {
             parts.material.insert("doubleSided".to_owned(), json!(true));
         }
-        let Parts { mut material, pbr } = parts;
+        let MaterialParts { mut material, pbr } = parts;
         material.insert("pbrMetallicRoughness".to_owned(), Value::Object(pbr));
         let index = self.document.add("materials", Value::Object(material));
         Ok(Made { index, colors, uses_coordinates: self.uses_coordinates })

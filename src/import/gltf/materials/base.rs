@@ -1,5 +1,5 @@
 //! The base of a material: colour, metal, roughness and interface.
-use super::Work;
+use super::MaterialImport;
 use crate::{
     declare::Textured,
     import::gltf::{
@@ -14,7 +14,7 @@ use crate::{
 const LEAST_IOR: f64 = 1.0;
 const GREATEST_IOR: f64 = 20.0;
 
-impl Work<'_, '_> {
+impl MaterialImport<'_, '_> {
     /// The whole of what reflects and transmits.
     pub(super) fn principled(&mut self) -> Principled {
         let mut principled = match self.extensions.specular_glossiness.as_deref() {

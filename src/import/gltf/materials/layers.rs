@@ -1,5 +1,5 @@
 //! Transmission, coat, sheen, thin film and anisotropy.
-use super::Work;
+use super::MaterialImport;
 use crate::{
     declare::Textured,
     import::gltf::{document::TextureInfo, extensions::Volume},
@@ -12,7 +12,7 @@ const NANOMETRES: f64 = 1000.0;
 /// Index of refraction of the coat of glTF: it reflects 4 % head-on.
 const COAT_IOR: f64 = 1.5;
 
-impl Work<'_, '_> {
+impl MaterialImport<'_, '_> {
     /// Light that passes: through a thin sheet, or into a volume.
     pub(super) fn transmission(&mut self, principled: &mut Principled) {
         if self.extensions.dispersion.as_ref().is_some_and(|described| described.dispersion > 0.0) {

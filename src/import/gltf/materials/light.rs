@@ -1,5 +1,5 @@
 //! Emission and opacity.
-use super::Work;
+use super::MaterialImport;
 use crate::{
     declare::Textured,
     import::gltf::{document::TextureInfo, textures::Use},
@@ -12,7 +12,7 @@ use crate::{
 /// Width of the step of `MASK` in opacity: a texture has no threshold, so a steep ramp stands for it.
 pub const STEP: f64 = 1e-3;
 
-impl Work<'_, '_> {
+impl MaterialImport<'_, '_> {
     /// Radiance: factor × texture × strength, W/(m² sr) where the file has no unit. A surface that is not seen from behind does not
     /// shine there.
     pub(super) fn emission(&mut self) -> Option<EmissionDescription> {

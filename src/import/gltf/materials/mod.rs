@@ -11,7 +11,7 @@ use super::{
     document::{Document, Index, Material, Primitive, TextureInfo, element},
     extensions::MaterialExtensions,
     refusal::Found,
-    textures::{Surface, Textures, Use, number},
+    textures::{SurfaceInputs, Textures, Use, number},
 };
 use crate::{
     declare::Textured,
@@ -36,16 +36,16 @@ pub struct Materials<'a> {
     /// Name of the file, in remarks.
     file: &'a str,
     names: Names,
-    made: HashMap<(Option<Index>, Surface), Made>,
+    made: HashMap<(Option<Index>, SurfaceInputs), Made>,
 }
 
 /// A material that is being made.
-struct Work<'w, 'a> {
+struct MaterialImport<'w, 'a> {
     material: &'w Material,
     extensions: &'w MaterialExtensions,
     textures: &'w mut Textures<'a>,
     to: &'w mut Imported,
-    surface: &'w Surface,
+    surface: &'w SurfaceInputs,
     place: &'w str,
     /// Whether Blender wrote the file.
     is_of_blender: bool,
@@ -57,17 +57,17 @@ impl<'a> Materials<'a> {
     }
 
     /// The surface of a primitive for its material: which texture coordinates are read. They are those of the color.
-    pub fn surface(&self, primitive: &Primitive, material: Option<Index>) -> Found<Surface> {
+    pub fn surface(&self, primitive: &Primitive, material: Option<Index>) -> Found<SurfaceInputs> {
         let material = material.map(|index| element(&self.document.materials, index, "material")).transpose()?;
         let wanted = material.and_then(|material| maps(material).next().map(TextureInfo::set));
         let has = |set: &u32| primitive.attributes.uvs(*set).is_some();
         // Without textures, the coordinates give the tangents of anisotropic materials.
         let uvs = wanted.filter(has).or_else(|| (0..4).find(has));
-        Ok(Surface { uvs, colours: primitive.attributes.color.is_some() })
+        Ok(SurfaceInputs { uvs, colours: primitive.attributes.color.is_some() })
     }
 
     /// The material for a surface.
-    pub fn make(&mut self, to: &mut Imported, index: Option<Index>, surface: &Surface) -> Found<Made> {
+    pub fn make(&mut self, to: &mut Imported, index: Option<Index>, surface: &SurfaceInputs) -> Found<Made> {
         let key = (index, surface.clone());
         if let Some(made) = self.made.get(&key) {
             return Ok(made.clone());
@@ -78,7 +78,7 @@ impl<'a> Materials<'a> {
         let name = self.names.unique(&material.name, &fallback);
         let place = format!("{}: material \"{name}\"", self.file);
         let none = MaterialExtensions::default();
-        let mut work = Work {
+        let mut work = MaterialImport {
             material,
             extensions: material.extensions.as_deref().unwrap_or(&none),
             textures: &mut self.textures,
@@ -109,7 +109,7 @@ fn maps(material: &Material) -> impl Iterator<Item = &TextureInfo> {
     maps.into_iter().flatten()
 }
 
-impl Work<'_, '_> {
+impl MaterialImport<'_, '_> {
     fn make(&mut self) -> (MaterialDescription, Option<EmissionDescription>) {
         let opacity = self.opacity();
         let is_culled = !self.material.double_sided;

@@ -18,7 +18,7 @@ use super::{
     import::Import,
     parameters::{Entity, Type},
     records::MaterialRef,
-    source::Place,
+    source::TextSpan,
 };
 use crate::{
     declare::Textured,
@@ -47,7 +47,7 @@ impl Import {
         &mut self,
         material: &MaterialRef,
         opacity: Option<&Textured<f64>>,
-        place: &Place,
+        place: &TextSpan,
     ) -> Result<String, SceneError> {
         let number = match material {
             MaterialRef::Default => None,

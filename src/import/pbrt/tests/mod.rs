@@ -13,15 +13,15 @@ use crate::{
 };
 
 /// A scene whose files are in a folder of its own.
-struct Files(tempfile::TempDir);
+struct SourceFiles(tempfile::TempDir);
 
-impl Files {
-    fn new(files: &[(&str, &str)]) -> Files {
+impl SourceFiles {
+    fn new(files: &[(&str, &str)]) -> SourceFiles {
         let folder = tempfile::tempdir().expect("a folder");
         for (name, text) in files {
             fs::write(folder.path().join(name), text).expect("it is written");
         }
-        Files(folder)
+        SourceFiles(folder)
     }
 
     fn read(&self) -> Result<Imported, SceneError> {
@@ -30,7 +30,7 @@ impl Files {
 }
 
 fn imported(text: &str) -> Imported {
-    Files::new(&[("a.pbrt", text)]).read().unwrap_or_else(|error| panic!("{}", error.report()))
+    SourceFiles::new(&[("a.pbrt", text)]).read().unwrap_or_else(|error| panic!("{}", error.report()))
 }
 
 /// A world of a right-handed program, so that nothing is mirrored.
@@ -39,7 +39,7 @@ fn world(text: &str) -> Imported {
 }
 
 fn error(text: &str) -> String {
-    match Files::new(&[("a.pbrt", text)]).read() {
+    match SourceFiles::new(&[("a.pbrt", text)]).read() {
         Ok(_) => panic!("it is accepted"),
         Err(error) => error.report(),
     }

@@ -22,7 +22,7 @@ pub struct Family {
 }
 
 /// A section of the report.
-pub struct Group {
+pub struct FamilyGroup {
     pub title: &'static str,
     pub claim: &'static str,
     pub derivation: &'static [&'static str],
@@ -30,8 +30,8 @@ pub struct Group {
     pub families: &'static [Family],
 }
 
-pub const GROUPS: [Group; 7] = [
-    Group {
+pub const GROUPS: [FamilyGroup; 7] = [
+    FamilyGroup {
         title: "Scales",
         claim: "From a micrometre to a million kilometres, and far from the origin, no light is lost or created, and rays hit the \
                 right points.",
@@ -50,7 +50,7 @@ pub const GROUPS: [Group; 7] = [
                  2002, chapter 1.",
         families: &scales::FAMILIES,
     },
-    Group {
+    FamilyGroup {
         title: "Touching surfaces, slivers, grazing rays",
         claim: "Surfaces that coincide or nearly do, shapes a ten-millionth as thick as long, and rays along a surface neither leak nor \
                 lose light.",
@@ -61,7 +61,7 @@ pub const GROUPS: [Group; 7] = [
         source: "Distances between faces from 10⁻¹² m to 10⁻³ m, either way, and 0; thicknesses from 10⁻⁷ of the length.",
         families: &contact::FAMILIES,
     },
-    Group {
+    FamilyGroup {
         title: "Extreme materials",
         claim: "With α from 10⁻⁴ to 1 and indices 1 + 10⁻⁶ to 2.4, surfaces that absorb nothing stay invisible in a furnace.",
         derivation: &[
@@ -72,7 +72,7 @@ pub const GROUPS: [Group; 7] = [
         source: "The white furnace: section 8 of the validation. The power heuristic: E. Veach, 1997.",
         families: &matter::FAMILIES,
     },
-    Group {
+    FamilyGroup {
         title: "A hundred thousand bounces",
         claim: "In closed rooms that absorb nothing, paths stay inside for ever: neither energy nor positions drift.",
         derivation: &[
@@ -84,7 +84,7 @@ pub const GROUPS: [Group; 7] = [
         source: "Paths without a cap are cut after 4096 bounces. A larger cap is honoured.",
         families: &long::FAMILIES,
     },
-    Group {
+    FamilyGroup {
         title: "Limits of single precision",
         claim: "Details that are hardly larger than the last digit of their coordinates lose light, but at most in proportion to that \
                 digit over their size.",
@@ -102,7 +102,7 @@ pub const GROUPS: [Group; 7] = [
         source: "This is a limit, not a claim of exactness. Move scenes that are far from the origin to it, and scale up tiny ones.",
         families: &limits::FAMILIES,
     },
-    Group {
+    FamilyGroup {
         title: "Random scenes",
         claim: "Whatever a scene combines, its samples are finite and not negative, and it finishes in time.",
         derivation: &[
@@ -113,7 +113,7 @@ pub const GROUPS: [Group; 7] = [
         source: "A scene fails if it takes longer than 20 seconds.",
         families: &random::FAMILIES,
     },
-    Group {
+    FamilyGroup {
         title: "Invalid scenes",
         claim: "A scene that cannot be rendered is rejected with a message that states the position; nothing panics.",
         derivation: &[

@@ -39,7 +39,7 @@ pub struct StopTarget {
 
 /// One undoable step.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Step {
+pub enum UndoStep {
     /// Controls were changed.
     Controls(Box<Change>),
     /// The scene was edited. The editor of the scene knows how.
@@ -47,7 +47,7 @@ pub enum Step {
 }
 
 /// Whether each part of the controls differs: camera, settings, comparison, view, stop target.
-type Parts = [bool; 5];
+type ChangedParts = [bool; 5];
 
 /// The controls before and after a step.
 #[derive(Clone, Debug, PartialEq)]
@@ -79,12 +79,12 @@ pub struct Gesture {
 /// The steps that can be undone and redone.
 #[derive(Default)]
 pub struct History {
-    done: VecDeque<Step>,
-    undone: Vec<Step>,
+    done: VecDeque<UndoStep>,
+    undone: Vec<UndoStep>,
     /// The controls of the last frame.
     last: Option<Controls>,
     /// The gesture of the last step and what it changes, while it can go on.
-    open: Option<(Gesture, Parts)>,
+    open: Option<(Gesture, ChangedParts)>,
 }
 
 impl Controls {
@@ -95,7 +95,7 @@ impl Controls {
     }
 
     /// The parts that differ.
-    fn differing(&self, other: &Controls) -> Parts {
+    fn differing(&self, other: &Controls) -> ChangedParts {
         [
             self.camera != other.camera,
             self.settings != other.settings,
@@ -106,12 +106,12 @@ impl Controls {
     }
 }
 
-impl Step {
+impl UndoStep {
     /// What it does, in words that follow "Undo".
     fn name(&self) -> String {
         let change = match self {
-            Step::Controls(change) => change,
-            Step::Edit { title } => return title.clone(),
+            UndoStep::Controls(change) => change,
+            UndoStep::Edit { title } => return title.clone(),
         };
         let what = match change.before.differing(&change.after) {
             [true, ..] => "the camera",
@@ -136,13 +136,13 @@ impl History {
         let goes_on = self.open.is_some_and(|(open, of)| of == parts && open.goes_on(gesture, parts));
         self.open = Some((gesture, parts));
         match self.done.back_mut().filter(|_| goes_on) {
-            Some(Step::Controls(change)) => {
+            Some(UndoStep::Controls(change)) => {
                 change.after = now;
                 if change.before == now {
                     self.done.pop_back();
                 }
             }
-            _ => self.push(Step::Controls(Box::new(Change { before, after: now }))),
+            _ => self.push(UndoStep::Controls(Box::new(Change { before, after: now }))),
         }
     }
 
@@ -150,12 +150,12 @@ impl History {
     pub fn push_edit(&mut self, title: &str) {
         self.undone.clear();
         self.open = None;
-        self.push(Step::Edit { title: title.to_owned() });
+        self.push(UndoStep::Edit { title: title.to_owned() });
     }
 
     /// Forgets the last edit of the scene, which was cancelled.
     pub fn drop_edit(&mut self) {
-        let last = self.done.iter().rposition(|step| matches!(step, Step::Edit { .. }));
+        let last = self.done.iter().rposition(|step| matches!(step, UndoStep::Edit { .. }));
         last.map(|last| self.done.remove(last));
     }
 
@@ -164,7 +164,7 @@ impl History {
         self.last = Some(controls);
     }
 
-    fn push(&mut self, step: Step) {
+    fn push(&mut self, step: UndoStep) {
         if self.done.len() == MOST_STEPS {
             self.done.pop_front();
         }
@@ -180,8 +180,8 @@ impl History {
     pub fn undo(&mut self) -> Option<Restored> {
         let step = self.done.pop_back()?;
         let restored = match &step {
-            Step::Controls(change) => Restored::Controls(Box::new(change.before)),
-            Step::Edit { .. } => Restored::Edit,
+            UndoStep::Controls(change) => Restored::Controls(Box::new(change.before)),
+            UndoStep::Edit { .. } => Restored::Edit,
         };
         self.undone.push(step);
         Some(self.restored(restored))
@@ -191,8 +191,8 @@ impl History {
     pub fn redo(&mut self) -> Option<Restored> {
         let step = self.undone.pop()?;
         let restored = match &step {
-            Step::Controls(change) => Restored::Controls(Box::new(change.after)),
-            Step::Edit { .. } => Restored::Edit,
+            UndoStep::Controls(change) => Restored::Controls(Box::new(change.after)),
+            UndoStep::Edit { .. } => Restored::Edit,
         };
         self.done.push_back(step);
         Some(self.restored(restored))
@@ -208,7 +208,7 @@ impl History {
 
     /// What undo and redo would take back or repeat.
     pub fn names(&self) -> [Option<String>; 2] {
-        [self.done.back(), self.undone.last()].map(|step| step.map(Step::name))
+        [self.done.back(), self.undone.last()].map(|step| step.map(UndoStep::name))
     }
 }
 
@@ -233,7 +233,7 @@ fn changed_settings(before: &RenderSettings, after: &RenderSettings) -> String {
 
 impl Gesture {
     /// Whether a change belongs to the gesture of the one before.
-    fn goes_on(&self, now: Gesture, parts: Parts) -> bool {
+    fn goes_on(&self, now: Gesture, parts: ChangedParts) -> bool {
         let is_camera = parts == [true, false, false, false, false];
         self.presses == now.presses && (now.is_held || (is_camera && now.time - self.time <= PAUSE))
     }

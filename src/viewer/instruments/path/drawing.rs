@@ -2,7 +2,7 @@
 use egui::{Align2, Color32, FontId, Painter, Pos2, Shape, Stroke, Ui, vec2};
 use glam::Vec3;
 use noisefall::{
-    integrator::{BothEnds, Outcome, PathPoint},
+    integrator::{BothEnds, LightOutcome, PathPoint},
     scene::Camera,
 };
 
@@ -50,9 +50,9 @@ pub fn draw(ui: &Ui, area: &PictureArea, inspector: &PathInspector, camera: &Cam
             painter.line_segment([before, at], Stroke::new(1.6, PATH));
         }
         if let (Some(light), Some(surface)) = (&vertex.light, &vertex.surface) {
-            let seen = light.outcome == Outcome::Seen;
+            let seen = light.outcome == LightOutcome::Seen;
             let to = towards([surface.position, light.direction], light.distance.unwrap_or(size));
-            if let Some(to) = to.filter(|_| light.outcome != Outcome::Void) {
+            if let Some(to) = to.filter(|_| light.outcome != LightOutcome::Void) {
                 let stroke = Stroke::new(1.2, if seen { LIGHT } else { LIGHT.gamma_multiply(0.4) });
                 dashed([at, to], stroke, 3.5);
             }

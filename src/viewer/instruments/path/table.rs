@@ -1,13 +1,13 @@
 //! The terms of a path, one row each, summed as in the equation.
 use egui::{Grid, RichText, Ui};
 use noisefall::{
-    integrator::{Outcome, Reflection, Replay, Vertex},
+    integrator::{LightOutcome, Reflection, Replay, Vertex},
     scene::Object,
 };
 
 use super::{
     cells::{Channel, TEXT, VERTEX_WIDTH, cell, colour, name, short},
-    terms::{Row, Source, Target, Term, rows, totals},
+    terms::{Row, SampledTarget, Term, TermSource, rows, totals},
 };
 use crate::viewer::widgets::{
     decimals::three,
@@ -112,17 +112,17 @@ fn factor_cell(ui: &mut Ui, factor: Option<[f32; 3]>, channel: usize) {
 /// Source of the light of a term.
 fn source(term: &Term, objects: &[Object]) -> String {
     match &term.source {
-        Source::Hit => "hit".to_owned(),
-        Source::Light(target, outcome) => {
+        TermSource::Hit => "hit".to_owned(),
+        TermSource::Light(target, outcome) => {
             let light = match target {
-                Target::Object(id) => name(objects, *id),
-                Target::Lamp(name) => name.clone(),
-                Target::Background => "background".to_owned(),
+                SampledTarget::Object(id) => name(objects, *id),
+                SampledTarget::Lamp(name) => name.clone(),
+                SampledTarget::Background => "background".to_owned(),
             };
             let outcome = match outcome {
-                Outcome::Seen => "seen",
-                Outcome::Hidden => "hidden",
-                Outcome::Void => "not tested",
+                LightOutcome::Seen => "seen",
+                LightOutcome::Hidden => "hidden",
+                LightOutcome::Void => "not tested",
             };
             format!("{light}, {outcome}")
         }
@@ -204,7 +204,7 @@ mod tests {
                 f_cos: grey(0.106),
                 weight: 0.108,
                 radiance: grey(0.9),
-                outcome: Outcome::Hidden,
+                outcome: LightOutcome::Hidden,
                 distance: None,
                 passed: grey(0.109),
                 contribution: grey(0.111),
@@ -288,8 +288,8 @@ mod tests {
             let light = vertex().light.map(|light| SampledLight { object: None, outcome, ..light });
             written(&of(vec![Vertex { light, emission: None, ..vertex() }]))[COLUMNS.len() + 1].clone()
         };
-        assert_eq!(cells(Outcome::Seen), "background, seen");
-        assert_eq!(cells(Outcome::Void), "background, not tested");
+        assert_eq!(cells(LightOutcome::Seen), "background, seen");
+        assert_eq!(cells(LightOutcome::Void), "background, not tested");
         let light = vertex().light.map(|light| SampledLight { object: None, lamp: Some("spot".to_owned()), ..light });
         let of_lamp = written(&of(vec![Vertex { light, emission: None, ..vertex() }]));
         assert_eq!(of_lamp[COLUMNS.len() + 1], "spot, hidden");

@@ -1,5 +1,5 @@
 //! The rows of the path table: a term of the sum each, and the rows that close the sum.
-use noisefall::integrator::{EmitterHit, Outcome, Replay, SampledLight, Vertex};
+use noisefall::integrator::{EmitterHit, LightOutcome, Replay, SampledLight, Vertex};
 
 type Colour = [f32; 3];
 
@@ -13,7 +13,7 @@ pub struct Row<'a> {
 /// A term of the sum: the product of its factors, of which some are 1.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Term {
-    pub source: Source,
+    pub source: TermSource,
     /// Throughput and transmittance up to the vertex.
     pub throughput: Colour,
     pub f_cos: Option<Colour>,
@@ -29,16 +29,16 @@ pub struct Term {
 
 /// Source of the light of a term.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Source {
+pub enum TermSource {
     /// The path runs into it.
     Hit,
     /// A light that was sampled.
-    Light(Target, Outcome),
+    Light(SampledTarget, LightOutcome),
 }
 
 /// A light that was sampled.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Target {
+pub enum SampledTarget {
     Object(u32),
     /// A lamp without surface, by its name.
     Lamp(String),
@@ -71,7 +71,7 @@ fn terms(vertex: &Vertex) -> impl Iterator<Item = Term> {
 
 fn of_hit(throughput: Colour, hit: &EmitterHit) -> Term {
     Term {
-        source: Source::Hit,
+        source: TermSource::Hit,
         throughput,
         f_cos: None,
         radiance: hit.radiance,
@@ -85,7 +85,7 @@ fn of_hit(throughput: Colour, hit: &EmitterHit) -> Term {
 
 fn of_light(throughput: Colour, light: &SampledLight) -> Term {
     Term {
-        source: Source::Light(target(light), light.outcome),
+        source: TermSource::Light(target(light), light.outcome),
         throughput,
         f_cos: Some(light.f_cos),
         radiance: light.radiance,
@@ -97,11 +97,11 @@ fn of_light(throughput: Colour, light: &SampledLight) -> Term {
     }
 }
 
-fn target(light: &SampledLight) -> Target {
+fn target(light: &SampledLight) -> SampledTarget {
     match (&light.lamp, light.object) {
-        (Some(lamp), _) => Target::Lamp(lamp.clone()),
-        (None, Some(object)) => Target::Object(object),
-        (None, None) => Target::Background,
+        (Some(lamp), _) => SampledTarget::Lamp(lamp.clone()),
+        (None, Some(object)) => SampledTarget::Object(object),
+        (None, None) => SampledTarget::Background,
     }
 }
 

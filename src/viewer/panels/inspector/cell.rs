@@ -124,13 +124,15 @@ impl Cell<'_> {
         });
     }
 
-    fn choose_texture(&mut self, chosen: Option<references::Source>, value: &dyn Fn(Option<String>) -> OwnedValue) {
+    fn choose_texture(&mut self, chosen: Option<references::ValueSource>, value: &dyn Fn(Option<String>) -> OwnedValue) {
         match chosen {
-            Some(references::Source::Constant) => self.set(Some(value(None))),
-            Some(references::Source::Texture(name)) => self.set(Some(value(Some(name)))),
-            Some(references::Source::Shown(request)) => self.request = Some(request),
-            Some(references::Source::New(kind)) => self.request = Some(Request::NewTexture { path: self.path.clone(), kind }),
-            Some(references::Source::File) => self.request = Some(Request::BrowseTexture { path: self.path.clone() }),
+            Some(references::ValueSource::Constant) => self.set(Some(value(None))),
+            Some(references::ValueSource::Texture(name)) => self.set(Some(value(Some(name)))),
+            Some(references::ValueSource::Shown(request)) => self.request = Some(request),
+            Some(references::ValueSource::New(kind)) => {
+                self.request = Some(Request::NewTexture { path: self.path.clone(), kind });
+            }
+            Some(references::ValueSource::File) => self.request = Some(Request::BrowseTexture { path: self.path.clone() }),
             None => {}
         }
     }

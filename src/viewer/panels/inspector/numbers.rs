@@ -1,7 +1,7 @@
 //! Sliders and fields for numbers. They accept only values that the reader accepts.
 use egui::{Id, Slider, SliderClamping, Ui};
 use glam::DVec3;
-use noisefall::declare::{CountRange, Parameter, Problem, Range, Scale, Value, check_value, short};
+use noisefall::declare::{CountRange, Parameter, Problem, Range, SliderScale, Value, check_value, short};
 
 use crate::viewer::widgets::{number::tidy, refusal, typed_number::TypedNumber};
 
@@ -34,7 +34,7 @@ impl Numbers<'_> {
             ui.spacing_mut().slider_width = SLIDER_WIDTH;
             let [least, most] = slider_ends(range);
             let slider = Slider::new(&mut new, least..=most).show_value(false).clamping(SliderClamping::Edits);
-            let slider = slider.logarithmic(range.scale == Scale::Log).smallest_positive(SLIDER_LEAST);
+            let slider = slider.logarithmic(range.scale == SliderScale::Log).smallest_positive(SLIDER_LEAST);
             ui.add(slider).labelled_by(self.label);
             if new != old {
                 new = tidy(new).clamp(range.least, range.most);
@@ -190,7 +190,7 @@ fn message(problem: Problem) -> String {
 
 /// The ends of a slider.
 fn slider_ends(range: &Range) -> [f64; 2] {
-    let widest = if range.scale == Scale::Log { SLIDER_LEAST } else { -SLIDER_MOST };
+    let widest = if range.scale == SliderScale::Log { SLIDER_LEAST } else { -SLIDER_MOST };
     let least = if range.least == 0.0 { 0.0 } else { range.least.max(widest.min(range.most)) };
     [least, range.most.min(SLIDER_MOST).max(least)]
 }
@@ -198,9 +198,9 @@ fn slider_ends(range: &Range) -> [f64; 2] {
 /// The change per point of a drag.
 fn speed(old: f64, range: &Range) -> f64 {
     match range.scale {
-        Scale::Log => (0.01 * old.abs()).max(1e-4 * range.most.min(1.0)).max(range.least),
-        Scale::Linear if range.most - range.least <= SLIDER_MOST => (range.most - range.least) / 400.0,
-        Scale::Linear => (0.01 * old.abs()).max(0.1),
+        SliderScale::Log => (0.01 * old.abs()).max(1e-4 * range.most.min(1.0)).max(range.least),
+        SliderScale::Linear if range.most - range.least <= SLIDER_MOST => (range.most - range.least) / 400.0,
+        SliderScale::Linear => (0.01 * old.abs()).max(0.1),
     }
 }
 

@@ -9,7 +9,7 @@ use crate::viewer::widgets::{
 };
 
 /// Source of a value.
-pub enum Source {
+pub enum ValueSource {
     Constant,
     /// Not changed: the parameters of the texture are to be shown.
     Shown(Request),
@@ -81,39 +81,39 @@ fn show_button(ui: &mut Ui, family: Family, name: &str, surroundings: &Surroundi
 }
 
 /// The menu of textures in place of the texture `current`.
-pub fn textures(ui: &mut Ui, label: Id, current: &str, surroundings: &Surroundings) -> Option<Source> {
+pub fn textures(ui: &mut Ui, label: Id, current: &str, surroundings: &Surroundings) -> Option<ValueSource> {
     let combo = ComboBox::from_id_salt("textures").truncate().selected_text(current);
     let combo = combo.show_ui(ui, |ui| {
         let is_constant = entry(ui, false, "constant").clicked();
-        entries(ui, Some(current), surroundings).or(is_constant.then_some(Source::Constant))
+        entries(ui, Some(current), surroundings).or(is_constant.then_some(ValueSource::Constant))
     });
     combo.response.labelled_by(label);
-    let shown = show_button(ui, Family::Texture, current, surroundings).map(Source::Shown);
+    let shown = show_button(ui, Family::Texture, current, surroundings).map(ValueSource::Shown);
     combo.inner.flatten().or(shown)
 }
 
 /// The button behind a constant, with the menu of textures in its place.
-pub fn map_button(ui: &mut Ui, label: Id, surroundings: &Surroundings) -> Option<Source> {
+pub fn map_button(ui: &mut Ui, label: Id, surroundings: &Surroundings) -> Option<ValueSource> {
     let menu = ui.menu_button("Map", |ui| entries(ui, None, surroundings));
     menu.response.labelled_by(label).on_hover_text("Replaces the value by a texture.");
     menu.inner.flatten()
 }
 
-fn entries(ui: &mut Ui, current: Option<&str>, surroundings: &Surroundings) -> Option<Source> {
+fn entries(ui: &mut Ui, current: Option<&str>, surroundings: &Surroundings) -> Option<ValueSource> {
     let mut chosen = None;
     for name in surroundings.textures {
         let is_current = current == Some(name);
         if entry(ui, is_current, name).clicked() && !is_current {
-            chosen = Some(Source::Texture(name.clone()));
+            chosen = Some(ValueSource::Texture(name.clone()));
         }
     }
     for (title, kind) in NEW {
         if ui.button(title).clicked() {
-            chosen = Some(Source::New(kind));
+            chosen = Some(ValueSource::New(kind));
         }
     }
     if ui.button(FROM_FILE).clicked() {
-        chosen = Some(Source::File);
+        chosen = Some(ValueSource::File);
     }
     closing(ui, chosen)
 }

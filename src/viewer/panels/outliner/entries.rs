@@ -5,7 +5,7 @@ use noisefall::scene::description::{LampDescription, MaterialDescription, Object
 use crate::viewer::panels::subject::Subject;
 
 /// Entries with a title.
-pub struct Group {
+pub struct EntryGroup {
     pub title: &'static str,
     pub entries: Vec<Entry>,
 }
@@ -22,10 +22,11 @@ pub struct Entry {
 }
 
 /// The parts of a description whose name or kind contains the search, in groups. Groups without entries are left out.
-pub fn groups(description: &SceneDescription, search: &str) -> Vec<Group> {
+pub fn groups(description: &SceneDescription, search: &str) -> Vec<EntryGroup> {
     let search = search.trim().to_lowercase();
     let matches = |entry: &Entry| entry.name.to_lowercase().contains(&search) || entry.kind.to_lowercase().contains(&search);
-    let group = |title, entries: &mut dyn Iterator<Item = Entry>| Group { title, entries: entries.filter(matches).collect() };
+    let group =
+        |title, entries: &mut dyn Iterator<Item = Entry>| EntryGroup { title, entries: entries.filter(matches).collect() };
     let objects = |emits: bool| {
         let objects = description.objects.iter().enumerate().filter(move |(_, object)| object.emission.is_some() == emits);
         objects.map(|(place, object)| of_object(description, place, object))
@@ -106,7 +107,7 @@ mod tests {
     }
 
     fn names(search: &str) -> Vec<(&'static str, Vec<String>)> {
-        let names = |group: Group| (group.title, group.entries.into_iter().map(|entry| entry.name).collect());
+        let names = |group: EntryGroup| (group.title, group.entries.into_iter().map(|entry| entry.name).collect());
         groups(&room(), search).into_iter().map(names).collect()
     }
 

@@ -18,7 +18,7 @@ use noisefall::scene::description::SceneDescription;
 
 pub use self::menu::{Action, New, can_rename};
 use self::{
-    entries::{Entry, Group},
+    entries::{Entry, EntryGroup},
     menu::Menu,
 };
 use super::subject::Subject;
@@ -49,7 +49,7 @@ pub struct Outliner {
 struct Listed {
     revision: u64,
     search: String,
-    groups: Vec<Group>,
+    groups: Vec<EntryGroup>,
     menu: Menu,
 }
 
@@ -92,7 +92,7 @@ impl Outliner {
         asked
     }
 
-    fn group(&mut self, ui: &mut Ui, group: &Group, menu: &Menu, selected: Option<&Subject>, asked: &mut OutlinerRequests) {
+    fn group(&mut self, ui: &mut Ui, group: &EntryGroup, menu: &Menu, selected: Option<&Subject>, asked: &mut OutlinerRequests) {
         let title = format!("{} ({})", group.title, group.entries.len());
         let header = CollapsingHeader::new(RichText::new(title).strong()).id_salt(group.title).default_open(true);
         header.show_unindented(ui, |ui| {
