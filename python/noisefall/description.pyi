@@ -722,7 +722,7 @@ class Render:
     directions: Literal['uniform', 'cosine', 'bsdf'] | None = None
     """How directions are sampled at diffuse surfaces."""
     estimator: Literal['path', 'light', 'mis', 'caustics', 'forward', 'bidirectional', 'auto'] | None = None
-    """How direct light is estimated. All estimators converge to the same image."""
+    """How light is estimated. All estimators converge to the same image."""
     exposure: float | None = None
     """Exposure of the displayed image. One stop doubles the brightness; samples do not change. (stops)"""
     max_bounces: int | None = None

@@ -1,4 +1,4 @@
-//! FLIP: the difference that an observer perceives who alternates between two images.
+//! FLIP: the difference that an observer perceives when alternating between two images.
 //!
 //! P. Andersson et al., "FLIP: A Difference Evaluator for Alternating Images", HPG 2020.
 use noisefall::render::Frame;

@@ -9,7 +9,7 @@ use super::options::{self as parse, BounceCap};
 
 #[derive(clap::Args)]
 pub struct ListOptions {
-    #[arg(long, help = format!("How direct light is estimated: {}", parse::list_of::<Estimator>()),
+    #[arg(long, help = format!("How light is estimated: {}", parse::list_of::<Estimator>()),
           value_name = "LIST", value_delimiter = ',', value_parser = item(parse::word::<Estimator>))]
     estimators: Vec<Estimator>,
     #[arg(long, help = format!("How directions are sampled at diffuse surfaces: {}", parse::list_of::<Directions>()),

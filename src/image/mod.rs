@@ -138,7 +138,7 @@ pub enum ImageFormatError {
     #[error("the image is {0} × {1}: it has no pixels")]
     Empty(u64, u64),
     /// The size exceeds the limits of this module.
-    #[error("the image is {0} × {1}: a side may have {LONGEST_SIDE} pixels and the whole {MOST_PIXELS}")]
+    #[error("the image is {0} × {1}: at most {LONGEST_SIDE} pixels a side and {MOST_PIXELS} in all are allowed")]
     TooLarge(u64, u64),
     /// The size exceeds the memory that is left.
     #[error(transparent)]

@@ -1,8 +1,8 @@
 //! The path tracer: batches of paths that run through stages, bounce by bounce.
 //!
-//! `spawn → ( intersect → surface → shade, one BSDF type at a time → shadow )* → reuse`. Each stage is a short loop over full
-//! registers that reads a dense queue and appends to the next. The bounce is the same for a whole batch, so all that depends on
-//! it (the sampler's dimension, the cap, whether roulette has begun) is decided once per stage and not once per path.
+//! `spawn → ( intersect → surface → shade, one BSDF type at a time → shadow )* → reuse → replays of bright samples`. Each stage is a
+//! short loop over full registers that reads a dense queue and appends to the next. The bounce is the same for a whole batch, so all that
+//! depends on it (the sampler's dimension, the cap, whether roulette has begun) is decided once per stage and not once per path.
 mod batch;
 mod bidirectional;
 mod bright;

@@ -1,10 +1,10 @@
 //! Shadows of the relief that bump and normal maps imitate.
 //!
-//! Light that grazes a surface meets a tilted shading normal from the front where the relief would lie in its own shadow, up to the
-//! horizon of the surface, which cuts it off hard. If the relief is taken for a field of GGX microfacets, light from a direction at the
-//! angle θᵢ to the surface normal is shadowed by Smith's function of one side, 2/(1 + √(1 + α² tan² θᵢ)), with α² = tan² θ/8 ≤ 1 for a
-//! shading normal that is tilted by θ (A. Conty Estevez, P. Lecocq and C. Stein, "A Microfacet-Based Shadowing Function to Solve the Bump
-//! Terminator Problem", Ray Tracing Gems 2019, chapter 12).
+//! A tilted shading normal can face grazing light where the relief would lie in its own shadow. The light then ends abruptly at the
+//! horizon of the surface. If the relief is taken for a field of GGX microfacets, light from a direction at the angle θᵢ to the surface
+//! normal is shadowed by Smith's function of one side, 2/(1 + √(1 + α² tan² θᵢ)), with α² = tan² θ/8 ≤ 1 for a shading normal that is
+//! tilted by θ (A. Conty Estevez, P. Lecocq and C. Stein, "A Microfacet-Based Shadowing Function to Solve the Bump Terminator Problem",
+//! Ray Tracing Gems 2019, chapter 12).
 use super::records::NormalShadowing;
 use crate::{
     math::{F, Lanes, Pick, U, V},

@@ -76,7 +76,7 @@ fn check_sum(reflectance: [f32; 3], transmittance: [f32; 3]) -> Result<f32, Prob
     match sums.iter().zip(["red", "green", "blue"]).find(|(sum, _)| **sum > 1.0 + ROUNDING) {
         Some((sum, channel)) => Err(Problem::at(
             "transmittance",
-            format!("`reflectance` and `transmittance` add up to {sum} in {channel}, and may add up to 1"),
+            format!("`reflectance` and `transmittance` add up to {sum} in {channel}; the sum must be at most 1"),
             "a sheet cannot scatter more light than it receives",
         )
         .help("textures count with their largest value")),

@@ -1,7 +1,7 @@
 //! Materials: how a surface scatters light.
 //!
 //! A kind is one file and one line of the catalogue below. The line names the description, which stands in the file with its parameters,
-//! and the stages of the kernel that shade it. A stage is compiled once a SIMD level, with nothing in it that its kind does not need.
+//! and the stages of the kernel that shade it. A stage is compiled once per SIMD level, with nothing in it that its kind does not need.
 //!
 //! Roughness is the width α of the distribution of microfacets (`microfacets.rs`: `ggx.rs` or `beckmann.rs`);
 //! the tables that account for all light are in `albedo.rs` for reflection and in `missing_energy.rs` for interfaces.

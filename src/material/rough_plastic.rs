@@ -3,7 +3,7 @@
 //! W. Jakob et al., "Mitsuba 3", plugins `plastic` and `roughplastic`: light passes the coat with T(μ), is reflected by the base,
 //! returned by the coat with R and passes again: f = ρ T(ω_o) T(ω_i)/(π η² (1 − R)), or with 1 − ρ R in the denominator if the colour
 //! becomes more saturated with every reflection. T is the transmittance of single refraction by the facets, so that rough coats lose
-//! light, other than those of `plastic.rs`. R is a parameter: see [`RoughPlastic::internal_reflectance`].
+//! light, unlike those of `plastic.rs`. R is a parameter: see [`RoughPlastic::internal_reflectance`].
 use std::f32::consts::FRAC_1_PI;
 
 use super::{

@@ -43,7 +43,7 @@ impl Scene {
         let (center, radius) = self.bounding_sphere();
         let unknown = starts.iter().find_map(|start| start.err());
         let rays = LightRays::new(&self.lights, &starts, center, radius);
-        let rays = rays.ok_or(unknown.unwrap_or("no lights, or too many, from which paths could start"))?;
+        let rays = rays.ok_or(unknown.unwrap_or("no light at which paths can start, or too many of them"))?;
         if !self.surfaces.media.is_empty() && !self.has_reversible_media(&rays, center + DVec3::X * radius) {
             return Err("tinted glass that is open, or that overlaps with other glass");
         }

@@ -1,8 +1,8 @@
 //! Walks that test whether the media of paths are the same in reverse.
 //!
-//! A path keeps a stack of the media around it: it pushes the medium of a dielectric that it enters, and pops one where it leaves. So
-//! dielectrics that overlap, and surfaces that do not close, change the medium of a path from one end and not of one from the other.
-//! Their shapes do not tell them from open surfaces that close with each other. Walks do: they start at the lights, go straight on
+//! A path keeps a stack of the media around it: it pushes the medium of a dielectric that it enters, and pops one where it leaves. Where
+//! dielectrics overlap, or surfaces do not close, a path from one end may thus be in another medium than one from the other end. Shapes
+//! alone do not tell such surfaces from open ones that close with each other. Random walks do: they start at the lights, go straight on
 //! through glass, are reflected elsewhere, and must arrive at the camera and far away in the media that are known there.
 use glam::DVec3;
 

@@ -10,7 +10,7 @@ use crate::{
 /// The settings of a render. Together with scene, camera, pixel and sample index they determine every sample.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct RenderSettings {
-    /// How direct light is estimated.
+    /// How light is estimated.
     pub estimator: Estimator,
     /// Whether the estimator `bidirectional` merges vertices, too. Biased, but consistent.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
@@ -85,9 +85,9 @@ impl RenderSettings {
         }
     }
 
-    /// How direct light is estimated, as files and the window name it.
+    /// How light is estimated, as files and the window name it.
     pub const ESTIMATOR: Parameter =
-        Parameter::new("estimator", "How direct light is estimated. All estimators converge to the same image.")
+        Parameter::new("estimator", "How light is estimated. All estimators converge to the same image.")
             .aliases("integrator method nee");
     /// Whether vertices are merged, as files and the window name it.
     pub const MERGING: Parameter = Parameter::new(

@@ -50,7 +50,7 @@ pub struct Arguments {
     /// Such a stop depends on the samples. It biased the mean by less than a fortieth of the target in the worst case tested
     #[arg(long, value_name = "RELATIVE", value_parser = parse::noise, overrides_with_all = ["spp", "time"])]
     pub noise: Option<f64>,
-    #[arg(long, help = format!("How direct light is estimated: {}", parse::one_of::<Estimator>()),
+    #[arg(long, help = format!("How light is estimated: {}", parse::one_of::<Estimator>()),
           value_parser = parse::word::<Estimator>)]
     pub estimator: Option<Estimator>,
     #[arg(long, help = format!("How directions are sampled at diffuse surfaces: {}", parse::one_of::<Directions>()),

@@ -87,7 +87,7 @@ impl Export<'_> {
         let element = Element::plugin("bsdf", "thindielectric").float("int_ior", pane.ior).float("ext_ior", 1.0);
         let element = self.tint(element, "specular_reflectance", &Textured::Constant(pane.specular_reflectance));
         if pane.transmittance != [1.0; 3] {
-            let effect = "slanted and inner ways through the pane have the tint of the straight one";
+            let effect = "oblique paths and internal reflections have the tint of a perpendicular path";
             self.remark("`transmittance` of a pane", "`specular_transmittance`", effect);
         }
         let passed = [0, 1, 2].map(|i| pane.transmittance[i] * pane.specular_transmittance[i]);

@@ -65,7 +65,11 @@ impl Parser<'_> {
         }
         if self.graph.has_infinite_constant() {
             let at = start..self.tokens.last_end();
-            return Err(ParseError::new(at, "a constant is infinite or undefined", "its value exceeds 3.4e38 or divides by 0"));
+            return Err(ParseError::new(
+                at,
+                "a constant is infinite or undefined",
+                "it exceeds 3.4e38, or its expression divides by 0",
+            ));
         }
         Ok(sum)
     }

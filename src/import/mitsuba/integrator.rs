@@ -29,7 +29,7 @@ impl Import {
                 self.depth(element)?
             }
             _ => {
-                self.remark(element, "path tracing", "the image shows light, whatever the integrator computes");
+                self.remark(element, "path tracing", "the image shows radiance, not what this integrator computes");
                 self.depth(element)?
             }
         };

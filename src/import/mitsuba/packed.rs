@@ -45,7 +45,7 @@ impl Packed {
     /// The mesh of a number. An error is the end of a sentence.
     pub fn mesh(&mut self, number: i64) -> Result<Model, String> {
         let number = usize::try_from(number).map_err(|_| "there is no mesh of this number")?;
-        let work = reserve("an unpacked mesh", (3 * self.bytes.len() + ROOM) as u64);
+        let work = reserve("the bytes of an unpacked mesh", (3 * self.bytes.len() + ROOM) as u64);
         let _work = work.map_err(|reason| reason.to_string())?;
         let model = decode(&self.bytes, number)?;
         self.unpacked += model.bytes();

@@ -1,7 +1,7 @@
 //! Scenes of pbrt-v4.
 //!
 //! A text is split into tokens (`tokens.rs`) and parameters (`parameter_lists.rs`). Directives change the graphics state (`state.rs`) or
-//! add to the description. Materials and textures are translated when a shape uses them first.
+//! add to the description. Materials and textures are translated when a shape first uses them.
 //!
 //! pbrt's world is left-handed, in that its camera sees +x at the right when it looks along +z with +y up: see `camera.rs`.
 mod assemble;

@@ -151,7 +151,7 @@ fn integrator(import: &mut Import, entity: &Entity) -> Result<(), SceneError> {
         "sppm" => import.remark(entity, "path tracing", "photons are not blurred; caustics are noisier"),
         "ambientocclusion" | "function" => {
             entity.ignore(&["cossample", "maxdistance", "function", "filename", "skipbad", "imagefilename"]);
-            import.remark(entity, "path tracing", "the image shows light instead");
+            import.remark(entity, "path tracing", "the image shows radiance instead");
         }
         other => return Err(entity.error(format!("`{other}` is not an integrator of pbrt-v4"), "such as path or volpath")),
     }

@@ -68,7 +68,7 @@ impl SourceFiles {
             }
         }
         self.bytes += length;
-        self.memory.grow("text of a scene", length).map_err(|error| error.to_string())?;
+        self.memory.grow("the bytes of the scene files", length).map_err(|error| error.to_string())?;
         drop(room);
         let text = String::from_utf8(bytes).unwrap_or_else(|error| String::from_utf8_lossy(error.as_bytes()).into_owned());
         Ok(Rc::new(SourceText { name, text }))

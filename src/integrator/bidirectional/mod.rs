@@ -1,4 +1,4 @@
-//! Paths from both ends: the estimators `forward` and `bidirectional`.
+//! Paths from both ends: the estimators `caustics`, `forward` and `bidirectional`.
 //!
 //! A path from a light belongs to every sample of a pixel, beside its path from the camera. With y₀ at the light and z₀ at the camera, a
 //! strategy (s, t) takes s vertices from the light and t from the camera:

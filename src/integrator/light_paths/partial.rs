@@ -1,10 +1,10 @@
 //! Partial sums of the balance heuristic.
 //!
-//! The weight of a strategy is 1/Σ pₖ/p over all strategies k that could have found the path. Where a path has come to a vertex, the terms
-//! of the strategies with fewer vertices of this path are known but for two pdfs of the vertex that comes next: the one per area with which
-//! the other end would find this vertex, P, and the one per solid angle, R, with which this vertex would then send the other path back to
-//! the vertex before. The sum is P (v + c R), and v and c are the numbers here. Between vertices, P is not yet a pdf per area at the next
-//! one: [`Partial::arrive`] converts the numbers.
+//! The weight of a strategy is 1/Σ pₖ/p over all strategies k that could have found the path. When a path has reached a vertex, the terms
+//! of the strategies with fewer vertices of this path are known except for two pdfs that depend on the next vertex: P, per area, with
+//! which the other end would find this vertex, and R, per solid angle, with which the other path would go on from this vertex to the one
+//! before. The sum is P (v + c R), and v and c are the numbers here. Between vertices, P is not yet a pdf per area at the next one:
+//! [`Partial::arrive`] converts the numbers.
 //!
 //! In a single direction, as off a mirror, no other strategy can sample, so v becomes 0. Both pdfs of such a direction count as 1 at either
 //! end. Roulette is no part of any pdf. Where vertices are merged, a term `merged` stands beside v: see `bidirectional/merge.rs`.

@@ -1,4 +1,4 @@
-//! How direct light is estimated. All estimators converge to the same image; they differ in noise.
+//! How light is estimated. All estimators converge to the same image; they differ in noise.
 //!
 //! An estimator is one file and one line of the catalogue below.
 mod auto;
@@ -16,7 +16,7 @@ use crate::{
 };
 
 crate::declare::word_kinds! {
-    /// How direct light is estimated. All estimators converge to the same image; they differ in noise.
+    /// How light is estimated. All estimators converge to the same image; they differ in noise.
     #[derive(serde::Serialize, serde::Deserialize)]
     #[serde(rename_all = "lowercase")]
     pub enum Estimator: Weighting, default Mis {

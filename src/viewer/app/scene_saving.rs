@@ -116,7 +116,7 @@ impl App {
             self.preferences.change(|saved| recent::note(&mut saved.recent, path));
         }
         let left_out = if self.session.view_differs() { ". The view is not the scene's camera, and is not saved." } else { "" };
-        let error = if has_error { ". The scene has an error: the file cannot be opened until that is mended." } else { "" };
+        let error = if has_error { ". The scene has an error: the file cannot be opened until it is fixed." } else { "" };
         self.tell(format!("Saved {}{error}{left_out}", path.display()), has_error);
     }
 }

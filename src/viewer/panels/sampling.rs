@@ -90,7 +90,7 @@ fn estimator_row(
     in_force: Option<&EstimatorInForce>,
     unmergeable: Option<&str>,
 ) {
-    let doc = "How direct light is estimated. All estimators converge to the same image; they differ in noise.";
+    let doc = "How light is estimated. All estimators converge to the same image; they differ in noise.";
     row_with_note(ui, &RenderSettings::ESTIMATOR.label(), doc, |ui, label| {
         word_list(ui, label, estimator);
         ui.horizontal(|ui| {

@@ -1,4 +1,4 @@
-//! The choice of a view, and what a image is compared with.
+//! The choice of a view, and what an image is compared with.
 use std::sync::Arc;
 
 use egui::{ComboBox, Ui};

@@ -55,7 +55,7 @@ impl Export<'_> {
             self.remark("textures of numbers of `disney`", "their means", "these numbers are the same everywhere");
         }
         if disney.ior < 1.0 {
-            self.remark(format!("an index of refraction of {}", disney.ior), "1", "light passes without a bend");
+            self.remark(format!("an index of refraction of {}", disney.ior), "1", "light passes without refraction");
         }
     }
 }

@@ -74,7 +74,7 @@ impl Export<'_> {
     fn glass(&mut self, glass: &Dielectric) -> Principled {
         let ior = glass.ior / glass.ior_outside;
         if ior < 1.0 {
-            self.remark(format!("an index of refraction of {ior:.3}"), "1", "light passes without a bend");
+            self.remark(format!("an index of refraction of {ior:.3}"), "1", "light passes without refraction");
         }
         if glass.specular_reflectance != Textured::grey(1.0) {
             self.remark("`specular_reflectance` of glass", "a tint head-on", "reflections at grazing angles have no tint");
@@ -100,7 +100,7 @@ impl Export<'_> {
     }
 
     fn pane(&mut self, pane: &ThinDielectric) -> Principled {
-        let effect = "slanted and inner ways through the pane have the tint of the straight one";
+        let effect = "oblique paths and internal reflections have the tint of a perpendicular path";
         self.remark("a thin pane", "a thin sheet that is tinted once", effect);
         if pane.ior < 1.0 {
             self.remark(format!("an index of refraction of {}", pane.ior), "1", "the pane reflects nothing");

@@ -125,7 +125,7 @@ impl MaterialImport<'_, '_> {
             self.remark("`doubleSided` is false", "`two_sided = false`", effect);
         }
         if self.material.occlusion_texture.is_some() {
-            let effect = "none: light that does not reach corners is computed";
+            let effect = "none: the renderer computes occlusion itself";
             self.remark("`occlusionTexture`", "nothing", effect);
         }
         let normal_map = self.normal_map();

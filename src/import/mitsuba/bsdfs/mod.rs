@@ -1,4 +1,4 @@
-//! BSDFs: one file a family.
+//! BSDFs: one file per family.
 mod adapters;
 pub mod coat;
 mod glass;

@@ -1,4 +1,4 @@
-//! Emitters: one file a family.
+//! Emitters: one file per family.
 pub mod area;
 mod environment;
 mod lamps;

@@ -27,7 +27,11 @@ pub fn apply(
     let mut names = uses.attributes.iter();
     let Some(name) = names.next() else { return Ok(()) };
     if names.next().is_some() {
-        import.remark(element, &format!("the attribute `{name}` alone"), "further attributes of the mesh have its values");
+        import.remark(
+            element,
+            &format!("the attribute `{name}` alone"),
+            "textures that use other attributes of the mesh show its values",
+        );
     }
     let missing =
         || element.error(format!("the mesh has no attribute `{name}`"), "such as `vertex_color` or `face_weight` of a PLY");

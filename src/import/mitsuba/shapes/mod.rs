@@ -1,4 +1,4 @@
-//! Shapes: one file a family.
+//! Shapes: one file per family.
 mod analytic;
 mod attributes;
 mod cube;

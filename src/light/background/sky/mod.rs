@@ -1,8 +1,8 @@
 //! A clear sky with a sun, by one of two models.
 //!
-//! A. Preetham, P. Shirley and B. Smits, "A Practical Analytic Model for Daylight", SIGGRAPH 1999: a sun that is below the horizon shines
-//! only as far as its disk is above. The sky of a sun below the horizon is that of a sun on the horizon: the model knows no twilight. It
-//! is meant for turbidities from 2 to 6; smaller ones count as 2. Hosek and Wilkie: see `hosek.rs`. Below the horizon the background is
+//! A. Preetham, P. Shirley and B. Smits, "A Practical Analytic Model for Daylight", SIGGRAPH 1999: of a sun at the horizon, only the part
+//! of the disk above it shines. The sky of a sun below the horizon is that of a sun on the horizon: the model knows no twilight. It is
+//! meant for turbidities from 2 to 6; smaller ones count as 2. Hosek and Wilkie: see `hosek.rs`. Below the horizon the background is
 //! black.
 //!
 //! | file | holds |
@@ -117,9 +117,9 @@ impl Surrounding for Sky {
     type Radiant = ImageBackground;
 
     fn compile(&self, resources: &Resources) -> Result<Option<ImageBackground>, Problem> {
-        let no_direction = || Problem::at("sky.sun", "the sun is in no direction", "it must not be zero");
+        let no_direction = || Problem::at("sky.sun", "the direction of the sun is zero", "it must not be zero");
         let sun = self.sun.try_normalize().ok_or_else(no_direction)?;
-        let no_zenith = || Problem::at("sky.zenith", "the zenith is in no direction", "it must not be zero");
+        let no_zenith = || Problem::at("sky.zenith", "the direction of the zenith is zero", "it must not be zero");
         let zenith = self.zenith.try_normalize().ok_or_else(no_zenith)?;
         // The image has its zenith at +y.
         let turn = (zenith != DVec3::Y).then(|| DMat3::from_quat(DQuat::from_rotation_arc(DVec3::Y, zenith)));

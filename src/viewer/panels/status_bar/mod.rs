@@ -48,7 +48,7 @@ impl StatusBar<'_> {
             ui.painter().circle_filled(dot.center(), 4.5, colour);
             let reached = if let State::Done(target) = self.status.state { format!(": {target}") } else { String::new() };
             ui.label(RichText::new(state).strong())
-                .on_hover_text(format!("This is what the renderer does, or the target that it has reached{reached}."));
+                .on_hover_text(format!("State of the renderer, or the target that it has reached{reached}."));
             if self.opened.is_none() {
                 return;
             }
