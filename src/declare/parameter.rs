@@ -62,9 +62,7 @@ impl Parameter {
         if !self.title.is_empty() {
             return self.title.to_owned();
         }
-        let words = key_in_words(self.key);
-        let first = words.chars().next().into_iter().flat_map(char::to_uppercase);
-        first.chain(words.chars().skip(1)).collect()
+        capitalised(&key_in_words(self.key))
     }
 
     /// Whether a word is another renderer's name for this parameter.
@@ -82,6 +80,12 @@ pub fn key_in_words(key: &str) -> String {
         other => other,
     };
     key.split('_').map(word).collect::<Vec<_>>().join(" ")
+}
+
+/// A clause as the beginning of a sentence, or a name as a title.
+pub fn capitalised(clause: &str) -> String {
+    let first = clause.chars().next().map_or(0, char::len_utf8);
+    clause[..first].to_uppercase() + &clause[first..]
 }
 
 /// A closed range of numbers.
@@ -160,5 +164,15 @@ impl CountRange {
     /// The range from `least` to `most`.
     pub const fn new(least: u32, most: u32) -> CountRange {
         CountRange { least, most }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sentence_begins_with_a_capital() {
+        assert_eq!(["über allem", "", "A"].map(capitalised), ["Über allem", "", "A"]);
     }
 }

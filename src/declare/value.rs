@@ -61,6 +61,16 @@ pub enum Textured<T = [f64; 3]> {
     Texture(String),
 }
 
+impl<T> Textured<T> {
+    /// The same with another constant.
+    pub(crate) fn map<U>(self, f: impl FnOnce(T) -> U) -> Textured<U> {
+        match self {
+            Textured::Constant(constant) => Textured::Constant(f(constant)),
+            Textured::Texture(name) => Textured::Texture(name),
+        }
+    }
+}
+
 impl Textured {
     /// A constant with the same number in all channels.
     pub const fn grey(value: f64) -> Textured {

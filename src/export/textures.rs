@@ -3,7 +3,7 @@ use std::collections::BTreeSet;
 
 use crate::{
     declare::{Resources, Textured},
-    import::mitsuba::pictures,
+    import::pictures,
     math::{F, M, One, U, V},
     scene::description::{SceneDescription, TextureKind},
     texture::{TextureCompiler, TextureCoordinates},

@@ -11,6 +11,7 @@ mod new_files;
 mod open;
 pub mod paths;
 pub mod pbrt;
+pub mod pictures;
 mod remark;
 pub mod remarks;
 pub mod spectrum;

@@ -132,11 +132,7 @@ impl<'a, 'b> MaterialCompiler<'a, 'b> {
 
     /// The number of a parameter in all channels, or its texture, whose luminance it is.
     pub fn number(&self, parameter: &Parameter, value: &Textured<f64>, range: &Range) -> Result<ColourSource, Problem> {
-        let colour = match value {
-            Textured::Constant(value) => Textured::Constant([*value; 3]),
-            Textured::Texture(name) => Textured::Texture(name.clone()),
-        };
-        self.textures.colour(parameter, &colour, range)
+        self.textures.colour(parameter, &value.clone().map(|value| [value; 3]), range)
     }
 
     /// The colour, or the mean colour of the texture.

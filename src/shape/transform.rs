@@ -106,6 +106,16 @@ impl Declare for Rotation {
 }
 
 impl Transform {
+    /// The list of transforms of a map: none for the identity.
+    pub(crate) fn list_of(map: &DAffine3) -> Vec<Transform> {
+        if *map == DAffine3::IDENTITY {
+            return Vec::new();
+        }
+        let (m, t) = (map.matrix3, map.translation);
+        let row = |i: usize| [m.x_axis[i], m.y_axis[i], m.z_axis[i], t[i]];
+        vec![Transform::Matrix([row(0), row(1), row(2), [0.0, 0.0, 0.0, 1.0]])]
+    }
+
     /// The same transform as a step of a motion.
     fn step(&self) -> Result<TransformStep, Problem> {
         let error = |message: &str, label: &str| Err(Problem::at("", message, label));

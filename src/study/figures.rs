@@ -4,6 +4,7 @@ use super::{
     ranking::Findings,
     setting::Setting,
 };
+use crate::declare::capitalised;
 use crate::report::plot::{Axis, BESIDE, Curve, Plot, Style, curve};
 
 /// Number of best combinations in the overview.
@@ -52,12 +53,6 @@ pub fn by_setting(findings: &Findings, setting: Setting) -> Option<Pair> {
     }
     let caption = format!("All other settings as in the best combination: {}.", best.label());
     if shown.len() > 1 { pair(capitalised(setting.name()), caption, &shown) } else { None }
-}
-
-/// The name with a capital first letter.
-pub fn capitalised(name: &str) -> String {
-    let mut letters = name.chars();
-    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
 fn pair(title: String, mut caption: String, shown: &[(String, &Outcome)]) -> Option<Pair> {

@@ -12,9 +12,19 @@ use crate::{
     statistics::Moments,
 };
 
-/// Features of a scene besides a floor, a ball and a lamp.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Feature {
+macro_rules! features {
+    ($($name:ident),* $(,)?) => {
+        /// Features of a scene besides a floor, a ball and a lamp.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        enum Feature {
+            $($name),*
+        }
+
+        const ALL: &[Feature] = &[$($name),*];
+    };
+}
+
+features! {
     MovingLamp,
     MovingBall,
     MovingCamera,
@@ -39,30 +49,6 @@ enum Feature {
 }
 
 use Feature::*;
-
-const ALL: [Feature; 21] = [
-    MovingLamp,
-    MovingBall,
-    MovingCamera,
-    MeshLamp,
-    ManyLamps,
-    TexturedLamp,
-    TwoSidedLamp,
-    StretchedLamp,
-    ImageSky,
-    ConstantSky,
-    Bump,
-    NormalMap,
-    NormalsOfMesh,
-    Instances,
-    Isosurface,
-    Metal,
-    Plastic,
-    RoughGlass,
-    TintedGlass,
-    Lens,
-    Sharing,
-];
 
 /// Groups of features that exclude each other.
 const EXCLUSIVE: [[Feature; 2]; 2] = [[ImageSky, ConstantSky], [MovingLamp, StretchedLamp]];

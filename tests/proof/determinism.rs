@@ -52,36 +52,40 @@ fn bits(film: &Film) -> Vec<[u32; 4]> {
     pixels.map(|([r, g, b], error)| [r, g, b, error].map(|x| x.to_bits())).collect()
 }
 
+/// Whether any number of threads and any SIMD level give the same bits.
+fn assert_same_everywhere(scene: &Scene, settings: &RenderSettings, what: &str) {
+    let reference = bits(&film(scene, 1, SimdLevel::Scalar, settings, SPP));
+    for level in SimdLevel::available() {
+        for threads in [1, 2, 4] {
+            assert!(bits(&film(scene, threads, level, settings, SPP)) == reference, "{what}, {level:?}, {threads}");
+        }
+    }
+}
+
+/// Whether a pass that is interrupted, sometimes in the middle of a path, goes on to the same bits.
+fn assert_goes_on(scene: &Scene, settings: &RenderSettings, what: &str) {
+    let threads = Threads::new(2, SimdLevel::best()).expect("threads can be had");
+    let job = PassJob { scene, rays: &scene.rays(&camera(scene)), settings };
+    let mut interrupted = Film::new(RESOLUTION);
+    let asked = AtomicU32::new(0);
+    while interrupted.spp() < SPP {
+        threads.pass(job, &mut interrupted, SPP, &|| asked.fetch_add(1, Ordering::Relaxed) % 211 == 210);
+    }
+    assert!(bits(&interrupted) == bits(&film(scene, 1, SimdLevel::best(), settings, SPP)), "{what}");
+}
+
 #[test]
 fn the_film_is_the_same_for_every_number_of_threads_and_every_simd_level() {
     let scene = built_in();
     for (sampler, reuse) in Sampler::ALL.into_iter().flat_map(|sampler| SHARING.map(|reuse| (sampler, reuse))) {
-        let settings = settings(sampler, reuse);
-        let reference = bits(&film(&scene, 1, SimdLevel::Scalar, &settings, SPP));
-        for level in SimdLevel::available() {
-            for threads in [1, 2, 4] {
-                let bits = bits(&film(&scene, threads, level, &settings, SPP));
-                assert!(bits == reference, "{}, {reuse:?}, {level:?}, {threads}", sampler.name());
-            }
-        }
+        assert_same_everywhere(&scene, &settings(sampler, reuse), &format!("{}, {reuse:?}", sampler.name()));
     }
 }
 
 #[test]
 fn an_interrupted_pass_goes_on_as_if_nothing_had_happened() {
-    let scene = built_in();
-    let threads = Threads::new(2, SimdLevel::best()).expect("threads can be had");
-    let rays = scene.rays(&camera(&scene));
     for reuse in SHARING {
-        let settings = settings(Sampler::Sobol, reuse);
-        let job = PassJob { scene: &scene, rays: &rays, settings: &settings };
-        let mut interrupted = Film::new(RESOLUTION);
-        let asked = AtomicU32::new(0);
-        while interrupted.spp() < SPP {
-            // Sometimes in the middle of a path.
-            threads.pass(job, &mut interrupted, SPP, &|| asked.fetch_add(1, Ordering::Relaxed) % 211 == 210);
-        }
-        assert!(bits(&interrupted) == bits(&film(&scene, 1, SimdLevel::best(), &settings, SPP)), "{reuse:?}");
+        assert_goes_on(&built_in(), &settings(Sampler::Sobol, reuse), &format!("{reuse:?}"));
     }
 }
 
@@ -119,29 +123,13 @@ fn paths_from_lights_bring_the_same_light_for_every_number_of_threads_and_every_
     for estimator in BOTH_ENDS {
         let settings = from_both_ends(estimator);
         assert!(scene.traces_light_paths(&settings));
-        let reference = bits(&film(&scene, 1, SimdLevel::Scalar, &settings, SPP));
-        for level in SimdLevel::available() {
-            for threads in [1, 2, 4] {
-                let bits = bits(&film(&scene, threads, level, &settings, SPP));
-                assert!(bits == reference, "{}, {level:?}, {threads}", estimator.name());
-            }
-        }
+        assert_same_everywhere(&scene, &settings, estimator.name());
     }
 }
 
 #[test]
 fn an_interrupted_pass_with_paths_from_lights_goes_on_as_if_nothing_had_happened() {
-    let scene = built_in();
-    let threads = Threads::new(2, SimdLevel::best()).expect("threads can be had");
-    let rays = scene.rays(&camera(&scene));
     for estimator in BOTH_ENDS {
-        let settings = from_both_ends(estimator);
-        let job = PassJob { scene: &scene, rays: &rays, settings: &settings };
-        let mut interrupted = Film::new(RESOLUTION);
-        let asked = AtomicU32::new(0);
-        while interrupted.spp() < SPP {
-            threads.pass(job, &mut interrupted, SPP, &|| asked.fetch_add(1, Ordering::Relaxed) % 211 == 210);
-        }
-        assert!(bits(&interrupted) == bits(&film(&scene, 1, SimdLevel::best(), &settings, SPP)), "{}", estimator.name());
+        assert_goes_on(&built_in(), &from_both_ends(estimator), estimator.name());
     }
 }

@@ -11,7 +11,7 @@ use super::{
 use crate::{
     declare::Textured,
     image::Encoding,
-    import::mitsuba::pictures,
+    import::pictures,
     math::colour::{linear_from_srgb, srgb_from_linear},
     scene::description::TextureKind,
     texture::{

@@ -50,14 +50,6 @@ impl Part {
     }
 }
 
-/// A number as a grey color.
-pub fn grey(number: &Textured<f64>) -> Textured {
-    match number {
-        Textured::Constant(number) => Textured::grey(*number),
-        Textured::Texture(name) => Textured::Texture(name.clone()),
-    }
-}
-
 impl Export<'_> {
     /// A color.
     pub fn color(&self, color: &Textured) -> Part {
@@ -66,7 +58,7 @@ impl Export<'_> {
 
     /// A number in a channel.
     pub fn number(&self, number: &Textured<f64>, channel: Channel) -> Part {
-        self.part(&grey(number), channel, None)
+        self.part(&number.clone().map(|number| [number; 3]), channel, None)
     }
 
     /// A colour or number, without its factors. `vertices` is the channel of the colours of vertices that may be one of them.

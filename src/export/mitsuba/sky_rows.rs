@@ -1,7 +1,7 @@
 //! Images of all directions for Mitsuba, whose first and last row of texels lie at the poles.
 use crate::{
     image::{Encoding, Texels, read_light_of},
-    import::mitsuba::pictures,
+    import::pictures,
     light::background::image::Image,
 };
 

@@ -28,8 +28,8 @@ impl Export<'_> {
             Textured::Texture(texture) => match self.colors.kind(texture) {
                 Some(TextureKind::Checker(checker)) if self.colors.is_flat(texture) => {
                     // Mitsuba exchanges the two squares where it looks up a number.
-                    let (even, odd) =
-                        (self.number("color1", &number_of(&checker.even)), self.number("color0", &number_of(&checker.odd)));
+                    let even = self.number("color1", &checker.even.clone().map(luminance));
+                    let odd = self.number("color0", &checker.odd.clone().map(luminance));
                     let id = self.id(texture, "texture");
                     self.checkerboard(checker.scale, even, odd).attribute("name", name).attribute("id", id)
                 }
@@ -139,14 +139,6 @@ impl Export<'_> {
         self.uses_coordinates = true;
         let scale = DAffine3::from_scale(DVec3::new(0.5 * scale, 0.5 * scale, 1.0));
         Element::plugin("texture", "checkerboard").with(even).with(odd).transform("to_uv", &scale)
-    }
-}
-
-/// The luminance of a color.
-fn number_of(color: &Textured) -> Textured<f64> {
-    match color {
-        Textured::Constant(color) => Textured::Constant(luminance(*color)),
-        Textured::Texture(name) => Textured::Texture(name.clone()),
     }
 }
 

@@ -9,7 +9,7 @@ use super::{
     document::{Attributes, Document, Index, Mesh, Primitive, element},
     images::file_name,
     materials::Materials,
-    nodes::{Hierarchy, rows},
+    nodes::Hierarchy,
     refusal::{Found, Refusal},
     triangles::Mode,
     vertices::{Deformation, Vertices},
@@ -195,13 +195,12 @@ impl<'a> Instances<'a> {
             // Without normals, glTF wants flat triangles.
             smooth: (!known.has_normals).then_some(false),
         };
-        let transform = if *world == DAffine3::IDENTITY { Vec::new() } else { vec![Transform::Matrix(rows(world))] };
         to.description.objects.push(ObjectDescription {
             name: self.names.unique(shown.name, "object"),
             shape: shape.into(),
             material: Some(made.name),
             emission: made.emission,
-            transform,
+            transform: Transform::list_of(world),
             ..ObjectDescription::default()
         });
         Ok(())

@@ -108,9 +108,3 @@ fn affine(m: &[f64; 16]) -> DAffine3 {
     let column = |i: usize| DVec3::new(m[4 * i], m[4 * i + 1], m[4 * i + 2]);
     DAffine3 { matrix3: DMat3::from_cols(column(0), column(1), column(2)), translation: column(3) }
 }
-
-/// The rows of a map, as scene descriptions have them.
-pub fn rows(map: &DAffine3) -> [[f64; 4]; 4] {
-    let row = |i: usize| [map.matrix3.x_axis[i], map.matrix3.y_axis[i], map.matrix3.z_axis[i], map.translation[i]];
-    [row(0), row(1), row(2), [0.0, 0.0, 0.0, 1.0]]
-}

@@ -185,18 +185,7 @@ impl<'a> Textures<'a> {
 
 /// A colour as a number: textures give their luminance, which is that of a grey.
 pub fn number(colour: Textured) -> Textured<f64> {
-    match colour {
-        Textured::Constant([grey, _, _]) => Textured::Constant(grey),
-        Textured::Texture(name) => Textured::Texture(name),
-    }
-}
-
-/// A number as a grey color.
-pub fn grey(number: Textured<f64>) -> Textured {
-    match number {
-        Textured::Constant(number) => Textured::grey(number),
-        Textured::Texture(name) => Textured::Texture(name),
-    }
+    colour.map(|[grey, ..]| grey)
 }
 
 /// Code of filters without interpolation.

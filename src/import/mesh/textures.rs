@@ -47,10 +47,7 @@ impl Textures {
         let encoding = if channel == Channel::Alpha { Encoding::Srgb } else { Encoding::Linear };
         let Some(image) = self.image(to, place, map, encoding) else { return Textured::Constant(factor) };
         let name = self.add(to, Image { channel, ..image }.into(), stem(&map.path));
-        match self.times(to, [factor * map.range[1]; 3], name) {
-            Textured::Constant([grey, ..]) => Textured::Constant(grey),
-            Textured::Texture(name) => Textured::Texture(name),
-        }
+        self.times(to, [factor * map.range[1]; 3], name).map(|[grey, ..]| grey)
     }
 
     /// The name of a texture, for bump maps.

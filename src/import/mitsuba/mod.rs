@@ -15,7 +15,6 @@ mod load;
 mod markup;
 mod packed;
 mod parameters;
-pub mod pictures;
 mod sensor;
 mod shapes;
 #[cfg(test)]

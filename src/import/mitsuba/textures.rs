@@ -4,11 +4,11 @@ use glam::{DMat4, DVec2};
 use super::{
     colours::Role,
     context::{Import, TextureValue},
-    pictures,
     tree::Element,
 };
 use crate::{
     image::Encoding,
+    import::pictures,
     scene::{
         SceneError,
         description::{TextureKind, Textured},
@@ -161,7 +161,11 @@ impl Import {
                 (self.colour(element, "color0", 0.4, Role::Reflectance)?, self.colour(element, "color1", 0.2, Role::Reflectance)?)
             }
             TextureValue::Number => {
-                (grey(self.textured_number(element, "color1", 0.2)?), grey(self.textured_number(element, "color0", 0.4)?))
+                let mut grey = |name, default| {
+                    let number = self.textured_number(element, name, default);
+                    number.map(|number| number.map(|number| [number; 3]))
+                };
+                (grey("color1", 0.2)?, grey("color0", 0.4)?)
             }
         };
         let placed = self.placement(element)?;
@@ -196,14 +200,6 @@ impl Import {
 /// Whether an image lies elsewhere than over the unit square.
 pub fn is_placed(image: &Image) -> bool {
     image.scale != [1.0; 2] || image.shear != 0.0 || image.rotate != 0.0 || image.offset != [0.0; 2]
-}
-
-/// A number as a colour.
-fn grey(number: Textured<f64>) -> Textured {
-    match number {
-        Textured::Constant(x) => Textured::grey(x),
-        Textured::Texture(name) => Textured::Texture(name),
-    }
 }
 
 /// Scale, shear, rotation and offset of a map of the plane; `None` if it flattens the plane.

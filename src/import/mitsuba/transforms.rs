@@ -2,7 +2,7 @@
 use glam::{DAffine3, DMat3, DMat4, DVec3, DVec4};
 
 use super::{tree::Element, values::words};
-use crate::{scene::SceneError, shape::Transform};
+use crate::scene::SceneError;
 
 impl Element<'_> {
     /// The transform with this name; the identity if there is none.
@@ -78,14 +78,4 @@ impl Element<'_> {
             },
         }
     }
-}
-
-/// The transforms of a description for a map; none for the identity.
-pub fn described(map: &DAffine3) -> Vec<Transform> {
-    if *map == DAffine3::IDENTITY {
-        return Vec::new();
-    }
-    let m = DMat4::from(*map).transpose().to_cols_array_2d();
-    // The products of the steps round, and the description wants the last row exactly.
-    vec![Transform::Matrix([m[0], m[1], m[2], [0.0, 0.0, 0.0, 1.0]])]
 }

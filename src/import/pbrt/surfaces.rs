@@ -3,12 +3,7 @@ use std::rc::Rc;
 
 use glam::DAffine3;
 
-use super::{
-    import::Import,
-    records::Surface,
-    source::TextSpan,
-    transforms::{described, is_invertible},
-};
+use super::{import::Import, records::Surface, source::TextSpan, transforms::is_invertible};
 use crate::{
     scene::{SceneError, description::ObjectDescription},
     shape::Transform,
@@ -42,7 +37,7 @@ impl Import {
             material: None,
             emission: surface.emission.clone(),
             flip: surface.flip,
-            transform: described(&maps[0]),
+            transform: Transform::list_of(&maps[0]),
             motion,
         });
         self.coverings.push(surface.covering.clone());
@@ -69,7 +64,7 @@ impl Import {
             return Vec::new();
         }
         self.remarks.add(place.to_string(), "a rotation or scaling in time", "a linear motion", "points move on straight lines");
-        described(&way)
+        Transform::list_of(&way)
     }
 
     /// `ObjectInstance`.

@@ -1,7 +1,7 @@
 //! Transformation directives, as matrices.
 use glam::{DAffine3, DMat3, DMat4, DVec3};
 
-use crate::{scene::SceneError, shape::Transform};
+use crate::scene::SceneError;
 
 use super::source::TextSpan;
 
@@ -38,16 +38,6 @@ pub fn rotation(numbers: &[f64], place: &TextSpan) -> Result<DAffine3, SceneErro
     let axis = DVec3::new(numbers[1], numbers[2], numbers[3]).try_normalize();
     let axis = axis.ok_or_else(|| place.error("the axis of rotation is zero", "it needs a direction"))?;
     Ok(DAffine3::from_axis_angle(axis, numbers[0].to_radians()))
-}
-
-/// A transform as a list for a description: empty for the identity.
-pub fn described(map: &DAffine3) -> Vec<Transform> {
-    if *map == DAffine3::IDENTITY {
-        return Vec::new();
-    }
-    let (m, t) = (map.matrix3, map.translation);
-    let row = |i: usize| [m.x_axis[i], m.y_axis[i], m.z_axis[i], t[i]];
-    vec![Transform::Matrix([row(0), row(1), row(2), [0.0, 0.0, 0.0, 1.0]])]
 }
 
 /// Whether a map can be inverted.

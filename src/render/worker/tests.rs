@@ -93,6 +93,12 @@ fn the_first_look_at_a_picture_goes_before_more_samples_of_another() {
     assert_eq!(worker.next(), Some(0));
 }
 
+/// A small picture with this seed.
+fn seeded(scene: &Arc<Scene>, seed: u32) -> RenderTask {
+    let request = request(scene, 32);
+    RenderTask::Picture(RenderRequest { settings: RenderSettings { seed, ..request.settings }, ..request })
+}
+
 /// The samples of both sides.
 fn samples(worker: &Worker) -> [Option<u64>; 2] {
     worker.sessions.each_ref().map(|session| session.as_ref().map(|session| session.status(&worker.budget).samples))
@@ -102,10 +108,7 @@ fn samples(worker: &Worker) -> [Option<u64>; 2] {
 fn earlier_settings_get_their_samples_back_and_the_same_request_starts_over() {
     let scene = Arc::new(built_in());
     let mut worker = worker(Publish::Sparse);
-    let of = |seed| {
-        let request = request(&scene, 32);
-        RenderTask::Picture(RenderRequest { settings: RenderSettings { seed, ..request.settings }, ..request })
-    };
+    let of = |seed| seeded(&scene, seed);
     worker.budget = Budget { max_spp: Some(4), ..Budget::default() };
     worker.start(0, 1, of(1));
     advance(&mut worker, 0);
@@ -126,10 +129,7 @@ fn earlier_settings_get_their_samples_back_and_the_same_request_starts_over() {
 fn sides_that_are_swapped_keep_their_samples() {
     let scene = Arc::new(built_in());
     let mut worker = worker(Publish::Sparse);
-    let of = |seed| {
-        let request = request(&scene, 32);
-        RenderTask::Picture(RenderRequest { settings: RenderSettings { seed, ..request.settings }, ..request })
-    };
+    let of = |seed| seeded(&scene, seed);
     worker.start(0, 1, of(1));
     worker.start(1, 2, of(2));
     for (side, spp) in [(0, 4), (1, 2)] {
@@ -153,10 +153,7 @@ fn sides_that_are_swapped_keep_their_samples() {
 fn an_edit_keeps_the_images_of_the_scene_before_and_another_file_drops_them() {
     let scene = Arc::new(built_in());
     let mut worker = worker(Publish::Sparse);
-    let of = |seed| {
-        let request = request(&scene, 32);
-        RenderTask::Picture(RenderRequest { settings: RenderSettings { seed, ..request.settings }, ..request })
-    };
+    let of = |seed| seeded(&scene, seed);
     worker.budget = Budget { max_spp: Some(4), ..Budget::default() };
     for (generation, side, seed) in [(1, 0, 1), (2, 0, 2), (3, 1, 3)] {
         worker.start(side, generation, of(seed));
@@ -223,10 +220,7 @@ fn an_edit_of_the_title_keeps_the_samples_of_all_images() {
     description.add_object("ball", Sphere::default());
     let scene = Arc::new(description.build("".as_ref()).expect("it is valid"));
     let mut worker = worker(Publish::Sparse);
-    let of = |seed| {
-        let request = request(&scene, 32);
-        RenderTask::Picture(RenderRequest { settings: RenderSettings { seed, ..request.settings }, ..request })
-    };
+    let of = |seed| seeded(&scene, seed);
     worker.budget = Budget { max_spp: Some(2), ..Budget::default() };
     for (generation, seed) in [(1, 1), (2, 2)] {
         worker.start(0, generation, of(seed));

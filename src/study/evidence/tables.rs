@@ -1,10 +1,10 @@
 //! The tables of the chapter. Each cell has one number, so programs can read them; – marks unknown values.
 use super::exhibits::Exhibits;
 use crate::{
+    declare::capitalised,
     report::table::{Column, Table},
     study::{
         Findings, Outcome, Slope,
-        figures::capitalised,
         fit::slope,
         outcome::ROUNDING,
         report::values,

@@ -1,12 +1,15 @@
 //! Notices on the image: why it is black, and that the exposure of a scene that was opened does not suit it.
 use egui::Ui;
-use noisefall::{render::Frame, render::view::View, scene::Camera};
+use noisefall::{
+    declare::capitalised,
+    render::{Frame, view::View},
+    scene::Camera,
+};
 
 use super::state::App;
 use crate::viewer::background::exposure_meter::misfit;
 use crate::viewer::canvas::{notice::Notice, picture_area::PictureArea};
 use crate::viewer::instruments::compare::comparison::CompareLayout;
-use crate::viewer::widgets::wording::capitalised;
 
 const BACK: (&str, &str) = ("Back to the last view with light", "Returns to the camera of that view.");
 const EXPOSURE: [(&str, &str); 2] = [

@@ -1,12 +1,12 @@
 //! Edits of the open scene, undo and redo included: the document changes at once, and its image follows.
 use noisefall::{
-    declare::Problem,
+    declare::{Problem, capitalised},
     edit::Edit,
     scene::description::{ObjectDescription, SceneDescription},
 };
 
 use super::{scene_editor::SceneEditor, state::App};
-use crate::viewer::{panels::subject::Subject, widgets::wording::capitalised};
+use crate::viewer::panels::subject::Subject;
 
 impl App {
     /// Makes an edit, as a step of its own. What the reader of scene files would refuse is refused, with its message.

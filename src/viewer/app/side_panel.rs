@@ -1,6 +1,6 @@
 //! Joins the panels at the right and at the bottom with the state of the window.
 use egui::{ScrollArea, Ui};
-use noisefall::render::RenderRequest;
+use noisefall::{declare::capitalised, render::RenderRequest};
 
 use super::state::App;
 use crate::viewer::background::{adviser::Adviser, catalogue::SceneRequest, recent};
@@ -9,7 +9,7 @@ use crate::viewer::panels::{
     camera, display, panel_tabs, panel_tabs::PanelTab, pixel_readout::Pixel, sampling, sampling::Findings, scene,
     status_bar::StatusBar, stop, views, views::ReferenceSource, window,
 };
-use crate::viewer::widgets::{style::section, wording::capitalised};
+use crate::viewer::widgets::style::section;
 
 /// The largest part of the panel's height that the notes of a scene take while it is edited.
 const NOTES: f32 = 0.2;

@@ -19,15 +19,8 @@ const SIZES: [(Vec2, f32); 2] = [(vec2(900.0, 600.0), 1.0), (vec2(800.0, 500.0),
 
 /// A window of this size with a small picture.
 fn sized(size: Vec2, scale: f32) -> Window {
-    let draw = move |ui: &mut egui::Ui, app: &mut Lazy| {
-        let make = || {
-            let threads = Threads::new(1, SimdLevel::best()).expect("a thread can be had");
-            App::new(ui.ctx(), threads, Some(shipped("cornell_spheres")).into(), Preferences::default())
-        };
-        app.0.get_or_insert_with(make).show(ui);
-    };
     let builder = Harness::builder().with_size(size).with_pixels_per_point(scale).renderer(Blind);
-    let mut window = builder.build_ui_state(draw, Lazy(None));
+    let mut window = builder.build_ui_state(drawing(Some(shipped("cornell_spheres")), |_| {}), Lazy(None));
     wait(&mut window, "the scene", |app| app.session.opened.is_some());
     window.state_mut().session.camera.resolution = [48, 48];
     wait(&mut window, "a picture", |app| app.results.shown.as_ref().is_some_and(|frame| frame.width == 48));

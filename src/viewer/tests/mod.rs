@@ -116,7 +116,13 @@ fn open(scene: Option<PathBuf>) -> Window {
 
 /// The same with an app that is prepared before its first frame.
 fn open_with(scene: Option<PathBuf>, prepare: impl Fn(&mut App) + 'static) -> Window {
-    let draw = move |ui: &mut egui::Ui, app: &mut Lazy| {
+    let builder = Harness::builder().with_size(SIZE).renderer(rasteriser::Blind);
+    builder.build_ui_state(drawing(scene, prepare), Lazy(None))
+}
+
+/// Draws an app that renders on one thread and is prepared before its first frame.
+fn drawing(scene: Option<PathBuf>, prepare: impl Fn(&mut App) + 'static) -> impl FnMut(&mut egui::Ui, &mut Lazy) {
+    move |ui, app| {
         let make = || {
             let threads = Threads::new(1, SimdLevel::best()).expect("a thread can be had");
             let mut app = App::new(ui.ctx(), threads, scene.clone().into(), Preferences::default());
@@ -124,8 +130,7 @@ fn open_with(scene: Option<PathBuf>, prepare: impl Fn(&mut App) + 'static) -> Wi
             app
         };
         app.0.get_or_insert_with(make).show(ui);
-    };
-    Harness::builder().with_size(SIZE).renderer(rasteriser::Blind).build_ui_state(draw, Lazy(None))
+    }
 }
 
 /// A window with a small picture of a scene.

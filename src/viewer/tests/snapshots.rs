@@ -9,16 +9,8 @@ const STATUS_BAR: u32 = 34;
 
 /// A window as large as the smallest that is meant to be comfortable, with a picture of so many samples.
 fn at_rest(scene: &str, spp: u32, change: impl FnOnce(&mut App)) -> Window {
-    let scene = shipped(scene);
-    let draw = move |ui: &mut egui::Ui, app: &mut Lazy| {
-        let make = || {
-            let threads = Threads::new(1, SimdLevel::best()).expect("a thread can be had");
-            App::new(ui.ctx(), threads, Some(scene.clone()).into(), Preferences::default())
-        };
-        app.0.get_or_insert_with(make).show(ui);
-    };
     let builder = Harness::builder().with_size(vec2(1280.0, 800.0)).renderer(Rasteriser::default());
-    let mut window = builder.build_ui_state(draw, Lazy(None));
+    let mut window = builder.build_ui_state(drawing(Some(shipped(scene)), |_| {}), Lazy(None));
     wait(&mut window, "the scene", |app| app.session.opened.is_some());
     let app = window.state_mut();
     app.session.camera.resolution = [60, 60];

@@ -137,15 +137,8 @@ fn the_number_over_side_b_is_that_of_the_view_too() {
 
 /// A window of 1280 × 800 pixels at two pixels a point.
 fn dense() -> Window {
-    let draw = move |ui: &mut egui::Ui, app: &mut Lazy| {
-        let make = || {
-            let threads = Threads::new(1, SimdLevel::best()).expect("a thread can be had");
-            App::new(ui.ctx(), threads, Some(shipped("furnace")).into(), Preferences::default())
-        };
-        app.0.get_or_insert_with(make).show(ui);
-    };
     let builder = Harness::builder().with_size(vec2(640.0, 400.0)).with_pixels_per_point(2.0).renderer(Blind);
-    let mut window = builder.build_ui_state(draw, Lazy(None));
+    let mut window = builder.build_ui_state(drawing(Some(shipped("furnace")), |_| {}), Lazy(None));
     wait(&mut window, "a picture", |app| app.results.shown.is_some());
     window
 }

@@ -17,4 +17,3 @@ pub mod refusal;
 pub mod split;
 pub mod style;
 pub mod typed_number;
-pub mod wording;

@@ -6,11 +6,7 @@ use crate::{
     declare::Textured,
     export::{
         ExportError,
-        gltf::{
-            context::Export,
-            known::VertexColors,
-            textures::{Part, grey},
-        },
+        gltf::{context::Export, known::VertexColors, textures::Part},
     },
     import::gltf::STEP,
     material::{Material, principled::Principled},
@@ -36,7 +32,7 @@ impl Export<'_> {
         if let Some(opacity) = opacity {
             let (opacity, cutoff) = self.cutoff(opacity);
             let vertices = base[0].has_vertices.then_some(Channel::Alpha);
-            let opacity = self.part(&grey(&opacity), Channel::Alpha, vertices);
+            let opacity = self.part(&opacity.map(|opacity| [opacity; 3]), Channel::Alpha, vertices);
             if opacity.has_vertices {
                 colors = VertexColors::Rgba;
             }

@@ -62,13 +62,8 @@ impl Export<'_> {
 
 /// Roughness that gives the widths r²/s and r² s with s² = 1 − 0.9 a by OpenPBR's formula, which keeps their mean square.
 fn widened(roughness: &Textured<f64>, anisotropic: f64) -> Textured<f64> {
-    match roughness {
-        Textured::Constant(r) => {
-            let ratio = 1.0 - 0.9 * anisotropic;
-            Textured::Constant((r * ((1.0 + ratio * ratio) / (2.0 * ratio)).powf(0.25)).min(1.0))
-        }
-        textured @ Textured::Texture(_) => textured.clone(),
-    }
+    let ratio = 1.0 - 0.9 * anisotropic;
+    roughness.clone().map(|r| (r * ((1.0 + ratio * ratio) / (2.0 * ratio)).powf(0.25)).min(1.0))
 }
 
 /// White, or as far towards the hue of a colour as a tint says.

@@ -56,10 +56,7 @@ impl Export<'_> {
             Reflectance::Index { eta, k, tint } => {
                 let effect = "the colour at grazing angles is slightly different";
                 self.remark("a metal with `eta` and `k`", "Schlick's approximation", effect);
-                match tint {
-                    Textured::Constant(tint) => Textured::Constant(std::array::from_fn(|i| tint[i] * head_on(eta[i], k[i]))),
-                    textured @ Textured::Texture(_) => textured.clone(),
-                }
+                tint.clone().map(|tint| std::array::from_fn(|i| tint[i] * head_on(eta[i], k[i])))
             }
         };
         let specular_roughness = self.facets(&metal.roughness, metal.distribution, metal.energy_compensation);

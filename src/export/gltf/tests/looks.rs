@@ -8,7 +8,7 @@ use crate::{
     declare::{Assets, Textured},
     export::round_trip::{self as scene_files, RoundTrip, scenes},
     image::Encoding,
-    import::mitsuba::pictures,
+    import::pictures,
     light::{
         emission::radiance::Radiance,
         lamp::{

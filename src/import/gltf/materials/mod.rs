@@ -166,7 +166,7 @@ impl MaterialImport<'_, '_> {
             return alpha;
         }
         let vertices = self.textures.vertex_colour(self.to, Channel::Alpha);
-        number(self.textures.times(self.to, super::textures::grey(alpha), vertices))
+        number(self.textures.times(self.to, alpha.map(|alpha| [alpha; 3]), vertices))
     }
 
     /// The file of the normal map, which is read as it stands.

@@ -111,7 +111,7 @@ fn common(import: &mut Import, element: Element) -> Result<Principled, SceneErro
     Ok(Principled {
         specular_color: toward(import, element, &color, tint),
         fuzz_color: toward(import, element, &color, sheen_tint),
-        transmission_color: root(&color),
+        transmission_color: color.clone().map(|color| color.map(f64::sqrt)),
         transmission_weight: import.fraction(element, "spec_trans", 0.0)?,
         fuzz_weight: import.fraction(element, "sheen", 0.0)?,
         specular_roughness: widened(roughness, &anisotropic),
@@ -145,13 +145,6 @@ fn toward(import: &mut Import, element: Element, color: &Textured, tint: Texture
             let mix = Mix { a: Textured::grey(1.0), b: color.clone(), weight };
             Textured::Texture(import.add_texture(&format!("{} tint", element.label()), mix))
         }
-    }
-}
-
-fn root(color: &Textured) -> Textured {
-    match color {
-        Textured::Constant(color) => Textured::Constant(color.map(f64::sqrt)),
-        textured @ Textured::Texture(_) => textured.clone(),
     }
 }
 

@@ -2,7 +2,7 @@
 use glam::{DAffine3, DVec3};
 
 use super::{
-    super::{colours::Role, context::Import, transforms::described, tree::Element},
+    super::{colours::Role, context::Import, tree::Element},
     sun,
 };
 use crate::{
@@ -15,6 +15,7 @@ use crate::{
         SceneError,
         description::{BackgroundDescription, Textured},
     },
+    shape::Transform,
 };
 
 fn set(import: &mut Import, element: Element, background: impl Into<BackgroundDescription>) {
@@ -43,7 +44,7 @@ pub fn image(import: &mut Import, element: Element) -> Result<(), SceneError> {
     }
     let map = element.affine("to_world")?;
     // Translations do not matter. Mitsuba's images have their centre at +z, and their first and last row at the poles.
-    let transform = described(&DAffine3 { translation: DVec3::ZERO, ..map });
+    let transform = Transform::list_of(&DAffine3 { translation: DVec3::ZERO, ..map });
     set(import, element, Image { path, rotate: 180.0, scale, pole_rows: true, transform });
     Ok(())
 }

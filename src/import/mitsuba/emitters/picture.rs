@@ -1,7 +1,8 @@
 //! Images of projectors.
-use super::super::{context::Import, pictures};
+use super::super::context::Import;
 use crate::{
     image::{self, Picture},
+    import::pictures,
     texture::image::Image,
 };
 

@@ -16,12 +16,11 @@ use glam::DAffine3;
 use super::{
     context::{Import, Uses},
     emitters::area,
-    transforms::described,
     tree::Element,
 };
 use crate::{
     scene::{SceneError, description::ObjectDescription},
-    shape::ShapeKind,
+    shape::{ShapeKind, Transform},
 };
 
 /// Objects in all. Instances of groups multiply.
@@ -134,7 +133,7 @@ impl Import {
             material: Some(surface.material.clone()),
             emission: emission.clone(),
             flip,
-            transform: described(&map),
+            transform: Transform::list_of(&map),
             motion: Vec::new(),
         }));
         Ok(())

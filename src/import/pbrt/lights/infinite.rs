@@ -6,10 +6,14 @@ use glam::{DAffine3, DMat3, DVec3};
 use super::{octahedron, times};
 use crate::{
     image::{Encoding, Texels, read_light},
-    import::pbrt::{import::Import, parameters::Entity, spectra::luminance, textures::pictures, transforms::described},
+    import::{
+        pbrt::{import::Import, parameters::Entity, spectra::luminance},
+        pictures,
+    },
     light::background::{BackgroundDescription, constant::Constant, image::Image},
     memory::reserve,
     scene::SceneError,
+    shape::Transform,
 };
 
 /// From our directions to those of pbrt-v3, whose images are equirectangular with +z at the top.
@@ -86,7 +90,7 @@ impl Import {
         if self.description.background.is_some() {
             self.remark(entity, "this image alone", "there is one sky, and the others are missing");
         }
-        let transform = described(&DAffine3::from_mat3(frame));
+        let transform = Transform::list_of(&DAffine3::from_mat3(frame));
         let sky = Image { path: image, scale: scale.clamp(1e-12, 1e12), transform, ..Image::default() };
         self.description.background = Some(sky.into());
         Ok(())

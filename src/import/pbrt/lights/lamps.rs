@@ -6,7 +6,7 @@ use glam::{DAffine3, DVec3};
 use super::{power, times};
 use crate::{
     image::{Encoding, read_light},
-    import::pbrt::{import::Import, parameters::Entity, transforms::described},
+    import::pbrt::{import::Import, parameters::Entity},
     light::lamp::{
         LampKind,
         directional::Directional,
@@ -89,7 +89,7 @@ impl Import {
         };
         // The right of the image is at +x, as left-handed cameras have it.
         let mirrored = *map * DAffine3::from_scale(DVec3::new(-1.0, 1.0, 1.0));
-        self.add_lamp(entity, projector, described(&mirrored));
+        self.add_lamp(entity, projector, Transform::list_of(&mirrored));
         Ok(())
     }
 

@@ -94,10 +94,7 @@ impl Import {
             import.material(&material, None, &entity.place)
         };
         let [first, second] = [part(self, &names[0])?, part(self, &names[1])?];
-        let weight = match self.number_or_texture(entity, "amount", 0.5)? {
-            Textured::Constant(weight) => Textured::Constant(weight.clamp(0.0, 1.0)),
-            texture @ Textured::Texture(_) => texture,
-        };
+        let weight = self.number_or_texture(entity, "amount", 0.5)?.map(|weight| weight.clamp(0.0, 1.0));
         Ok(Blend { first, second, weight, ..Blend::default() }.into())
     }
 

@@ -8,7 +8,6 @@
 //! | `fbm`, `windy`, `wrinkled`, `marble`, `dots`, `ptex` | `substitutes.rs` |
 mod images;
 mod patterns;
-pub mod pictures;
 mod substitutes;
 
 use std::rc::Rc;
@@ -127,11 +126,8 @@ impl Import {
         if let (Textured::Constant(a), Textured::Constant(b), Textured::Constant(weight)) = (&a, &b, &weight) {
             return Textured::Constant([0, 1, 2].map(|channel| a[channel] + (b[channel] - a[channel]) * weight));
         }
-        let clamped = match weight {
-            Textured::Constant(weight) => Textured::Constant(weight.clamp(0.0, 1.0)),
-            texture @ Textured::Texture(_) => texture,
-        };
-        self.new_texture(name, Mix { a: positive(a), b: positive(b), weight: clamped })
+        let weight = weight.map(|weight| weight.clamp(0.0, 1.0));
+        self.new_texture(name, Mix { a: positive(a), b: positive(b), weight })
     }
 
     /// A colour or texture times a number.
@@ -170,28 +166,18 @@ impl Import {
 
 /// A number or texture as a grey colour.
 fn colour(number: Textured<f64>) -> Textured {
-    match number {
-        Textured::Constant(number) => Textured::grey(number),
-        Textured::Texture(name) => Textured::Texture(name),
-    }
+    number.map(|number| [number; 3])
 }
 
 /// A colour or texture as its luminance.
 fn number(colour: Textured) -> Textured<f64> {
-    match colour {
-        // Equal channels give their own value without rounding.
-        Textured::Constant([r, g, b]) if r == g && g == b => Textured::Constant(r),
-        Textured::Constant(colour) => Textured::Constant(luminance(colour)),
-        Textured::Texture(name) => Textured::Texture(name),
-    }
+    // Equal channels give their own value without rounding.
+    colour.map(|[r, g, b]| if r == g && g == b { r } else { luminance([r, g, b]) })
 }
 
 /// Parts of textures have no negative values.
 fn positive(texture: Textured) -> Textured {
-    match texture {
-        Textured::Constant(colour) => Textured::Constant(colour.map(|x| x.max(0.0))),
-        texture @ Textured::Texture(_) => texture,
-    }
+    texture.map(|colour| colour.map(|x| x.max(0.0)))
 }
 
 #[cfg(test)]

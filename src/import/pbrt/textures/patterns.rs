@@ -1,9 +1,12 @@
 //! Patterns that small images give exactly.
-use super::{Content, pictures};
+use super::Content;
 use crate::{
     declare::Textured,
     image::Encoding,
-    import::pbrt::{import::Import, parameters::Entity},
+    import::{
+        pbrt::{import::Import, parameters::Entity},
+        pictures,
+    },
     scene::SceneError,
     texture::image::{Image, TexelFilter, Wrap},
 };
@@ -20,7 +23,7 @@ impl Import {
         // The mask has two squares along each side.
         let up = 1.0 - scale[1] - dv;
         let mask = Image {
-            path: self.pattern("checkerboard", "png", || pictures::png(2, 2, &[255, 0, 0, 255])),
+            path: self.pattern("checkerboard", "png", || pictures::png(2, 2, &[[255], [0], [0], [255]])),
             encoding: Encoding::Linear,
             filter: TexelFilter::Nearest,
             scale: scale.map(|scale| 0.5 * scale),

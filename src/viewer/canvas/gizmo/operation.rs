@@ -104,8 +104,8 @@ impl Operation {
                 let way = between(&|ray| nearest_on_axis(self.pivot, AXES[axis], ray).map(|along| AXES[axis] * along));
                 AXES[axis] * snap(way[axis])
             }
-            Lock::Plane(normal) => between(&|ray| on_plane(self.pivot, AXES[normal], ray)).map_all(snap),
-            Lock::Free => between(&|ray| on_plane(self.pivot, camera.axes()[2], ray)).map_all(snap),
+            Lock::Plane(normal) => between(&|ray| on_plane(self.pivot, AXES[normal], ray)).map(snap),
+            Lock::Free => between(&|ray| on_plane(self.pivot, camera.axes()[2], ray)).map(snap),
         }
     }
 
@@ -144,17 +144,6 @@ impl Operation {
             Lock::Axis(axis) => axis,
             Lock::Plane(normal) => usize::from(normal == 0),
         }
-    }
-}
-
-/// The same function of every coordinate.
-trait MapAll {
-    fn map_all(self, f: impl Fn(f64) -> f64) -> DVec3;
-}
-
-impl MapAll for DVec3 {
-    fn map_all(self, f: impl Fn(f64) -> f64) -> DVec3 {
-        DVec3::from_array(self.to_array().map(f))
     }
 }
 

@@ -1,5 +1,4 @@
 //! Rounds the moves of the pointer to invisible steps, so that the numbers in a scene file stay short.
-use glam::DVec3;
 use noisefall::shape::{Rotation, Transform};
 
 /// Decimals of an angle in degrees.
@@ -12,16 +11,13 @@ pub fn rounded(change: Transform, pixel: f64) -> Transform {
     match change {
         Transform::Translate(by) if pixel.is_finite() => {
             let decimals = -(0.1 * pixel).log10().floor();
-            Transform::Translate(every(by, decimals.clamp(0.0, 12.0) as usize))
+            let decimals = decimals.clamp(0.0, 12.0) as usize;
+            Transform::Translate(by.map(|x| to_decimals(x, decimals)))
         }
         Transform::Rotate(turn) => Transform::Rotate(Rotation { degrees: to_decimals(turn.degrees, ANGLE), ..turn }),
-        Transform::Scale(factors) => Transform::Scale(every(factors, FACTOR)),
+        Transform::Scale(factors) => Transform::Scale(factors.map(|x| to_decimals(x, FACTOR))),
         other => other,
     }
-}
-
-fn every(v: DVec3, decimals: usize) -> DVec3 {
-    DVec3::from_array(v.to_array().map(|x| to_decimals(x, decimals)))
 }
 
 fn to_decimals(x: f64, decimals: usize) -> f64 {
@@ -30,6 +26,8 @@ fn to_decimals(x: f64, decimals: usize) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use glam::DVec3;
+
     use super::*;
 
     #[test]

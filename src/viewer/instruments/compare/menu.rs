@@ -1,7 +1,7 @@
 //! The menu of settings to compare with.
 use egui::Ui;
 use noisefall::{
-    declare::OneOf,
+    declare::{OneOf, capitalised},
     sampling::Sampler,
     scene::{Estimator, RenderSettings, Reuse, Roulette, Sharing},
 };
@@ -32,20 +32,15 @@ fn alternatives(settings: &RenderSettings) -> Vec<(String, RenderSettings)> {
         all.push((format!("{} samples", sampler.word().title), RenderSettings { sampler, ..*settings }));
     }
     for roulette in Roulette::alternatives() {
-        all.push((capitalized(&roulette.words()), RenderSettings { roulette, ..*settings }));
+        all.push((capitalised(&roulette.words()), RenderSettings { roulette, ..*settings }));
     }
     for reuse in Reuse::ALL.into_iter().filter(|reuse| *reuse != Reuse::Auto) {
-        all.push((capitalized(Sharing::asked(reuse).name()), RenderSettings { reuse, ..*settings }));
+        all.push((capitalised(Sharing::asked(reuse).name()), RenderSettings { reuse, ..*settings }));
     }
     all.push(of("A cap of 3 bounces", RenderSettings { max_bounces: Some(3), ..*settings }));
     all.push(of("Another seed", RenderSettings { seed: settings.seed.wrapping_add(1), ..*settings }));
     all.retain(|(_, changed)| changed != settings);
     all
-}
-
-fn capitalized(words: &str) -> String {
-    let first = words.chars().next().into_iter().flat_map(char::to_uppercase);
-    first.chain(words.chars().skip(1)).collect()
 }
 
 #[cfg(test)]

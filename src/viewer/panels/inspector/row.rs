@@ -82,13 +82,6 @@ impl Heading {
     }
 }
 
-/// A key as a title: "two_sided" is "Two sided".
-pub fn capital(key: &str) -> String {
-    let mut letters = key.chars();
-    let first = letters.next().map(|first| first.to_uppercase().to_string()).unwrap_or_default();
-    first + &letters.as_str().replace('_', " ")
-}
-
 #[cfg(test)]
 mod tests {
     use egui_kittest::{Harness, kittest::Queryable};

@@ -1,13 +1,13 @@
 //! The visitor that makes rows of parameters.
 use egui::{ComboBox, Ui};
-use noisefall::declare::{Alternative, Choice, Form, Parameter, Parameters, Path, Textured, Value};
+use noisefall::declare::{Alternative, Choice, Form, Parameter, Parameters, Path, Textured, Value, capitalised, key_in_words};
 
 use super::{
     Request, Surroundings,
     cell::Cell,
     numbers::fits_field,
     references,
-    row::{Heading, Mark, capital},
+    row::{Heading, Mark},
 };
 use crate::viewer::widgets::list::value_entry;
 
@@ -115,7 +115,7 @@ impl Parameters for Rows<'_> {
 
     fn choose(&mut self, choice: &Choice, now: usize) -> usize {
         // The part itself is of that kind.
-        let title = if self.lengths.is_empty() { "Kind".to_owned() } else { capital(choice.what) };
+        let title = if self.lengths.is_empty() { "Kind".to_owned() } else { capitalised(&key_in_words(choice.what)) };
         let of_choice = || Heading { title, tooltip: format!("The kind of {}.", choice.what), mark: Mark::None };
         let (mut heading, form) = self.entered.take().unwrap_or_else(|| (of_choice(), Form::Table));
         if form == Form::NameOrTable {
@@ -168,7 +168,7 @@ impl Parameters for Rows<'_> {
     fn item(&mut self, parameter: &Parameter, index: usize) {
         self.show_title();
         self.chosen = None;
-        let title = format!("{} {}", capital(parameter.key), index + 1);
+        let title = format!("{} {}", capitalised(&key_in_words(parameter.key)), index + 1);
         self.entered = Some((Heading { title, tooltip: parameter.doc.to_owned(), mark: Mark::Item }, Form::Table));
         self.descend(self.path.key(parameter.key).item(index));
     }

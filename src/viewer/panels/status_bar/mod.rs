@@ -5,13 +5,14 @@ use std::time::Duration;
 
 use egui::{Color32, Label, RichText};
 use noisefall::{
+    declare::capitalised,
     render::{Budget, RenderRequest, State, Status},
     scene::{Camera, Estimator, EstimatorInForce, RenderSettings},
 };
 
 use super::pixel_readout::Pixel;
 use crate::viewer::background::{display_image::ReferenceComparison, opened_scene::OpenedScene};
-use crate::viewer::widgets::{counted::counted, palette::Palette, quotation::with_quotation_marks, wording::capitalised};
+use crate::viewer::widgets::{counted::counted, palette::Palette, quotation::with_quotation_marks};
 
 /// Width of a window that has room for all figures, points.
 const WIDE: f32 = 1000.0;

@@ -1,11 +1,15 @@
 //! Images that exist in memory only: encoded PNG and EXR files.
 use std::io::Cursor;
 
-/// A PNG of display values or of linear numbers, with opacity if there are four channels, row by row from the top left.
+/// A PNG of display values or of linear numbers, grey if there is one channel, with opacity if there are four, row by row from the top left.
 pub fn png<const CHANNELS: usize>(width: u32, height: u32, pixels: &[[u8; CHANNELS]]) -> Option<Vec<u8>> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, width, height);
-    encoder.set_color(if CHANNELS == 4 { png::ColorType::Rgba } else { png::ColorType::Rgb });
+    encoder.set_color(match CHANNELS {
+        1 => png::ColorType::Grayscale,
+        4 => png::ColorType::Rgba,
+        _ => png::ColorType::Rgb,
+    });
     encoder.set_depth(png::BitDepth::Eight);
     let mut writer = encoder.write_header().ok()?;
     writer.write_image_data(pixels.as_flattened()).ok()?;
