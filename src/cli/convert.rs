@@ -6,7 +6,7 @@ use std::{
 };
 
 use noisefall::{
-    export::{self, Exported, ExportedScene},
+    export::{self, ExportSource, Exported},
     import::Opened,
     scene::describe,
 };
@@ -48,7 +48,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let of_text = || describe(&path.display().to_string(), scene.source.clone()).map(Arc::new);
     let description = description.map_or_else(of_text, Ok).map_err(|error| error.report())?;
     let folder = path.parent().unwrap_or(Path::new(""));
-    let source = ExportedScene { description: &description, assets: &scene.assets, folder };
+    let source = ExportSource { description: &description, assets: &scene.assets, folder };
     let prepared = export::prepare(source, output).map_err(|error| error.to_string())?;
     options.report(output, &prepared.remarks, "written exactly")?;
     let exported = prepared.write().map_err(|error| error.to_string())?;

@@ -82,7 +82,7 @@ pub fn key_in_words(key: &str) -> String {
     key.split('_').map(word).collect::<Vec<_>>().join(" ")
 }
 
-/// A clause as the beginning of a sentence, or a name as a title.
+/// Capitalises the first letter, for a title or the beginning of a sentence.
 pub fn capitalised(clause: &str) -> String {
     let first = clause.chars().next().map_or(0, char::len_utf8);
     clause[..first].to_uppercase() + &clause[first..]

@@ -62,7 +62,7 @@ pub enum Textured<T = [f64; 3]> {
 }
 
 impl<T> Textured<T> {
-    /// The same with another constant.
+    /// Applies a function to the constant; a texture stays as it is.
     pub(crate) fn map<U>(self, f: impl FnOnce(T) -> U) -> Textured<U> {
         match self {
             Textured::Constant(constant) => Textured::Constant(f(constant)),

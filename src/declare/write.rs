@@ -5,25 +5,25 @@ use super::{Choice, Declare, Form, Parameter, Parameters, Textured, Value};
 
 /// Every value of a description, defaults included, at its key.
 pub fn write(description: &mut dyn Declare) -> Table {
-    let mut writer = Writer { frames: vec![OpenTable::new(None, TablePlace::Table)] };
+    let mut writer = Writer { frames: vec![WriterFrame::new(None, Destination::Table)] };
     description.parameters(&mut writer);
     writer.frames.pop().map(|frame| frame.table).unwrap_or_default()
 }
 
 struct Writer {
-    frames: Vec<OpenTable>,
+    frames: Vec<WriterFrame>,
 }
 
-struct OpenTable {
+struct WriterFrame {
     key: Option<&'static str>,
-    place: TablePlace,
+    place: Destination,
     table: Table,
     /// The alternative of a choice that is written by its name.
     name: Option<&'static str>,
 }
 
 /// Where a table goes.
-enum TablePlace {
+enum Destination {
     Table,
     /// A table, or the name of an alternative that has no keys.
     NameOrTable,
@@ -31,14 +31,14 @@ enum TablePlace {
     Named(String),
 }
 
-impl OpenTable {
-    fn new(key: Option<&'static str>, place: TablePlace) -> OpenTable {
-        OpenTable { key, place, table: Table::new(), name: None }
+impl WriterFrame {
+    fn new(key: Option<&'static str>, place: Destination) -> WriterFrame {
+        WriterFrame { key, place, table: Table::new(), name: None }
     }
 }
 
 impl Writer {
-    fn frame(&mut self) -> &mut OpenTable {
+    fn frame(&mut self) -> &mut WriterFrame {
         self.frames.last_mut().expect("the whole file is around")
     }
 }
@@ -82,8 +82,8 @@ impl Parameters for Writer {
     }
 
     fn enter(&mut self, parameter: &Parameter, form: Form) {
-        let place = if form == Form::NameOrTable { TablePlace::NameOrTable } else { TablePlace::Table };
-        self.frames.push(OpenTable::new(Some(parameter.key), place));
+        let place = if form == Form::NameOrTable { Destination::NameOrTable } else { Destination::Table };
+        self.frames.push(WriterFrame::new(Some(parameter.key), place));
     }
 
     fn reads_outlines(&self) -> bool {
@@ -91,21 +91,21 @@ impl Parameters for Writer {
     }
 
     fn leave(&mut self) {
-        let Some(OpenTable { key: Some(key), place, table, name }) = self.frames.pop() else { return };
+        let Some(WriterFrame { key: Some(key), place, table, name }) = self.frames.pop() else { return };
         let outer = &mut self.frame().table;
         match place {
-            TablePlace::NameOrTable if table.is_empty() => {
+            Destination::NameOrTable if table.is_empty() => {
                 outer.insert(key.to_owned(), Toml::String(name.unwrap_or_default().to_owned()));
             }
-            TablePlace::Table | TablePlace::NameOrTable => {
+            Destination::Table | Destination::NameOrTable => {
                 outer.insert(key.to_owned(), Toml::Table(table));
             }
-            TablePlace::List => {
+            Destination::List => {
                 if let Some(list) = outer.entry(key).or_insert_with(|| Toml::Array(Vec::new())).as_array_mut() {
                     list.push(Toml::Table(table));
                 }
             }
-            TablePlace::Named(name) => {
+            Destination::Named(name) => {
                 if let Some(tables) = outer.entry(key).or_insert_with(|| Toml::Table(Table::new())).as_table_mut() {
                     tables.insert(name, Toml::Table(table));
                 }
@@ -119,10 +119,10 @@ impl Parameters for Writer {
     }
 
     fn item(&mut self, parameter: &Parameter, _: usize) {
-        self.frames.push(OpenTable::new(Some(parameter.key), TablePlace::List));
+        self.frames.push(WriterFrame::new(Some(parameter.key), Destination::List));
     }
 
     fn named(&mut self, parameter: &Parameter, name: &str) {
-        self.frames.push(OpenTable::new(Some(parameter.key), TablePlace::Named(name.to_owned())));
+        self.frames.push(WriterFrame::new(Some(parameter.key), Destination::Named(name.to_owned())));
     }
 }

@@ -46,7 +46,7 @@ impl Content {
             Edit::Set { path, value } => {
                 let (found, appeared) = set(&mut self.description, path, value);
                 let failure = match found {
-                    Ok(PreviousValue::Value(value)) => return Ok(Edit::Set { path: path.clone(), value }),
+                    Ok(PreviousValue::Present(value)) => return Ok(Edit::Set { path: path.clone(), value }),
                     Ok(PreviousValue::Absent(path)) => return Ok(Edit::Remove { path }),
                     Err(failure) => failure,
                 };

@@ -14,14 +14,14 @@ pub struct Gesture(u64);
 /// The steps that led to the present document, and those that were undone.
 #[derive(Debug, Default)]
 pub struct History {
-    done: VecDeque<VersionStep>,
-    undone: Vec<VersionStep>,
+    done: VecDeque<HistoryStep>,
+    undone: Vec<HistoryStep>,
     gestures: u64,
 }
 
 /// From one version of a document to another.
 #[derive(Debug)]
-struct VersionStep {
+struct HistoryStep {
     /// The edit that leads there.
     edit: Edit,
     version: Version,
@@ -55,7 +55,7 @@ impl History {
         self.undone.clear();
         match self.done.back_mut() {
             Some(last) if gesture.is_some() && last.gesture == gesture => last.merge(inverse),
-            _ => self.done.push_back(VersionStep { edit: inverse, version, title, gesture }),
+            _ => self.done.push_back(HistoryStep { edit: inverse, version, title, gesture }),
         }
         if self.done.len() > MOST {
             self.done.pop_front();
@@ -117,14 +117,14 @@ impl History {
     }
 }
 
-impl VersionStep {
+impl HistoryStep {
     /// Applies the step and returns its inverse.
-    fn follow(self, document: &mut Document) -> Option<VersionStep> {
+    fn follow(self, document: &mut Document) -> Option<HistoryStep> {
         let from = document.version();
         let inverse = document.return_to(self.version, &self.edit);
         debug_assert!(inverse.is_ok(), "{:?} was possible before: {inverse:?}", self.edit);
         // Nothing is merged with a step that has been undone.
-        Some(VersionStep { edit: inverse.ok()?, version: from, gesture: None, ..self })
+        Some(HistoryStep { edit: inverse.ok()?, version: from, gesture: None, ..self })
     }
 
     /// Extends the step, which undoes edits, by the inverse of one more edit.

@@ -16,7 +16,7 @@ enum Meaning {
 }
 
 /// A value, its path in the material, and its range.
-struct Match {
+struct FoundValue {
     path: Path,
     value: OwnedValue,
     range: Range,
@@ -51,17 +51,17 @@ pub fn kept_by_kind(material: &MaterialDescription, kind: &str) -> Vec<(Path, Ow
 /// Half of the colour, if the kind cannot have all of it: a sheet scatters to both sides. A texture, whose colours are not known here,
 /// counts as white.
 fn halved_colour(material: &mut MaterialDescription) -> Option<(Path, OwnedValue)> {
-    let Match { path, value, .. } = first(material, Meaning::Colour)?;
+    let FoundValue { path, value, .. } = first(material, Meaning::Colour)?;
     let rgb = if let OwnedValue::Textured(Textured::Constant(rgb)) = value { rgb } else { [1.0; 3] };
     let constant = |rgb| OwnedValue::Textured(Textured::Constant(rgb));
     _ = set(material, &path, &constant(rgb));
     material.kind.check().is_err().then(|| (path, constant(rgb.map(|x| 0.5 * x))))
 }
 
-impl Match {
+impl FoundValue {
     /// The value of another one as this one stores it.
-    fn takes(&self, other: &Match) -> Option<OwnedValue> {
-        let is_alpha = |found: &Match| matches!(found.path.0.last(), Some(Step::Key(key)) if key == ALPHA);
+    fn takes(&self, other: &FoundValue) -> Option<OwnedValue> {
+        let is_alpha = |found: &FoundValue| matches!(found.path.0.last(), Some(Step::Key(key)) if key == ALPHA);
         let within = |x: f64| x.clamp(self.range.least, self.range.most);
         match (&other.value, &self.value) {
             (OwnedValue::TexturedNumber(Textured::Constant(x)), OwnedValue::TexturedNumber(_)) => {
@@ -86,7 +86,7 @@ impl Match {
 const ALPHA: &str = "alpha";
 
 /// The first value of a meaning.
-fn first(material: &mut MaterialDescription, meaning: Meaning) -> Option<Match> {
+fn first(material: &mut MaterialDescription, meaning: Meaning) -> Option<FoundValue> {
     let mut finder = Finder { meaning, tables: vec![Path::default()], found: None };
     material.parameters(&mut finder);
     finder.found
@@ -96,7 +96,7 @@ struct Finder {
     meaning: Meaning,
     /// The paths of the tables around the current value.
     tables: Vec<Path>,
-    found: Option<Match>,
+    found: Option<FoundValue>,
 }
 
 impl Finder {
@@ -120,7 +120,7 @@ impl Parameters for Finder {
         if self.is_meant(parameter.key, &value)
             && let Some(table) = self.tables.last()
         {
-            self.found.get_or_insert_with(|| Match { path: table.key(parameter.key), value: OwnedValue::of(&value), range });
+            self.found.get_or_insert_with(|| FoundValue { path: table.key(parameter.key), value: OwnedValue::of(&value), range });
         }
     }
 

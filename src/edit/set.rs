@@ -2,10 +2,10 @@
 use super::walk::{Walk, follows_walk};
 use crate::declare::{Declare, OwnedValue, Parameter, Parameters, Path, Value};
 
-/// Result of setting a value.
+/// What was at the path before a value was set.
 pub enum PreviousValue {
-    /// The value as it was.
-    Value(OwnedValue),
+    /// The value.
+    Present(OwnedValue),
     /// The value itself, or the table at this path above it, was absent and has been added.
     Absent(Path),
 }
@@ -23,7 +23,7 @@ pub fn set(description: &mut dyn Declare, path: &Path, value: &OwnedValue) -> (R
     let mut setter = Setter { walk: Walk::to(path), value, appeared: None, outcome: Err(Failure::Missing) };
     description.parameters(&mut setter);
     let Setter { appeared, outcome, .. } = setter;
-    let found = outcome.map(|was| appeared.clone().map_or(PreviousValue::Value(was), PreviousValue::Absent));
+    let found = outcome.map(|was| appeared.clone().map_or(PreviousValue::Present(was), PreviousValue::Absent));
     (found, appeared)
 }
 

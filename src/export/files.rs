@@ -7,7 +7,7 @@ use std::{
     sync::Arc,
 };
 
-use super::{ExportError, ExportedScene, file_names::FileNames};
+use super::{ExportError, ExportSource, file_names::FileNames};
 use crate::{
     file::{WriteError, open_regular, replace},
     memory::{Size, reserve},
@@ -38,7 +38,7 @@ enum FileContent {
 
 impl ExportedFiles {
     /// Finds the places of the files that a scene names when it is exported to a file.
-    pub fn place(source: &ExportedScene, named: Vec<String>, scene: &Path) -> Result<ExportedFiles, ExportError> {
+    pub fn place(source: &ExportSource, named: Vec<String>, scene: &Path) -> Result<ExportedFiles, ExportError> {
         let parent = scene.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let root = parent.canonicalize().map_err(|_| no_folder(scene, parent))?;
         let stem = scene.file_stem().unwrap_or_default().to_string_lossy();
@@ -98,7 +98,7 @@ fn no_folder(path: &Path, folder: &Path) -> ExportError {
 }
 
 /// The content of a file that a scene names.
-fn content(source: &ExportedScene, named: &str) -> Result<FileContent, ExportError> {
+fn content(source: &ExportSource, named: &str) -> Result<FileContent, ExportError> {
     if let Some(model) = source.assets.get::<Model>(named) {
         return Ok(FileContent::Mesh(model));
     }
@@ -163,7 +163,7 @@ mod tests {
             assets.insert(path, triangle());
         }
         let description = scene(&["meshes/a.ply", "../../meshes/A.ply", "meshes/a.ply"], "wood.png");
-        let source = ExportedScene { description: &description, assets: &assets, folder: from.path() };
+        let source = ExportSource { description: &description, assets: &assets, folder: from.path() };
         let done = write(source, &to.path().join("room.toml")).expect("it is written");
         assert_eq!((done.written, done.copied, done.folder), (2, 1, Some(to.path().join("room.files"))));
         let text = fs::read_to_string(to.path().join("room.toml")).expect("it is there");
@@ -184,7 +184,7 @@ mod tests {
         fs::create_dir(folder.path().join("textures")).expect("a folder");
         fs::write(folder.path().join("textures/wood.png"), "wood").expect("it is written");
         let (description, assets) = (scene(&[], "textures/../textures/wood.png"), Assets::default());
-        let source = ExportedScene { description: &description, assets: &assets, folder: folder.path() };
+        let source = ExportSource { description: &description, assets: &assets, folder: folder.path() };
         let done = write(source, &folder.path().join("room.toml")).expect("it is written");
         let text = fs::read_to_string(folder.path().join("room.toml")).expect("it is there");
         assert_eq!((done.written, done.copied, done.folder, named(&text)), (0, 0, None, vec!["textures/wood.png".to_owned()]));
@@ -198,7 +198,7 @@ mod tests {
         let mut assets = Assets::default();
         assets.insert("a.ply", triangle());
         let description = scene(&["a.ply"], "wood.png");
-        let source = ExportedScene { description: &description, assets: &assets, folder: from.path() };
+        let source = ExportSource { description: &description, assets: &assets, folder: from.path() };
         for name in ["room.toml", "room.xml"] {
             let path = to.path().join(name);
             fs::write(&path, "old").expect("it is written");
@@ -211,7 +211,7 @@ mod tests {
     fn nothing_is_written_if_a_file_is_missing() {
         let folder = tempfile::tempdir().expect("a folder");
         let (description, assets) = (scene(&[], "wood.png"), Assets::default());
-        let source = ExportedScene { description: &description, assets: &assets, folder: folder.path() };
+        let source = ExportSource { description: &description, assets: &assets, folder: folder.path() };
         let error = write(source, &folder.path().join("room.toml")).expect_err("it is missing");
         assert!(error.to_string().contains("wood.png"), "{error}");
         assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 0);

@@ -37,9 +37,9 @@ use crate::{
     scene::description::SceneDescription,
 };
 
-/// A scene with its files.
+/// A scene to export, with its files.
 #[derive(Clone, Copy)]
-pub struct ExportedScene<'a> {
+pub struct ExportSource<'a> {
     /// The scene.
     pub description: &'a SceneDescription,
     /// Files in memory.
@@ -107,16 +107,16 @@ pub enum ExportError {
     TooMuch(#[from] TooMuch),
 }
 
-type Translator = fn(ExportedScene, &Path) -> Result<Prepared, ExportError>;
+type Translator = fn(ExportSource, &Path) -> Result<Prepared, ExportError>;
 
 /// Translates a scene to the format that the name of the file asks for. Nothing is written.
-pub fn prepare(source: ExportedScene, path: &Path) -> Result<Prepared, ExportError> {
+pub fn prepare(source: ExportSource, path: &Path) -> Result<Prepared, ExportError> {
     check(path)?(source, path)
 }
 
 /// Writes a scene. Its meshes and textures go to the folder `NAME.files` beside the file `NAME.toml`, which is written last. Each file
 /// is replaced whole or not at all.
-pub fn write(source: ExportedScene, path: &Path) -> Result<Exported, ExportError> {
+pub fn write(source: ExportSource, path: &Path) -> Result<Exported, ExportError> {
     prepare(source, path)?.write()
 }
 

@@ -6,7 +6,7 @@ use std::{
 
 use glam::DVec3;
 
-use super::{ExportedScene, prepare};
+use super::{ExportSource, prepare};
 use crate::{
     declare::{Assets, check},
     import::{ImportOptions, Imported, read},
@@ -27,7 +27,7 @@ pub struct RoundTrip {
 pub fn round_trip(description: &SceneDescription, assets: &Assets, folder: &Path, name: &str) -> RoundTrip {
     let out = tempfile::tempdir().expect("a folder");
     let path = out.path().join(name);
-    let prepared = prepare(ExportedScene { description, assets, folder }, &path).expect("it can be written");
+    let prepared = prepare(ExportSource { description, assets, folder }, &path).expect("it can be written");
     prepared.write().expect("it is written");
     let imported = read(&path, &ImportOptions::default()).unwrap_or_else(|error| panic!("{}", error.report()));
     let problems = check(&mut imported.description.clone());

@@ -1,11 +1,11 @@
 //! Scenes in the format of Noisefall.
 use std::path::Path;
 
-use super::{ExportError, ExportedScene, Prepared, files::ExportedFiles};
+use super::{ExportError, ExportSource, Prepared, files::ExportedFiles};
 use crate::{declare::for_each_file, edit::new_text, import::Remarks, memory::Size, scene::LARGEST_FILE};
 
 /// Places the files, and makes the text that names them.
-pub fn prepare(source: ExportedScene, path: &Path) -> Result<Prepared, ExportError> {
+pub fn prepare(source: ExportSource, path: &Path) -> Result<Prepared, ExportError> {
     let mut description = source.description.clone();
     let mut named = Vec::new();
     for_each_file(&mut description, &mut |file| named.push(file.clone()));

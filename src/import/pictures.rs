@@ -1,14 +1,15 @@
 //! Images that exist in memory only: encoded PNG and EXR files.
 use std::io::Cursor;
 
-/// A PNG of display values or of linear numbers, grey if there is one channel, with opacity if there are four, row by row from the top left.
+/// A PNG of display values or of linear numbers, row by row from the top left: grey with one channel, with opacity with four.
 pub fn png<const CHANNELS: usize>(width: u32, height: u32, pixels: &[[u8; CHANNELS]]) -> Option<Vec<u8>> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, width, height);
     encoder.set_color(match CHANNELS {
         1 => png::ColorType::Grayscale,
         4 => png::ColorType::Rgba,
-        _ => png::ColorType::Rgb,
+        3 => png::ColorType::Rgb,
+        _ => return None,
     });
     encoder.set_depth(png::BitDepth::Eight);
     let mut writer = encoder.write_header().ok()?;
@@ -38,6 +39,7 @@ mod tests {
     fn images_in_memory_have_their_signatures() {
         let pixels = [[0u8, 128, 255]; 6];
         assert!(png(3, 2, &pixels).is_some_and(|bytes| bytes.starts_with(b"\x89PNG")));
+        assert!(png(2, 2, &[[255], [0], [0], [255]]).is_some() && png(1, 1, &[[0, 255]]).is_none());
         assert!(exr(3, 2, &[[0.5f32, 1.0, 20.0]; 6]).is_some_and(|bytes| bytes.starts_with(b"\x76\x2f\x31\x01")));
     }
 }

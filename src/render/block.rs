@@ -1,5 +1,5 @@
 //! A block of a tile: its sample count, the goal of its samples, and the records of their noise.
-use super::{estimate::Doubling, scatter::SumParts};
+use super::{estimate::Doubling, scatter::VarianceParts};
 
 /// Minimum number of samples of every pixel.
 pub(super) const UNIFORM: u32 = 4;
@@ -16,7 +16,7 @@ pub(super) struct Block {
     /// Records of the last three doublings of the number of samples, latest first. Doublings are at 2, 4, 8, … samples.
     pub doublings: [Doubling; 3],
     /// Parts of the variance of its pixels.
-    pub parts: SumParts,
+    pub parts: VarianceParts,
 }
 
 impl Block {

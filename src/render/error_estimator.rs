@@ -6,7 +6,7 @@
 //! differences.
 use rayon::prelude::*;
 
-use super::{block::Block, estimate::SquaredRadiance, film::Film, region::Region, scatter::SumParts, tile::Tile};
+use super::{block::Block, estimate::SquaredRadiance, film::Film, region::Region, scatter::VarianceParts, tile::Tile};
 use crate::measure::{BlockErrors, Floor};
 
 /// The standard error of the natural logarithm of the estimate, beside chance: of samples that are not independent, how the error
@@ -68,7 +68,7 @@ pub(super) fn rel_mse_estimate_in(film: &Film, region: &Region) -> Option<f64> {
 
 /// Whether the variance comes from enough samples that differ. Without any noise, all pixels must have found light.
 fn has_found_light<'a, I: Iterator<Item = &'a Tile>>(tiles: &impl Fn() -> I) -> bool {
-    let effective = SumParts::effective_count(tiles().flat_map(Tile::parts));
+    let effective = VarianceParts::effective_count(tiles().flat_map(Tile::parts));
     let is_lit = |tile: &Tile| tile.sum.iter().all(|sum| *sum != [0.0; 3]);
     if effective.is_finite() { effective >= FEWEST } else { tiles().all(is_lit) }
 }

@@ -9,7 +9,7 @@ use super::{
     film::Film,
     halves::Halves,
     sample_counts::SampleCounts,
-    scatter::SumParts,
+    scatter::VarianceParts,
     series::Series,
     tile::Tile,
 };
@@ -142,7 +142,7 @@ fn noise(film: &Film, variance: Vec<[f32; 3]>) -> Option<SampleNoise> {
         variance,
         blocks: film.tiles.iter().map(|tile| tile.variance_of_mean(film.sharing.correlates())).collect(),
         block_degrees: if film.sharing.correlates() { f64::from(least - 1) } else { f64::INFINITY },
-        effective_samples: SumParts::effective_count(film.tiles.iter().flat_map(Tile::parts)),
+        effective_samples: VarianceParts::effective_count(film.tiles.iter().flat_map(Tile::parts)),
     })
 }
 

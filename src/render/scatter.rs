@@ -38,12 +38,12 @@ impl Scatter {
 /// The n-th sample of a pixel, x, adds (x − m)² (n − 1)/n to the sum of squared deviations, where m is the mean of the samples
 /// before it.
 #[derive(Clone, Copy, Default)]
-pub(super) struct SumParts {
+pub(super) struct VarianceParts {
     sum: f64,
     squares: f64,
 }
 
-impl SumParts {
+impl VarianceParts {
     /// Adds a sample of a pixel that had `count` samples, whose sum is `sum`.
     #[inline(always)]
     pub fn add(&mut self, x: f64, count: f64, sum: f64) {
@@ -60,14 +60,14 @@ impl SumParts {
     }
 
     /// The parts with these numbers.
-    pub fn of_numbers([sum, squares]: [f64; 2]) -> SumParts {
-        SumParts { sum, squares }
+    pub fn of_numbers([sum, squares]: [f64; 2]) -> VarianceParts {
+        VarianceParts { sum, squares }
     }
 
     /// Converts the parts of pixels with `count` samples to those of the variance of the pixels' means.
-    pub fn of_means(&self, count: f64) -> SumParts {
+    pub fn of_means(&self, count: f64) -> VarianceParts {
         let scale = 1.0 / (count * (count - 1.0));
-        SumParts { sum: self.sum * scale, squares: self.squares * scale * scale }
+        VarianceParts { sum: self.sum * scale, squares: self.squares * scale * scale }
     }
 
     pub fn sum(self) -> f64 {
@@ -75,8 +75,8 @@ impl SumParts {
     }
 
     /// The number of equal parts with the same sums; infinite if there are none.
-    pub fn effective_count(all: impl Iterator<Item = SumParts>) -> f64 {
-        let all = all.fold(SumParts::default(), |a, b| SumParts { sum: a.sum + b.sum, squares: a.squares + b.squares });
+    pub fn effective_count(all: impl Iterator<Item = VarianceParts>) -> f64 {
+        let all = all.fold(VarianceParts::default(), |a, b| VarianceParts { sum: a.sum + b.sum, squares: a.squares + b.squares });
         if all.squares > 0.0 { all.sum * all.sum / all.squares } else { f64::INFINITY }
     }
 }
@@ -99,8 +99,8 @@ mod tests {
         assert_eq!(equal.variance_of_mean(), 0.0);
     }
 
-    fn parts(values: &[f64]) -> SumParts {
-        let (mut parts, mut sum) = (SumParts::default(), 0.0);
+    fn parts(values: &[f64]) -> VarianceParts {
+        let (mut parts, mut sum) = (VarianceParts::default(), 0.0);
         for (count, x) in values.iter().enumerate() {
             parts.add(*x, count as f64, sum);
             sum += x;
@@ -118,7 +118,7 @@ mod tests {
     fn as_many_samples_count_as_carry_the_variance() {
         // 100 pixels with two samples each that differ alike, then ten times as much in one of them.
         let alike = [0.0, 1.0];
-        let count = |pixels: Vec<[f64; 2]>| SumParts::effective_count(pixels.iter().map(|pixel| parts(pixel).of_means(2.0)));
+        let count = |pixels: Vec<[f64; 2]>| VarianceParts::effective_count(pixels.iter().map(|pixel| parts(pixel).of_means(2.0)));
         assert!((count(vec![alike; 100]) - 100.0).abs() < 1e-9);
         let mut one_far = vec![alike; 100];
         one_far[7] = [0.0, 10.0];

@@ -3,7 +3,7 @@ use std::ops::Range;
 
 use super::{
     estimate::{Doubling, Estimate, SquaredRadiance, single},
-    scatter::SumParts,
+    scatter::VarianceParts,
     splats::SplatEstimate,
     tile::Tile,
 };
@@ -60,14 +60,14 @@ impl Tile {
     /// which is more precise.
     pub(super) fn variance_of_mean(&self, shares: bool) -> f64 {
         let values = 3.0 * self.size.map(f64::from).iter().product::<f64>();
-        let of_sum = if shares { self.whole.variance_of_mean() } else { self.parts().map(SumParts::sum).sum() };
+        let of_sum = if shares { self.whole.variance_of_mean() } else { self.parts().map(VarianceParts::sum).sum() };
         // The channels of a path are added as if fully correlated, which is an upper bound.
         let of_splat = |splat: &SplatEstimate| splat.variance.map(|v| f64::from(v).sqrt()).iter().sum::<f64>().powi(2);
         (of_sum + self.splats.iter().map(of_splat).sum::<f64>()) / (values * values)
     }
 
     /// The parts of the variance of the pixels' means.
-    pub(super) fn parts(&self) -> impl Iterator<Item = SumParts> {
+    pub(super) fn parts(&self) -> impl Iterator<Item = VarianceParts> {
         self.blocks.iter().map(|block| block.parts.of_means(f64::from(block.spp)))
     }
 

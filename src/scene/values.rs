@@ -9,8 +9,8 @@ use toml::{
 
 use crate::declare::{Entry, Looks, Parameter, Textured, Value, Word};
 
-/// Error of reading a value.
-pub enum ValueError<'t> {
+/// Result of reading a value.
+pub enum ReadOutcome<'t> {
     Read,
     Wrong(Wrong),
     /// An unknown key in a table that names a texture, and the known keys.
@@ -35,42 +35,42 @@ const COLOUR: &str = "a colour: [red, green, blue], or one number for grey";
 const TEXTURE: Parameter = Parameter::new("texture", "The name of a texture.");
 
 /// Reads `given` into `value`, which is unchanged if that fails.
-pub fn read_value<'t>(given: &'t Spanned<DeValue<'t>>, value: &mut Value<'_>) -> ValueError<'t> {
-    let wrong = |expected: &str| ValueError::Wrong(Wrong { span: given.span(), expected: expected.to_owned(), what: None });
-    let of = |read: Result<(), Wrong>| read.map_or_else(ValueError::Wrong, |()| ValueError::Read);
+pub fn read_value<'t>(given: &'t Spanned<DeValue<'t>>, value: &mut Value<'_>) -> ReadOutcome<'t> {
+    let wrong = |expected: &str| ReadOutcome::Wrong(Wrong { span: given.span(), expected: expected.to_owned(), what: None });
+    let of = |read: Result<(), Wrong>| read.map_or_else(ReadOutcome::Wrong, |()| ReadOutcome::Read);
     match value {
         Value::Number(number, _) => {
-            set(&mut **number, read_number(given.get_ref())).map_or_else(|| wrong("a number"), |()| ValueError::Read)
+            set(&mut **number, read_number(given.get_ref())).map_or_else(|| wrong("a number"), |()| ReadOutcome::Read)
         }
         Value::Count(count, _) => set(&mut **count, read_count(given.get_ref()))
-            .map_or_else(|| wrong("a whole number, 0 or more"), |()| ValueError::Read),
+            .map_or_else(|| wrong("a whole number, 0 or more"), |()| ReadOutcome::Read),
         Value::Flag(flag) => {
-            set(&mut **flag, given.get_ref().as_bool()).map_or_else(|| wrong("true or false"), |()| ValueError::Read)
+            set(&mut **flag, given.get_ref().as_bool()).map_or_else(|| wrong("true or false"), |()| ReadOutcome::Read)
         }
         Value::Text(text) | Value::File(text) | Value::Name(text, _) => {
             let read = given.get_ref().as_str().map(str::to_owned);
-            set(&mut **text, read).map_or_else(|| wrong("text in quotes"), |()| ValueError::Read)
+            set(&mut **text, read).map_or_else(|| wrong("text in quotes"), |()| ReadOutcome::Read)
         }
         Value::Colour(colour, _) => match given.get_ref() {
-            DeValue::Table(table) if table.contains_key("texture") => ValueError::NoTexture,
+            DeValue::Table(table) if table.contains_key("texture") => ReadOutcome::NoTexture,
             _ => of(read_colour(given).map(|read| **colour = read)),
         },
         Value::Textured(textured, _) => match texture(given) {
             Some(found) => found.unwrap_or_else(|name| {
                 **textured = Textured::Texture(name);
-                ValueError::Read
+                ReadOutcome::Read
             }),
             None => of(read_colour(given).map(|read| **textured = Textured::Constant(read))),
         },
         Value::TexturedNumber(textured, _) => match texture(given) {
             Some(found) => found.unwrap_or_else(|name| {
                 **textured = Textured::Texture(name);
-                ValueError::Read
+                ReadOutcome::Read
             }),
             None => match read_number(given.get_ref()) {
                 Some(number) => {
                     **textured = Textured::Constant(number);
-                    ValueError::Read
+                    ReadOutcome::Read
                 }
                 None => wrong("one number"),
             },
@@ -79,7 +79,7 @@ pub fn read_value<'t>(given: &'t Spanned<DeValue<'t>>, value: &mut Value<'_>) ->
         Value::Factors(factors) => match read_number(given.get_ref()) {
             Some(factor) => {
                 **factors = DVec3::splat(factor);
-                ValueError::Read
+                ReadOutcome::Read
             }
             None if given.get_ref().is_array() => of(numbers(given).map(|read| **factors = DVec3::from_array(read))),
             None => wrong("three factors [x, y, z], or one number for all"),
@@ -96,9 +96,9 @@ pub fn read_value<'t>(given: &'t Spanned<DeValue<'t>>, value: &mut Value<'_>) ->
             Some(name) => match words.iter().position(|word| word.name == name) {
                 Some(found) => {
                     **place = found;
-                    ValueError::Read
+                    ReadOutcome::Read
                 }
-                None => ValueError::NoWord(words.to_vec()),
+                None => ReadOutcome::NoWord(words.to_vec()),
             },
             None => wrong("a name in quotes"),
         },
@@ -135,18 +135,19 @@ fn read_colour(given: &Spanned<DeValue>) -> Result<[f64; 3], Wrong> {
 }
 
 /// The name of a texture, if the value is a table; or the error in that table.
-fn texture<'t>(given: &'t Spanned<DeValue<'t>>) -> Option<Result<ValueError<'t>, String>> {
+fn texture<'t>(given: &'t Spanned<DeValue<'t>>) -> Option<Result<ReadOutcome<'t>, String>> {
     let table: &DeTable = given.get_ref().as_table()?;
-    let wrong = |span: Range<usize>, expected: &str| ValueError::Wrong(Wrong { span, expected: expected.to_owned(), what: None });
+    let wrong =
+        |span: Range<usize>, expected: &str| ReadOutcome::Wrong(Wrong { span, expected: expected.to_owned(), what: None });
     if let Some((key, _)) = table.iter().find(|(key, _)| key.get_ref() != TEXTURE.key) {
-        return Some(Ok(ValueError::Unknown(key, vec![Entry { parameter: TEXTURE, looks: Looks::Text }])));
+        return Some(Ok(ReadOutcome::Unknown(key, vec![Entry { parameter: TEXTURE, looks: Looks::Text }])));
     }
     match table.get(TEXTURE.key) {
         Some(name) => match name.get_ref().as_str() {
             Some(name) => Some(Err(name.to_owned())),
             None => Some(Ok(wrong(name.span(), "text in quotes"))),
         },
-        None => Some(Ok(ValueError::Missing(TEXTURE.key))),
+        None => Some(Ok(ReadOutcome::Missing(TEXTURE.key))),
     }
 }
 

@@ -106,7 +106,7 @@ impl Declare for Rotation {
 }
 
 impl Transform {
-    /// The list of transforms of a map: none for the identity.
+    /// Converts an affine map to a list of transforms, empty for the identity.
     pub(crate) fn list_of(map: &DAffine3) -> Vec<Transform> {
         if *map == DAffine3::IDENTITY {
             return Vec::new();

@@ -4,8 +4,10 @@ use super::{
     ranking::Findings,
     setting::Setting,
 };
-use crate::declare::capitalised;
-use crate::report::plot::{Axis, BESIDE, Curve, Plot, Style, curve};
+use crate::{
+    declare::capitalised,
+    report::plot::{Axis, BESIDE, Curve, Plot, Style, curve},
+};
 
 /// Number of best combinations in the overview.
 const FIRST_PLACES: usize = 3;

@@ -1,5 +1,5 @@
 //! Checker: squares of two textures in turn. The square at u = v = 0 is even.
-use super::{Lookup, Pattern, Summary, TextureCompiler, TextureCoordinates, Textures, Texturing};
+use super::{LookupResult, Pattern, Summary, TextureCompiler, TextureCoordinates, Textures, Texturing};
 use crate::{
     declare::{Declare, Kind, Parameter, Parameters, Problem, Range, Textured},
     math::{F, Lanes, M, Pick, round::floor},
@@ -73,7 +73,7 @@ impl Pattern for Squares {
     }
 
     #[inline(always)]
-    fn apply<L: Lanes>(&self, l: L, here: M<L>, at: &TextureCoordinates<L>, _: &Textures, found: &mut Lookup<L>) {
+    fn apply<L: Lanes>(&self, l: L, here: M<L>, at: &TextureCoordinates<L>, _: &Textures, found: &mut LookupResult<L>) {
         found.id = here.pick(is_even(at.u, at.v, self.scale).pick(l.u(self.even), l.u(self.odd)), found.id);
     }
 }

@@ -1,5 +1,5 @@
 //! The same colour everywhere: what stands for a texture that is only a colour.
-use super::{Lookup, Pattern, Summary, TextureCoordinates, Textures};
+use super::{LookupResult, Pattern, Summary, TextureCoordinates, Textures};
 use crate::math::{Lanes, M, Pick, V};
 
 /// Linear Rec. 709.
@@ -11,7 +11,7 @@ impl Pattern for Constant {
     }
 
     #[inline(always)]
-    fn apply<L: Lanes>(&self, l: L, here: M<L>, _: &TextureCoordinates<L>, _: &Textures, found: &mut Lookup<L>) {
+    fn apply<L: Lanes>(&self, l: L, here: M<L>, _: &TextureCoordinates<L>, _: &Textures, found: &mut LookupResult<L>) {
         found.colour = here.pick(V::splat(l, self.0), found.colour);
     }
 }

@@ -2,8 +2,8 @@
 use fearless_simd_macros::simd;
 
 use super::{
-    ColourSource, Lookup, NumberSource, Pattern, Summary, Texture, TextureCompiler, TextureCoordinates, Textures, Texturing,
-    compiler::MOST_LOOKUPS, parts::finest,
+    ColourSource, LookupResult, NumberSource, Pattern, Summary, Texture, TextureCompiler, TextureCoordinates, Textures,
+    Texturing, compiler::MOST_LOOKUPS, parts::finest,
 };
 use crate::{
     declare::{Declare, Kind, Parameter, Parameters, Problem, Range, Textured},
@@ -107,7 +107,7 @@ impl Pattern for Mixture {
     }
 
     #[inline(always)]
-    fn apply<L: Lanes>(&self, l: L, here: M<L>, at: &TextureCoordinates<L>, textures: &Textures, found: &mut Lookup<L>) {
+    fn apply<L: Lanes>(&self, l: L, here: M<L>, at: &TextureCoordinates<L>, textures: &Textures, found: &mut LookupResult<L>) {
         found.colour = here.pick(self.colour(l, here, at, textures), found.colour);
     }
 }

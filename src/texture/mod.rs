@@ -97,11 +97,11 @@ pub trait Pattern {
 
     /// Writes the colour, or the texture to look up in its place, in the lanes `here`. A texture that combines several looks them
     /// up among `textures`.
-    fn apply<L: Lanes>(&self, l: L, here: M<L>, at: &TextureCoordinates<L>, textures: &Textures, found: &mut Lookup<L>);
+    fn apply<L: Lanes>(&self, l: L, here: M<L>, at: &TextureCoordinates<L>, textures: &Textures, found: &mut LookupResult<L>);
 }
 
 /// Result of a lookup so far.
-pub struct Lookup<L: Lanes> {
+pub struct LookupResult<L: Lanes> {
     /// The texture that is still to be looked up.
     pub id: U<L>,
     /// The colour.
@@ -183,7 +183,7 @@ impl Textures {
     /// The colour of the textures `id` in the lanes of the mask; black in the others.
     #[simd]
     pub fn colour<L: Lanes>(&self, l: L, id: U<L>, mask: M<L>, at: &TextureCoordinates<L>) -> V<L> {
-        let mut found = Lookup { id, colour: V::splat(l, [0.0; 3]) };
+        let mut found = LookupResult { id, colour: V::splat(l, [0.0; 3]) };
         // What a texture refers to stands before it: going backwards, one pass follows any nesting.
         for k in (0..self.textures.len()).rev() {
             let here = mask & found.id.is(k as u32);

@@ -1,5 +1,5 @@
 //! Noise: a random smooth function of the world-space position, statistically the same at every position and in every direction.
-use super::{Lookup, Pattern, Summary, TextureCompiler, TextureCoordinates, Textures, Texturing};
+use super::{LookupResult, Pattern, Summary, TextureCompiler, TextureCoordinates, Textures, Texturing};
 use crate::{
     declare::{CountRange, Declare, Kind, Parameter, Parameters, Problem, Range},
     math::{Lanes, M, Pick, V},
@@ -76,7 +76,7 @@ impl Pattern for Clouds {
     }
 
     #[inline(always)]
-    fn apply<L: Lanes>(&self, l: L, here: M<L>, at: &TextureCoordinates<L>, _: &Textures, found: &mut Lookup<L>) {
+    fn apply<L: Lanes>(&self, l: L, here: M<L>, at: &TextureCoordinates<L>, _: &Textures, found: &mut LookupResult<L>) {
         let t = fraction(at.p, self.scale, self.octaves);
         found.colour = here.pick(V::splat(l, self.low) * (1.0 - t) + V::splat(l, self.high) * t, found.colour);
     }

@@ -1,7 +1,9 @@
 //! The product of two colours or textures.
 use fearless_simd_macros::simd;
 
-use super::{ColourSource, Lookup, Pattern, Summary, TextureCompiler, TextureCoordinates, Textures, Texturing, parts::finest};
+use super::{
+    ColourSource, LookupResult, Pattern, Summary, TextureCompiler, TextureCoordinates, Textures, Texturing, parts::finest,
+};
 use crate::{
     declare::{Declare, Kind, Parameter, Parameters, Problem, Range, Textured},
     math::{Lanes, M, Pick, V},
@@ -77,7 +79,7 @@ impl Pattern for Factors {
     }
 
     #[inline(always)]
-    fn apply<L: Lanes>(&self, l: L, here: M<L>, at: &TextureCoordinates<L>, textures: &Textures, found: &mut Lookup<L>) {
+    fn apply<L: Lanes>(&self, l: L, here: M<L>, at: &TextureCoordinates<L>, textures: &Textures, found: &mut LookupResult<L>) {
         found.colour = here.pick(self.colour(l, here, at, textures), found.colour);
     }
 }

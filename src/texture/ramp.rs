@@ -1,7 +1,7 @@
 //! Colours along a scale, interpolated between stops.
 use fearless_simd_macros::simd;
 
-use super::{Lookup, NumberSource, Pattern, Summary, TextureCompiler, TextureCoordinates, Textures, Texturing};
+use super::{LookupResult, NumberSource, Pattern, Summary, TextureCompiler, TextureCoordinates, Textures, Texturing};
 use crate::{
     declare::{Declare, Kind, Parameter, Parameters, Problem, Range, Textured},
     math::{F, Lanes, M, One, Pick, V},
@@ -140,7 +140,7 @@ impl Pattern for Gradient {
     }
 
     #[inline(always)]
-    fn apply<L: Lanes>(&self, l: L, here: M<L>, at: &TextureCoordinates<L>, textures: &Textures, found: &mut Lookup<L>) {
+    fn apply<L: Lanes>(&self, l: L, here: M<L>, at: &TextureCoordinates<L>, textures: &Textures, found: &mut LookupResult<L>) {
         found.colour = here.pick(self.colour(l, here, at, textures), found.colour);
     }
 }

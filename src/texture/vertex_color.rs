@@ -1,5 +1,5 @@
 //! The colours of a mesh’s vertices, interpolated; white without them.
-use super::{Lookup, Pattern, Summary, TextureCompiler, TextureCoordinates, Textures, Texturing, image::Channel};
+use super::{LookupResult, Pattern, Summary, TextureCompiler, TextureCoordinates, Textures, Texturing, image::Channel};
 use crate::{
     declare::{Declare, Kind, Parameter, Parameters, Problem},
     math::{Lanes, M, Pick, V},
@@ -50,7 +50,7 @@ impl Pattern for VertexLookup {
     }
 
     #[inline(always)]
-    fn apply<L: Lanes>(&self, l: L, here: M<L>, at: &TextureCoordinates<L>, _: &Textures, found: &mut Lookup<L>) {
+    fn apply<L: Lanes>(&self, l: L, here: M<L>, at: &TextureCoordinates<L>, _: &Textures, found: &mut LookupResult<L>) {
         let colour = match at.vertex {
             None => V::splat(l, [1.0; 3]),
             Some(&[r, g, b, opacity]) => match self.0 {

@@ -70,7 +70,7 @@ const RANGES: &[Range] = &[
     range("background.rotate", "VIEW\nbackground = { image = 'sky.hdr', rotate = X }", &["0", "-1e300", "1e300", "3600.5"], &["nan", "inf", "-inf"], "`rotate` is not a finite number"),
     range("background.scale", "VIEW\nbackground = { image = 'sky.hdr', scale = X }", &["1e-12", "1e12"], &["0.99e-12", "1.000001e12", "0.0", "-1.0", "nan"], "expected a number from 1e-12 to 1e12"),
     range("background.sky.turbidity", "VIEW\nbackground.sky.turbidity = X", &["1.0", "10.0"], &["0.99", "10.01", "nan"], "expected a number from 1 to 10"),
-    range("background.sky.sun", "VIEW\nbackground.sky.sun = [0, X, 0]", &["1e-9", "-1.0"], &["0.0"], "the direction of the sun is zero"),
+    range("background.sky.sun", "VIEW\nbackground.sky.sun = [0, X, 0]", &["1e-9", "-1.0"], &["0.0"], "the sun has no direction"),
     range("lamps.point.position", "VIEW\n[[lamps]]\npoint.position = [X, 0.0, 0.0]", FAR, BEYOND, POSITION),
     range("lamps.point.intensity", "VIEW\n[[lamps]]\npoint.intensity = X", LIGHT, NO_LIGHT, "every channel must be a number from 0 to 1e15"),
     range("lamps.spot.angle", "VIEW\n[[lamps]]\nspot.angle = X", &["0.01", "180.0"], &["0.0099", "180.001", "nan"], "expected a number from 0.01 to 180"),

@@ -20,6 +20,7 @@ macro_rules! features {
             $($name),*
         }
 
+                /// All features, in this order: a list by hand could miss one.
         const ALL: &[Feature] = &[$($name),*];
     };
 }

@@ -52,7 +52,7 @@ fn bits(film: &Film) -> Vec<[u32; 4]> {
     pixels.map(|([r, g, b], error)| [r, g, b, error].map(|x| x.to_bits())).collect()
 }
 
-/// Whether any number of threads and any SIMD level give the same bits.
+/// Asserts that any number of threads and any SIMD level give the same bits.
 fn assert_same_everywhere(scene: &Scene, settings: &RenderSettings, what: &str) {
     let reference = bits(&film(scene, 1, SimdLevel::Scalar, settings, SPP));
     for level in SimdLevel::available() {
@@ -62,7 +62,7 @@ fn assert_same_everywhere(scene: &Scene, settings: &RenderSettings, what: &str) 
     }
 }
 
-/// Whether a pass that is interrupted, sometimes in the middle of a path, goes on to the same bits.
+/// Asserts that a pass that is interrupted, sometimes in the middle of a path, continues to the same bits.
 fn assert_goes_on(scene: &Scene, settings: &RenderSettings, what: &str) {
     let threads = Threads::new(2, SimdLevel::best()).expect("threads can be had");
     let job = PassJob { scene, rays: &scene.rays(&camera(scene)), settings };
@@ -84,8 +84,9 @@ fn the_film_is_the_same_for_every_number_of_threads_and_every_simd_level() {
 
 #[test]
 fn an_interrupted_pass_goes_on_as_if_nothing_had_happened() {
+    let scene = built_in();
     for reuse in SHARING {
-        assert_goes_on(&built_in(), &settings(Sampler::Sobol, reuse), &format!("{reuse:?}"));
+        assert_goes_on(&scene, &settings(Sampler::Sobol, reuse), &format!("{reuse:?}"));
     }
 }
 
@@ -129,7 +130,8 @@ fn paths_from_lights_bring_the_same_light_for_every_number_of_threads_and_every_
 
 #[test]
 fn an_interrupted_pass_with_paths_from_lights_goes_on_as_if_nothing_had_happened() {
+    let scene = built_in();
     for estimator in BOTH_ENDS {
-        assert_goes_on(&built_in(), &from_both_ends(estimator), estimator.name());
+        assert_goes_on(&scene, &from_both_ends(estimator), estimator.name());
     }
 }

@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 
 use super::{
     super::{
-        ExportError, ExportedScene, Prepared,
+        ExportError, ExportSource, Prepared,
         files::{ExportedFiles, bytes},
     },
     context::Export,
@@ -22,7 +22,7 @@ const CHUNK: usize = 8;
 
 impl Export<'_> {
     /// The JSON file. Binary data and images are files of their own.
-    pub fn text(mut self, source: ExportedScene, path: &Path) -> Result<Prepared, ExportError> {
+    pub fn text(mut self, source: ExportSource, path: &Path) -> Result<Prepared, ExportError> {
         let mut buffer = None;
         if !self.document.buffer.bytes.is_empty() {
             let bytes = std::mem::take(&mut self.document.buffer.bytes);
@@ -30,7 +30,7 @@ impl Export<'_> {
             let length = bytes.len();
             buffer = Some((self.new.add("meshes", &stem, "bin", bytes), length));
         }
-        let moved = ExportedScene { assets: &self.new.assets, ..source };
+        let moved = ExportSource { assets: &self.new.assets, ..source };
         let files = ExportedFiles::place(&moved, self.new.named, path)?;
         for image in &self.images {
             self.document.add("images", json!({ "uri": encoded(&files.path(image)) }));
@@ -43,7 +43,7 @@ impl Export<'_> {
     }
 
     /// The binary file, with everything in it.
-    pub fn binary(mut self, source: ExportedScene, path: &Path) -> Result<Prepared, ExportError> {
+    pub fn binary(mut self, source: ExportSource, path: &Path) -> Result<Prepared, ExportError> {
         for image in std::mem::take(&mut self.images) {
             let content = match self.new.assets.get::<Vec<u8>>(&image) {
                 Some(content) => content,

@@ -5,7 +5,7 @@ use glam::DAffine3;
 use serde_json::{Map, Value, json};
 
 use super::{
-    super::{ExportedScene, new_assets::NewAssets, notes::Notes, textures::Colors},
+    super::{ExportSource, new_assets::NewAssets, notes::Notes, textures::Colors},
     document::Document,
     known::{Columns, Made, Mapped, MeshKey, Triangles},
 };
@@ -39,7 +39,7 @@ pub struct Export<'a> {
 }
 
 impl<'a> Export<'a> {
-    pub fn new(source: ExportedScene<'a>, resources: &'a Resources) -> Export<'a> {
+    pub fn new(source: ExportSource<'a>, resources: &'a Resources) -> Export<'a> {
         Export {
             description: source.description,
             resources,

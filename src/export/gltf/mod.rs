@@ -31,20 +31,20 @@ mod units;
 use std::path::Path;
 
 use self::context::Export;
-use super::{ExportError, ExportedScene, Prepared, geometry};
+use super::{ExportError, ExportSource, Prepared, geometry};
 use crate::declare::{self, Resources};
 
 /// Translates a scene to JSON with files beside it.
-pub fn prepare_text(source: ExportedScene, path: &Path) -> Result<Prepared, ExportError> {
+pub fn prepare_text(source: ExportSource, path: &Path) -> Result<Prepared, ExportError> {
     prepare(source, |export| export.text(source, path))
 }
 
 /// Translates a scene to one binary file.
-pub fn prepare_binary(source: ExportedScene, path: &Path) -> Result<Prepared, ExportError> {
+pub fn prepare_binary(source: ExportSource, path: &Path) -> Result<Prepared, ExportError> {
     prepare(source, |export| export.binary(source, path))
 }
 
-fn prepare(source: ExportedScene, finish: impl FnOnce(Export) -> Result<Prepared, ExportError>) -> Result<Prepared, ExportError> {
+fn prepare(source: ExportSource, finish: impl FnOnce(Export) -> Result<Prepared, ExportError>) -> Result<Prepared, ExportError> {
     let resources = Resources::new(source.folder).with_assets(source.assets.clone());
     let mut export = Export::new(source, &resources);
     camera::add(&mut export);

@@ -1,6 +1,6 @@
 //! Materials: sides, opacity, normals, and the kinds without highlights.
 use super::{
-    context::{Export, KnownObject},
+    context::{Export, ReferencedObject},
     markup::Element,
 };
 use crate::{
@@ -44,7 +44,7 @@ impl Export<'_> {
     /// The id of a material, which is black from behind if the blend around it is.
     fn material(&mut self, name: &str, one_sided: bool, depth: usize) -> Option<String> {
         let key = if one_sided { format!("{name}\n") } else { name.to_owned() };
-        if let Some(KnownObject { id, uses_coordinates }) = self.materials.get(&key) {
+        if let Some(ReferencedObject { id, uses_coordinates }) = self.materials.get(&key) {
             self.uses_coordinates |= *uses_coordinates;
             return Some(id.clone());
         }
@@ -53,7 +53,7 @@ impl Export<'_> {
         let (element, uses_coordinates) =
             self.at(format!("materials.{name}"), |export| export.bsdf(description, one_sided, depth));
         self.scene.push(element.attribute("id", id.clone()));
-        self.materials.insert(key, KnownObject { id: id.clone(), uses_coordinates });
+        self.materials.insert(key, ReferencedObject { id: id.clone(), uses_coordinates });
         Some(id)
     }
 

@@ -2,7 +2,7 @@
 use std::collections::HashMap;
 
 use super::{
-    super::{ExportedScene, new_assets::NewAssets, notes::Notes, textures::Colors},
+    super::{ExportSource, new_assets::NewAssets, notes::Notes, textures::Colors},
     markup::Element,
 };
 use crate::{declare::Resources, import::Names, scene::description::SceneDescription};
@@ -18,9 +18,9 @@ pub struct Export<'a> {
     /// Whether what is being translated uses coordinates of the surface.
     pub uses_coordinates: bool,
     /// Ids of textures.
-    pub textures: HashMap<String, KnownObject>,
+    pub textures: HashMap<String, ReferencedObject>,
     /// Ids of materials by name and whether their back reflects.
-    pub materials: HashMap<String, KnownObject>,
+    pub materials: HashMap<String, ReferencedObject>,
     /// Paths of meshes by what determines them.
     pub meshes: HashMap<usize, String>,
     ids: Names,
@@ -28,13 +28,13 @@ pub struct Export<'a> {
 
 /// An object that others refer to.
 #[derive(Clone)]
-pub struct KnownObject {
+pub struct ReferencedObject {
     pub id: String,
     pub uses_coordinates: bool,
 }
 
 impl<'a> Export<'a> {
-    pub fn new(source: ExportedScene<'a>, resources: &'a Resources) -> Export<'a> {
+    pub fn new(source: ExportSource<'a>, resources: &'a Resources) -> Export<'a> {
         Export {
             description: source.description,
             colors: Colors::new(source.description, resources),

@@ -28,14 +28,14 @@ mod textures;
 use std::path::Path;
 
 use self::{context::Export, markup::Element};
-use super::{ExportError, ExportedScene, Prepared, files::ExportedFiles, geometry};
+use super::{ExportError, ExportSource, Prepared, files::ExportedFiles, geometry};
 use crate::declare::{self, Resources};
 
 /// The version of Mitsuba whose syntax is written.
 const VERSION: &str = "3.0.0";
 
 /// Translates a scene.
-pub fn prepare(source: ExportedScene, path: &Path) -> Result<Prepared, ExportError> {
+pub fn prepare(source: ExportSource, path: &Path) -> Result<Prepared, ExportError> {
     let resources = Resources::new(source.folder).with_assets(source.assets.clone());
     let mut export = Export::new(source, &resources);
     sensor::settings(&mut export);
@@ -48,7 +48,7 @@ pub fn prepare(source: ExportedScene, path: &Path) -> Result<Prepared, ExportErr
     emitters::all(&mut export);
     let Export { scene, new, notes, .. } = export;
     let mut scene = Element::new("scene").attribute("version", VERSION).with_all(scene);
-    let moved = ExportedScene { assets: &new.assets, ..source };
+    let moved = ExportSource { assets: &new.assets, ..source };
     let files = ExportedFiles::place(&moved, new.named, path)?;
     scene.for_each_file(&mut |file: &mut String| *file = files.path(file));
     let mut text = "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n".to_owned();

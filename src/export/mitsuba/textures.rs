@@ -3,7 +3,7 @@ use glam::{DAffine3, DMat3, DVec2, DVec3};
 
 use super::{
     super::textures::{BAKED, luminance},
-    context::{Export, KnownObject},
+    context::{Export, ReferencedObject},
     markup::{Element, FILE},
 };
 use crate::{
@@ -63,7 +63,7 @@ impl Export<'_> {
 
     /// The id of a texture; `None` if it has no image.
     pub fn texture(&mut self, name: &str) -> Option<String> {
-        if let Some(KnownObject { id, uses_coordinates }) = self.textures.get(name) {
+        if let Some(ReferencedObject { id, uses_coordinates }) = self.textures.get(name) {
             self.uses_coordinates |= *uses_coordinates;
             return Some(id.clone());
         }
@@ -82,7 +82,7 @@ impl Export<'_> {
         });
         let id = self.id(name, "texture");
         self.scene.push(element?.attribute("id", id.clone()));
-        self.textures.insert(name.to_owned(), KnownObject { id: id.clone(), uses_coordinates });
+        self.textures.insert(name.to_owned(), ReferencedObject { id: id.clone(), uses_coordinates });
         Some(id)
     }
 

@@ -43,7 +43,7 @@ pub struct Instances<'a> {
     pub most: u64,
     /// Least and greatest coordinates of all objects, metres.
     pub bounds: [DVec3; 2],
-    models: HashMap<Key, Option<Rc<KnownModel>>>,
+    models: HashMap<Key, Option<Rc<AssetModel>>>,
     files: Names,
     names: Names,
     /// By skin.
@@ -63,7 +63,7 @@ struct Key {
 }
 
 /// A model in the assets.
-struct KnownModel {
+struct AssetModel {
     path: String,
     bounds: [DVec3; 2],
     has_normals: bool,
@@ -249,7 +249,7 @@ impl<'a> Instances<'a> {
         shown: &Shown,
         (at, primitive): (usize, &Primitive),
         uvs: Option<u32>,
-    ) -> Found<Option<Rc<KnownModel>>> {
+    ) -> Found<Option<Rc<AssetModel>>> {
         let deformation = &shown.deformation;
         let is_morphed = primitive.targets.iter().zip(&deformation.weights).any(|(_, weight)| *weight != 0.0);
         let is_deformed = is_morphed || !deformation.joints.is_empty();
@@ -269,7 +269,7 @@ impl<'a> Instances<'a> {
     }
 
     /// Adds a model to the assets; `None` if it is a point.
-    fn keep(&mut self, to: &mut Imported, model: Model, name: &str) -> Option<KnownModel> {
+    fn keep(&mut self, to: &mut Imported, model: Model, name: &str) -> Option<AssetModel> {
         let points = || model.vertices.iter().map(|vertex| Vec3::from(*vertex));
         let least = points().fold(Vec3::INFINITY, Vec3::min).as_dvec3();
         let greatest = points().fold(Vec3::NEG_INFINITY, Vec3::max).as_dvec3();
@@ -277,7 +277,7 @@ impl<'a> Instances<'a> {
             return None;
         }
         let path = format!("meshes/{}.ply", self.files.unique(&file_name(name), "mesh"));
-        let known = KnownModel { path: path.clone(), bounds: [least, greatest], has_normals: model.normals.is_some() };
+        let known = AssetModel { path: path.clone(), bounds: [least, greatest], has_normals: model.normals.is_some() };
         to.assets.insert(path, model);
         Some(known)
     }

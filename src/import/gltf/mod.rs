@@ -68,7 +68,7 @@ fn translated(container: Container, folder: &Folder, options: &ImportOptions, fi
     };
     for name in &poses.left_out {
         let found = format!("animation \"{name}\"");
-        to.remarks.add(file, found, "animations before it", "nodes that both move follow the earlier one");
+        to.remarks.add(file, found, "animations before it", "where both set the same property of a node, the earlier one counts");
     }
     for target in &poses.unknown {
         to.remarks.add(file, format!("an animation of `{target}`"), "nothing", "it stays as it is");

@@ -9,9 +9,9 @@
 //! | everything else | `lambertian` |
 //!
 //! The exponent `Ns` of a Phong highlight becomes α = √(2/(`Ns` + 2)), which has the same spread of normals (Walter et al., "Microfacet
-//! models for refraction through rough surfaces", 2007). `d`, or 1 − `Tr`, is the opacity of all but glass. `Ke` is a radiance, W/(m²
-//! sr), of both sides, because winding is not reliable. `Ka` has no effect: it is the reflectance of ambient light, which a path tracer
-//! does not have.
+//! models for refraction through rough surfaces", 2007). `d`, or 1 − `Tr`, is the opacity of all but glass. `Ke` is a radiance,
+//! W/(m² sr), of both sides, because winding is not reliable. `Ka` has no effect: it is the reflectance of ambient light, which a path
+//! tracer does not have.
 use super::{map::Map, mtl::Mtl, textures::Textures};
 use crate::{
     declare::Textured,
@@ -200,7 +200,7 @@ impl MtlImport<'_> {
         let map = self.mtl.map("map_d").or_else(|| {
             let inverse = self.mtl.map("map_tr");
             if inverse.is_some() {
-                self.to.remarks.add(self.place, "`map_Tr`", "`map_d`", "transparent and opaque parts may be exchanged");
+                self.to.remarks.add(self.place, "`map_Tr`", "`map_d`", "transparent and opaque parts may be swapped");
             }
             inverse
         });

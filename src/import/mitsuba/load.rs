@@ -63,7 +63,7 @@ struct Loader<'o> {
 
 /// A file that is being read.
 #[derive(Clone, Copy)]
-struct IncludedFile {
+struct LoadedFile {
     number: usize,
     /// Includes that lead to it.
     depth: usize,
@@ -103,7 +103,7 @@ impl Loader<'_> {
         let document = markup::parse(&text)?;
         let root = document.root_element();
         let is_old = root.attribute("version").map_or(is_old, upgrade::is_old);
-        let source = IncludedFile { number, depth, is_old };
+        let source = LoadedFile { number, depth, is_old };
         match parent {
             Some((parent, level)) if root.has_tag_name("scene") => self.children(root, Some(parent), level, source),
             Some((parent, level)) => self.element(root, Some(parent), level, source),
@@ -116,7 +116,7 @@ impl Loader<'_> {
         node: roxmltree::Node,
         parent: Option<usize>,
         level: usize,
-        source: IncludedFile,
+        source: LoadedFile,
     ) -> Result<(), SceneError> {
         node.children().filter(roxmltree::Node::is_element).try_for_each(|child| self.element(child, parent, level, source))
     }
@@ -126,7 +126,7 @@ impl Loader<'_> {
         node: roxmltree::Node,
         parent: Option<usize>,
         level: usize,
-        source: IncludedFile,
+        source: LoadedFile,
     ) -> Result<(), SceneError> {
         let place = FileSpan { file: source.number, span: node.range().start..node.range().start + 1 };
         if level > DEEPEST {
@@ -178,7 +178,7 @@ impl Loader<'_> {
         Ok(index)
     }
 
-    fn include(&mut self, element: &Node, parent: Option<(usize, usize)>, source: IncludedFile) -> Result<(), SceneError> {
+    fn include(&mut self, element: &Node, parent: Option<(usize, usize)>, source: LoadedFile) -> Result<(), SceneError> {
         let error = |message: String| self.tree.error(&element.place, message, "the path is relative to the scene file");
         if source.depth >= DEEPEST_INCLUDE || self.includes >= MOST_INCLUDES {
             return Err(error("files include each other in a circle, or too often".to_owned()));

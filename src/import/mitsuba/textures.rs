@@ -161,10 +161,7 @@ impl Import {
                 (self.colour(element, "color0", 0.4, Role::Reflectance)?, self.colour(element, "color1", 0.2, Role::Reflectance)?)
             }
             TextureValue::Number => {
-                let mut grey = |name, default| {
-                    let number = self.textured_number(element, name, default);
-                    number.map(|number| number.map(|number| [number; 3]))
-                };
+                let mut grey = |name, default| self.textured_number(element, name, default).map(|number| number.map(|x| [x; 3]));
                 (grey("color1", 0.2)?, grey("color0", 0.4)?)
             }
         };

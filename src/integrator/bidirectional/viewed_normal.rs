@@ -1,4 +1,4 @@
-//! Shading normals by viewer. One that faces away from the viewer is replaced, see [`super::super::normal_mapping`].
+//! Shading normals by viewer. One that faces away from the viewer is mirrored or replaced: see [`super::super::normal_mapping`].
 use crate::{
     integrator::{
         normal_mapping::{GRAZING, visible_normal},

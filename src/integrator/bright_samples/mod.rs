@@ -1,10 +1,10 @@
 //! The data that sharing of bright samples stores. [`super::bright`] does the sharing.
-mod found;
+mod buffers;
 mod replays;
 mod thresholds;
 
 pub use self::{
-    found::{BrightBuffers, BrightSample},
+    buffers::{BrightBuffers, BrightSample},
     replays::Replays,
     thresholds::{Thresholds, brightness},
 };

@@ -75,20 +75,20 @@ pub(super) fn both_ends(work: &Work, batch: &mut Batch) -> Option<BothEnds> {
 struct Subpath {
     /// Pdf of its vertices and of its direction.
     pdf: f64,
-    step: StepPdf,
+    step: PdfMeasure,
     /// Pdfs of its first vertices: of two, of three and so on, with the end it starts at.
     pdfs: Vec<f64>,
 }
 
 impl Default for Subpath {
     fn default() -> Self {
-        Subpath { pdf: 1.0, step: StepPdf::Delta, pdfs: Vec::new() }
+        Subpath { pdf: 1.0, step: PdfMeasure::Delta, pdfs: Vec::new() }
     }
 }
 
-/// What the direction to the next vertex has a pdf for.
+/// The measure of the pdf of the direction to the next vertex.
 #[derive(Clone, Copy)]
-enum StepPdf {
+enum PdfMeasure {
     /// The direction, per solid angle.
     Direction,
     /// Points of a plane across the direction, per area.
@@ -102,9 +102,9 @@ impl Subpath {
     fn arrive(&mut self, distance: f32, cos: f32) {
         let (distance, cos) = (f64::from(distance), f64::from(cos));
         self.pdf *= match self.step {
-            StepPdf::Direction => cos / (distance * distance),
-            StepPdf::Parallel => cos,
-            StepPdf::Delta => 1.0,
+            PdfMeasure::Direction => cos / (distance * distance),
+            PdfMeasure::Parallel => cos,
+            PdfMeasure::Delta => 1.0,
         };
         self.pdfs.push(self.pdf);
     }
@@ -155,7 +155,7 @@ impl Observer<One> for Recorder<'_, '_> {
         let is_near = ray.on_surface.0 || ray.is_lamp.0 && is_near_lamp();
         let path = &mut self.ends[PathStart::Light as usize];
         path.pdf = f64::from(cos) / f64::from(ray.inverse_density.0);
-        path.step = if is_near { StepPdf::Direction } else { StepPdf::Parallel };
+        path.step = if is_near { PdfMeasure::Direction } else { PdfMeasure::Parallel };
     }
 
     fn arrived(
@@ -200,10 +200,10 @@ impl Observer<One> for Recorder<'_, '_> {
         }
         let path = &mut self.ends[start as usize];
         if sample.delta.0 {
-            path.step = StepPdf::Delta;
+            path.step = PdfMeasure::Delta;
         } else {
             path.pdf *= f64::from(sample.pdf.0);
-            path.step = StepPdf::Direction;
+            path.step = PdfMeasure::Direction;
         }
     }
 

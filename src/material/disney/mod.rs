@@ -18,7 +18,7 @@
 //! with every bounce, so that a closed room of them has no image without a cap of bounces. It is reciprocal.
 //!
 //! Mitsuba's sampling rates are not here: they have no effect on the image. An index of 1 reflects nothing but the clear coat, as there.
-//! Unlike its vectorized variants, Mitsuba's scalar variants leave out the sheen where `spec_trans` is exactly 1; here it stays.
+//! Mitsuba's scalar variants, unlike its vectorized ones, leave out the sheen where `spec_trans` is exactly 1; here it stays.
 mod bsdf;
 mod coat;
 mod compile;

@@ -11,7 +11,7 @@ use crate::{
         exact_sum::ExactSums,
         film::Film,
         region::Region,
-        scatter::{Scatter, SumParts},
+        scatter::{Scatter, VarianceParts},
         splats::{PLANES, SplatFilm, TileSplats},
         tile::Tile,
     },
@@ -191,7 +191,7 @@ fn read_block(fields: &mut Fields) -> Result<Block, RenderFileError> {
     let [spp, doubled] = fields.take::<[u32; 2]>()?;
     let rate = fields.take::<i8>()?;
     let doublings = fields.take::<[[f64; 2]; 3]>()?.map(|[moved, variance]| Doubling { moved, variance });
-    let parts = SumParts::of_numbers(fields.take()?);
+    let parts = VarianceParts::of_numbers(fields.take()?);
     Ok(Block { spp, doubled, rate, doublings, parts })
 }
 

@@ -11,7 +11,7 @@ use self::reader::{Reader, TableFrame};
 use super::{
     damage::Damage,
     diagnostic::{SceneError, SourceText},
-    values::{ValueError, Wrong, read_value},
+    values::{ReadOutcome, Wrong, read_value},
     wording::{expected_word, found, found_text, text_at, unknown},
 };
 use crate::declare::{Choice, Declare, Entry, Form, Looks, Parameter, Parameters, Value, check_value};
@@ -35,13 +35,13 @@ impl Parameters for Reader<'_> {
         };
         let source = self.source;
         match read_value(given, &mut value) {
-            ValueError::Read => {
+            ReadOutcome::Read => {
                 if let Some(problem) = check_value(parameter, &value) {
                     let error = source.error(given.span(), problem.message, problem.label);
                     self.fail(if problem.help.is_empty() { error } else { error.with_help(problem.help) });
                 }
             }
-            ValueError::Wrong(Wrong { span, expected, what }) => {
+            ReadOutcome::Wrong(Wrong { span, expected, what }) => {
                 let text = text_at(source, &span);
                 let whole = span == given.span();
                 let what = what.unwrap_or_else(|| if whole { found(given.get_ref(), text) } else { found_text(text) });
@@ -52,20 +52,20 @@ impl Parameters for Reader<'_> {
                 let advice = parameter.advice;
                 self.fail(if advice.is_empty() { error } else { error.with_help(advice) });
             }
-            ValueError::Unknown(key, known) => {
+            ReadOutcome::Unknown(key, known) => {
                 let error = unknown(source, key.span(), "key", key.get_ref(), &known);
                 self.fail(error);
             }
-            ValueError::Missing(key) => {
+            ReadOutcome::Missing(key) => {
                 let error = source.error(given.span(), format!("missing key `{key}`"), format!("`{key}` must be given here"));
                 self.fail(error);
             }
-            ValueError::NoTexture => {
+            ReadOutcome::NoTexture => {
                 let message = format!("`{}` cannot be a texture here", parameter.key);
                 let label = "expected a colour: [red, green, blue], or one number for grey";
                 self.fail(source.error(given.span(), message, label));
             }
-            ValueError::NoWord(known) => {
+            ReadOutcome::NoWord(known) => {
                 let word = given.get_ref().as_str().unwrap_or_default();
                 let error = unknown(source, given.span(), "value", word, &known.iter().map(expected_word).collect::<Vec<_>>());
                 self.fail(error);

@@ -25,7 +25,7 @@ pub use self::{
     texels::{Edge, ImageTexture},
     words::{Channel, TexelFilter, Wrap},
 };
-use super::{Lookup, Pattern, Summary, TextureCompiler, TextureCoordinates, Textures, Texturing};
+use super::{LookupResult, Pattern, Summary, TextureCompiler, TextureCoordinates, Textures, Texturing};
 use crate::{
     declare::{Declare, Kind, Parameter, Parameters, Problem, Range, Value},
     image::Encoding,
@@ -151,7 +151,7 @@ impl Pattern for ImagePattern {
     }
 
     #[inline(always)]
-    fn apply<L: Lanes>(&self, l: L, here: M<L>, at: &TextureCoordinates<L>, _: &Textures, found: &mut Lookup<L>) {
+    fn apply<L: Lanes>(&self, l: L, here: M<L>, at: &TextureCoordinates<L>, _: &Textures, found: &mut LookupResult<L>) {
         let colour = match self {
             ImagePattern::Plain(image) => image.colour(l, at.u, at.v, Edge::Repeat),
             ImagePattern::Sampled(image) => image.colour(l, at.u, at.v),

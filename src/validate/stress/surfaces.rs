@@ -39,7 +39,7 @@ pub struct Comparison {
 }
 
 /// A primitive and its flat or quadric pieces.
-struct KnownPrimitive {
+struct PrimitivePieces {
     primitive: u32,
     faces: Vec<Shape>,
     is_mesh: bool,
@@ -47,7 +47,7 @@ struct KnownPrimitive {
 
 struct World<'a> {
     scene: &'a Scene,
-    known: Vec<KnownPrimitive>,
+    known: Vec<PrimitivePieces>,
     near: f64,
 }
 
@@ -91,7 +91,7 @@ pub fn compare(scene: &Scene, settings: &RenderSettings, rays: &CameraRays, clos
 impl World<'_> {
     fn new(scene: &Scene) -> Option<World<'_>> {
         let mut first = 0;
-        let known: Vec<KnownPrimitive> = scene
+        let known: Vec<PrimitivePieces> = scene
             .objects
             .iter()
             .flat_map(|object| {
@@ -99,11 +99,11 @@ impl World<'_> {
                 let (primitive, is_mesh) = (first, matches!(object.shape, Shape::Mesh { .. }));
                 first += object.shape.piece_count() as u32;
                 if is_mesh || faces.is_empty() {
-                    return vec![KnownPrimitive { primitive, faces, is_mesh }];
+                    return vec![PrimitivePieces { primitive, faces, is_mesh }];
                 }
                 (primitive..)
                     .zip(faces)
-                    .map(|(primitive, face)| KnownPrimitive { primitive, faces: vec![face], is_mesh })
+                    .map(|(primitive, face)| PrimitivePieces { primitive, faces: vec![face], is_mesh })
                     .collect()
             })
             .collect();
@@ -188,7 +188,7 @@ impl World<'_> {
 }
 
 /// Whether a ray that leaves a primitive hits it again much nearer than f64 does.
-fn is_self_hit(known: &KnownPrimitive, ray: Ray, t: f64) -> bool {
+fn is_self_hit(known: &PrimitivePieces, ray: Ray, t: f64) -> bool {
     if known.faces.is_empty() {
         return false;
     }

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use noisefall::{
     declare::{Assets, for_each_file},
     edit::{Document, Outside, Version, Written},
-    export::{self, ExportedScene},
+    export::{self, ExportSource},
     scene::{description::SceneDescription, load, read_text},
 };
 
@@ -63,7 +63,7 @@ pub fn save(document: &Document, opened: Option<&Path>, assets: &Assets, path: &
     let in_memory = opened.filter(|_| document.path().is_none() && !assets.is_empty());
     if let Some(origin) = document.origin().or(in_memory) {
         let folder = origin.parent().unwrap_or(Path::new(""));
-        let exported = export::write(ExportedScene { description: document.description(), assets, folder }, path);
+        let exported = export::write(ExportSource { description: document.description(), assets, folder }, path);
         return exported.map_or_else(|error| SaveResult::Failed(error.to_string()), |_| SaveResult::Exported(document.version()));
     }
     let folder = |path: &Path| path.parent().and_then(|folder| folder.canonicalize().ok());

@@ -7,11 +7,11 @@ use std::{
 use crossbeam_channel::{Receiver, Sender, bounded, unbounded};
 
 /// Path of a written file, or an error message.
-type SaveResult = Result<PathBuf, String>;
+type WriteResult = Result<PathBuf, String>;
 
 pub struct Saver {
     ctx: egui::Context,
-    done: (Sender<SaveResult>, Receiver<SaveResult>),
+    done: (Sender<WriteResult>, Receiver<WriteResult>),
     /// Files being written. The program waits for them before it ends.
     writing: Vec<std::thread::JoinHandle<()>>,
 }
@@ -41,7 +41,7 @@ impl Saver {
     }
 
     /// Takes the outcome of a file that has been written.
-    pub fn take(&self) -> Option<SaveResult> {
+    pub fn take(&self) -> Option<WriteResult> {
         self.done.1.try_recv().ok()
     }
 }

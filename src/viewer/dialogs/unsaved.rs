@@ -41,7 +41,7 @@ impl SaveRequest {
     }
 }
 
-/// An answer.
+/// The answer to whether unsaved changes are saved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum UnsavedAnswer {
     Save,

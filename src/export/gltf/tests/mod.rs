@@ -10,7 +10,7 @@ use serde_json::Value;
 use crate::{
     declare::Assets,
     export::{
-        ExportedScene, prepare,
+        ExportSource, prepare,
         round_trip::{self as scene_files, RoundTrip, names, near, scenes, shipped},
     },
     scene::{
@@ -51,7 +51,7 @@ fn files_are_the_same_each_time_and_have_no_empty_lists() {
         let folder = tempfile::tempdir().expect("a folder");
         let write = || {
             let assets = Assets::default();
-            let source = ExportedScene { description: &description, assets: &assets, folder: &scenes() };
+            let source = ExportSource { description: &description, assets: &assets, folder: &scenes() };
             let done = prepare(source, &folder.path().join(name)).expect("it can be written").write().expect("it is written");
             (fs::read(folder.path().join(name)).expect("it is there"), done)
         };

@@ -57,7 +57,8 @@ struct Property {
     kind: Kind,
 }
 
-struct PropertyGroup {
+/// An element of a PLY file: its count and properties.
+struct PlyElement {
     name: String,
     count: usize,
     properties: Vec<Property>,
@@ -78,7 +79,7 @@ enum Format {
 
 impl Body<'_> {
     /// A vertex or a face: its channels, and the number of its corners. Bytes are colours in sRGB.
-    fn item<const N: usize>(&mut self, group: &PropertyGroup, slots: &[Option<usize>]) -> Option<([Option<f64>; N], usize)> {
+    fn item<const N: usize>(&mut self, group: &PlyElement, slots: &[Option<usize>]) -> Option<([Option<f64>; N], usize)> {
         let mut channels = [None; N];
         let mut corners = 0;
         for (property, slot) in group.properties.iter().zip(slots) {
@@ -128,7 +129,7 @@ impl Body<'_> {
 }
 
 /// The groups of a file and its values.
-fn header(bytes: &[u8]) -> Option<(Vec<PropertyGroup>, Body<'_>)> {
+fn header(bytes: &[u8]) -> Option<(Vec<PlyElement>, Body<'_>)> {
     let kinds: HashMap<&str, Kind> = HashMap::from([
         ("char", Kind::Signed(1)),
         ("int8", Kind::Signed(1)),
@@ -147,7 +148,7 @@ fn header(bytes: &[u8]) -> Option<(Vec<PropertyGroup>, Body<'_>)> {
         ("double", Kind::Real(8)),
         ("float64", Kind::Real(8)),
     ]);
-    let (mut groups, mut format, mut rest) = (Vec::<PropertyGroup>::new(), None, bytes);
+    let (mut groups, mut format, mut rest) = (Vec::<PlyElement>::new(), None, bytes);
     loop {
         let end = rest.iter().position(|byte| *byte == b'\n')?;
         let line = String::from_utf8_lossy(&rest[..end]).into_owned();
@@ -157,7 +158,7 @@ fn header(bytes: &[u8]) -> Option<(Vec<PropertyGroup>, Body<'_>)> {
             ["format", "binary_little_endian", _] => format = Some(Format::Little),
             ["format", "binary_big_endian", _] => format = Some(Format::Big),
             ["element", name, count] => {
-                groups.push(PropertyGroup { name: name.to_owned(), count: count.parse().ok()?, properties: Vec::new() });
+                groups.push(PlyElement { name: name.to_owned(), count: count.parse().ok()?, properties: Vec::new() });
             }
             ["property", "list", count, kind, name] => {
                 let (count, kind) = (Some(*kinds.get(count)?), *kinds.get(kind)?);

@@ -1,5 +1,5 @@
 //! Files that are broken, or made to do harm.
-use super::{SourceFiles, error, imported};
+use super::{SceneFolder, error, imported};
 use crate::model::Model;
 
 #[test]
@@ -26,7 +26,7 @@ fn deep_nesting_is_refused_without_recursion() {
 
 #[test]
 fn circles_are_refused() {
-    let files = SourceFiles::new(&[("a.pbrt", "Include \"b.pbrt\""), ("b.pbrt", "Include \"a.pbrt\"")]);
+    let files = SceneFolder::new(&[("a.pbrt", "Include \"b.pbrt\""), ("b.pbrt", "Include \"a.pbrt\"")]);
     assert!(files.read().is_err_and(|error| error.to_string().contains("includes itself")));
     let texture = "Texture \"t\" \"float\" \"scale\" \"texture tex\" \"t\"\nShape \"sphere\" \"texture alpha\" \"t\"";
     assert!(error(&format!("WorldBegin\n{texture}")).contains("contains itself"));
@@ -40,7 +40,7 @@ fn files_that_multiply_are_refused() {
     let texts: Vec<String> = (0..40).map(|i| format!("Include \"{}.pbrt\"\n", i + 1).repeat(2)).collect();
     let mut files: Vec<(&str, &str)> = names.iter().zip(&texts).map(|(name, text)| (name.as_str(), text.as_str())).collect();
     files.extend([("40.pbrt", ""), ("a.pbrt", "Include \"0.pbrt\"")]);
-    assert!(SourceFiles::new(&files).read().is_err_and(|error| error.to_string().contains("too many times")));
+    assert!(SceneFolder::new(&files).read().is_err_and(|error| error.to_string().contains("too many times")));
 }
 
 #[test]
@@ -76,7 +76,7 @@ fn a_spectrum_file_is_read_once() {
     let spectrum: String = (0..60_000).map(|i| format!("{} 1\n", 300.0 + f64::from(i) / 100.0)).collect();
     let lights = "LightSource \"point\" \"spectrum I\" \"a.spd\"\n".repeat(2000);
     let scene = format!("WorldBegin\n{lights}");
-    let found = SourceFiles::new(&[("a.pbrt", &scene), ("a.spd", &spectrum)]).read().expect("it is read");
+    let found = SceneFolder::new(&[("a.pbrt", &scene), ("a.spd", &spectrum)]).read().expect("it is read");
     assert_eq!(found.description.lamps.len(), 2000);
 }
 
@@ -99,7 +99,7 @@ fn truncated_texts_have_errors_and_no_panic() {
                 Shape \"sphere\" \"float radius\" [ 2 ]\nAttributeEnd\nOption \"float x\" 3\n";
     imported(text);
     for end in 0..text.len() {
-        let _ = SourceFiles::new(&[("a.pbrt", &text[..end])]).read();
+        let _ = SceneFolder::new(&[("a.pbrt", &text[..end])]).read();
     }
 }
 

@@ -92,7 +92,7 @@ fn image_textures_turn_their_coordinates_upwards() {
         ),
         ("t.png", "not read yet"),
     ];
-    let found = super::SourceFiles::new(&files).read().expect("it is read");
+    let found = super::SceneFolder::new(&files).read().expect("it is read");
     let TextureKind::Image(image) = &found.description.textures["t"] else { panic!("an image") };
     assert_eq!((image.path.as_str(), image.scale, image.offset), ("t.png", [2.0, 3.0], [0.5, -2.25]));
 }

@@ -13,15 +13,15 @@ use crate::{
 };
 
 /// A scene whose files are in a folder of its own.
-struct SourceFiles(tempfile::TempDir);
+struct SceneFolder(tempfile::TempDir);
 
-impl SourceFiles {
-    fn new(files: &[(&str, &str)]) -> SourceFiles {
+impl SceneFolder {
+    fn new(files: &[(&str, &str)]) -> SceneFolder {
         let folder = tempfile::tempdir().expect("a folder");
         for (name, text) in files {
             fs::write(folder.path().join(name), text).expect("it is written");
         }
-        SourceFiles(folder)
+        SceneFolder(folder)
     }
 
     fn read(&self) -> Result<Imported, SceneError> {
@@ -30,7 +30,7 @@ impl SourceFiles {
 }
 
 fn imported(text: &str) -> Imported {
-    SourceFiles::new(&[("a.pbrt", text)]).read().unwrap_or_else(|error| panic!("{}", error.report()))
+    SceneFolder::new(&[("a.pbrt", text)]).read().unwrap_or_else(|error| panic!("{}", error.report()))
 }
 
 /// A world of a right-handed program, so that nothing is mirrored.
@@ -39,7 +39,7 @@ fn world(text: &str) -> Imported {
 }
 
 fn error(text: &str) -> String {
-    match SourceFiles::new(&[("a.pbrt", text)]).read() {
+    match SceneFolder::new(&[("a.pbrt", text)]).read() {
         Ok(_) => panic!("it is accepted"),
         Err(error) => error.report(),
     }

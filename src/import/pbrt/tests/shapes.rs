@@ -1,5 +1,5 @@
 //! Shapes, meshes and instances of pbrt.
-use super::{SourceFiles, error, remarks, world};
+use super::{SceneFolder, error, remarks, world};
 use crate::{
     import::Imported,
     model::Model,
@@ -67,7 +67,7 @@ fn instances_share_their_mesh() {
 #[test]
 fn ply_files_are_flat_without_normals() {
     let header = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
-    let files = SourceFiles::new(&[
+    let files = SceneFolder::new(&[
         (
             "a.pbrt",
             "WorldBegin\nShape \"plymesh\" \"string filename\" \"flat.ply\"\nShape \"plymesh\" \"string filename\" \"smooth.ply\"",
@@ -102,7 +102,7 @@ fn included_files_continue_and_imported_ones_return() {
     let files = [("b.pbrt", "Translate 1 0 0\nShape \"sphere\"")];
     let x = |word: &str| {
         let text = format!("WorldBegin\n{word} \"b.pbrt\"\nShape \"sphere\"");
-        let found = SourceFiles::new(&[files[0], ("a.pbrt", &text)]).read().expect("it is read");
+        let found = SceneFolder::new(&[files[0], ("a.pbrt", &text)]).read().expect("it is read");
         match &found.description.objects[1].transform[0] {
             Transform::Matrix([x, ..]) => x[3].abs(),
             _ => panic!("a matrix"),

@@ -117,9 +117,9 @@ impl Surrounding for Sky {
     type Radiant = ImageBackground;
 
     fn compile(&self, resources: &Resources) -> Result<Option<ImageBackground>, Problem> {
-        let no_direction = || Problem::at("sky.sun", "the direction of the sun is zero", "it must not be zero");
+        let no_direction = || Problem::at("sky.sun", "the sun has no direction", "it must not be zero");
         let sun = self.sun.try_normalize().ok_or_else(no_direction)?;
-        let no_zenith = || Problem::at("sky.zenith", "the direction of the zenith is zero", "it must not be zero");
+        let no_zenith = || Problem::at("sky.zenith", "the zenith has no direction", "it must not be zero");
         let zenith = self.zenith.try_normalize().ok_or_else(no_zenith)?;
         // The image has its zenith at +y.
         let turn = (zenith != DVec3::Y).then(|| DMat3::from_quat(DQuat::from_rotation_arc(DVec3::Y, zenith)));

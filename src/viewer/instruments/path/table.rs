@@ -7,7 +7,7 @@ use noisefall::{
 
 use super::{
     cells::{Channel, TEXT, VERTEX_WIDTH, cell, colour, name, short},
-    terms::{Row, SampledTarget, Term, TermSource, rows, totals},
+    terms::{LightId, Row, Term, TermSource, rows, totals},
 };
 use crate::viewer::widgets::{
     decimals::three,
@@ -115,9 +115,9 @@ fn source(term: &Term, objects: &[Object]) -> String {
         TermSource::Hit => "hit".to_owned(),
         TermSource::Light(target, outcome) => {
             let light = match target {
-                SampledTarget::Object(id) => name(objects, *id),
-                SampledTarget::Lamp(name) => name.clone(),
-                SampledTarget::Background => "background".to_owned(),
+                LightId::Object(id) => name(objects, *id),
+                LightId::Lamp(name) => name.clone(),
+                LightId::Background => "background".to_owned(),
             };
             let outcome = match outcome {
                 LightOutcome::Seen => "seen",

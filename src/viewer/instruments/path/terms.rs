@@ -33,12 +33,12 @@ pub enum TermSource {
     /// The path runs into it.
     Hit,
     /// A light that was sampled.
-    Light(SampledTarget, LightOutcome),
+    Light(LightId, LightOutcome),
 }
 
-/// A light that was sampled.
+/// Which light was sampled.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum SampledTarget {
+pub enum LightId {
     Object(u32),
     /// A lamp without surface, by its name.
     Lamp(String),
@@ -97,11 +97,11 @@ fn of_light(throughput: Colour, light: &SampledLight) -> Term {
     }
 }
 
-fn target(light: &SampledLight) -> SampledTarget {
+fn target(light: &SampledLight) -> LightId {
     match (&light.lamp, light.object) {
-        (Some(lamp), _) => SampledTarget::Lamp(lamp.clone()),
-        (None, Some(object)) => SampledTarget::Object(object),
-        (None, None) => SampledTarget::Background,
+        (Some(lamp), _) => LightId::Lamp(lamp.clone()),
+        (None, Some(object)) => LightId::Object(object),
+        (None, None) => LightId::Background,
     }
 }
 

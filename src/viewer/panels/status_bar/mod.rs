@@ -49,7 +49,7 @@ impl StatusBar<'_> {
             ui.painter().circle_filled(dot.center(), 4.5, colour);
             let reached = if let State::Done(target) = self.status.state { format!(": {target}") } else { String::new() };
             ui.label(RichText::new(state).strong())
-                .on_hover_text(format!("State of the renderer, or the target that it has reached{reached}."));
+                .on_hover_text(format!("Shows what the renderer does, or the target that it has reached{reached}."));
             if self.opened.is_none() {
                 return;
             }
@@ -180,7 +180,7 @@ impl StatusBar<'_> {
             ),
             Some(why) => (
                 RichText::new(format!("biased: {why}")).color(ui.warning()),
-                "Light with more bounces is missing, for any number of samples.",
+                "The image differs from the solution of the light transport equation, for the reason named.",
             ),
         };
         ui.add(Label::new(text).truncate()).on_hover_text(doc);
