@@ -697,7 +697,7 @@ class Object:
 
 @dataclass(kw_only=True)
 class Throughput:
-    """Survival probability is the throughput's largest component, at most 0.95: paths that carry little end early."""
+    """Survival probability is the square root of the throughput's largest component, at most 0.95: paths that carry little end early."""
 
     start: int | None = None
     """The first bounce at which a path can end."""
@@ -709,7 +709,7 @@ class Roulette:
     fixed: float | None = None
     """Survival probability at every bounce."""
     throughput: Throughput | Mapping[str, Any] | None = None
-    """Survival probability is the throughput's largest component, at most 0.95: paths that carry little end early."""
+    """Survival probability is the square root of the throughput's largest component, at most 0.95: paths that carry little end early."""
 
 @dataclass(kw_only=True)
 class Render:

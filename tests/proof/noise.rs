@@ -23,8 +23,8 @@ const SEEDS: u32 = 6;
 /// Largest factor between the estimate, a root of relMSE, and the true error.
 const FACTOR: f64 = 1.25;
 /// Scenes with a larger factor. Most of the error of the plates is in few pixels at the edges of very bright lamps. All error of
-/// the ball is at its outline, and that of moving objects at their edges, where errors fall faster than the estimate assumes. Caustics that are seen in water, in a mirror or under a ball of glass have most of their error in
-/// light that few of the images find at all.
+/// the ball is at its outline, and that of moving objects at their edges, where errors fall faster than the estimate assumes. Caustics that
+/// are seen in water, in a mirror or under a ball of glass have most of their error in light that few of the images find at all.
 const WORSE: [(&str, f64); 6] = [
     ("veach_plates", 1.35),
     ("outside_lit_outside", 1.35),

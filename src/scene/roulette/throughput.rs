@@ -1,4 +1,8 @@
 //! Paths that carry little are likelier to end (Arvo and Kirk, "Particle Transport and Image Synthesis", SIGGRAPH 1990).
+//!
+//! The throughput itself as the probability would give all survivors the same weight. But by the time roulette begins, most paths have lost
+//! half of it or more: many would end at once, and the rest would weigh much. With the square root, which Cycles takes too, paths end
+//! over several bounces. Between surfaces of albedo ρ both settle at a survival probability of ρ.
 use serde::{Deserialize, Serialize};
 
 use super::{Roulette, Survival};
@@ -7,7 +11,7 @@ use crate::{
     math::{F, Lanes, V},
 };
 
-/// Survival probability is the throughput's largest component, at most [`Roulette::MOST`].
+/// Survival probability is the square root of the throughput's largest component, at most [`Roulette::MOST`].
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Throughput {
     /// The first bounce at which a path can end.
@@ -33,7 +37,7 @@ impl Default for Throughput {
 impl Kind for Throughput {
     const KIND: Parameter = Parameter::new(
         "throughput",
-        "Survival probability is the throughput's largest component, at most 0.95: paths that carry little end early.",
+        "Survival probability is the square root of the throughput's largest component, at most 0.95: paths that carry little end early.",
     )
     .title("By throughput");
 
@@ -57,7 +61,7 @@ impl Survival for Throughput {
 
     #[inline(always)]
     fn probability<L: Lanes>(self, l: L, throughput: V<L>, scale: F<L>) -> F<L> {
-        (throughput.max_component() * scale).min(l.f(Roulette::MOST)).max(l.f(Roulette::LEAST))
+        (throughput.max_component() * scale).sqrt().min(l.f(Roulette::MOST)).max(l.f(Roulette::LEAST))
     }
 
     fn words(self) -> String {

@@ -247,7 +247,7 @@ fn assert_terms(vertex: &Vertex, settings: &RenderSettings, what: &str) {
                 let throughput = product(arriving, reflection.weight).into_iter().fold(0.0, f32::max);
                 // Radiance inside glass is scaled to its value outside. With path reuse the first surface does not count.
                 if material != Some("dielectric") && settings.reuse == Reuse::Off {
-                    let expected = throughput.clamp(Roulette::LEAST, Roulette::MOST);
+                    let expected = throughput.sqrt().clamp(Roulette::LEAST, Roulette::MOST);
                     assert!((reflection.survival - expected).abs() <= 1e-5 * expected, "{expected} at {vertex:#?} of {what}");
                 }
                 assert!((Roulette::LEAST..=Roulette::MOST).contains(&reflection.survival));
