@@ -7,7 +7,7 @@ impl Scene {
     ///
     /// Between surfaces of albedo ρ the mean square of a sample is a series in ρ² E w²/q: q is the probability to survive roulette, and E w²
     /// the mean square of the weight of a direction, 4/3 for uniform ones at diffuse surfaces and 1 otherwise. Roulette by throughput
-    /// keeps throughputs of at most about 1 as long as its upper bound q = [`Roulette::MOST`] is enough. A cap ends the series.
+    /// keeps throughputs at about 1 or less as long as its upper bound q = [`Roulette::MOST`] is enough. A cap ends the series.
     /// Glass absorbs nothing, so it does not count.
     pub fn infinite_variance(&self, settings: &RenderSettings) -> Option<String> {
         let survival = settings.roulette.survival();

@@ -1,8 +1,8 @@
 //! Paths that carry little are likelier to end (Arvo and Kirk, "Particle Transport and Image Synthesis", SIGGRAPH 1990).
 //!
-//! The throughput itself as the probability would give all survivors the same weight. But by the time roulette begins, most paths have lost
-//! half of it or more: many would end at once, and the rest would weigh much. With the square root, which Cycles takes too, paths end
-//! over several bounces. Between surfaces of albedo ρ both settle at a survival probability of ρ.
+//! With the throughput itself as the probability, all survivors would weigh the same. But most paths have lost half of it or more when
+//! roulette begins: most would end at once, and the others would count two or three times as much. With the square root, as in
+//! Cycles, paths end over several bounces. Between surfaces of albedo ρ, up to 0.95, both rules settle at a survival probability of ρ.
 use serde::{Deserialize, Serialize};
 
 use super::{Roulette, Survival};
