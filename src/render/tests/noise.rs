@@ -198,7 +198,7 @@ fn assert_scatter(scene: &Scene, settings: &RenderSettings, spp: u32, what: &str
     // χ² of 31 degrees at 5σ, and at 4σ below and 3σ above.
     assert!(ratios.iter().all(|ratio| (0.18..2.84).contains(ratio)), "{what}: {ratios:?}");
     let of_whole = Moments::of(wholes).variance / said_of_whole;
-    assert!((0.28..2.02).contains(&of_whole), "{what}: {of_whole}");
+    assert!((0.28..2.016).contains(&of_whole), "{what}: {of_whole}");
     Moments::of(correlation)
 }
 
