@@ -8,7 +8,7 @@ use glam::DAffine3;
 use super::{
     Coordinates, DirectionSample, MISS, PrimitiveRef, SurfacePoint,
     bounding_sphere::BoundingSphere,
-    bvh::{Search, Stack},
+    bvh::{Search, Stacks},
     isosurface::Isosurface,
     lists::Lists,
     mesh::Mesh,
@@ -76,7 +76,7 @@ impl Instance {
     /// The first intersection with o + td, d of unit length, and t > 0. Lanes with a limit of 0 cost almost nothing.
     #[simd]
     pub fn closest<L: Lanes>(&self, l: L, ray: (V<L>, V<L>), time: F<L>, search: Search<L>) -> Intersection<L> {
-        self.meet(l, l.token(), &mut Stack::<false>::default(), ray, time, search)
+        self.meet(l, l.token(), &mut Stacks::<false>::default(), ray, time, search)
     }
 
     /// The same; a mesh is tested with the instructions of `s`, for any lanes.
@@ -85,20 +85,20 @@ impl Instance {
         &self,
         l: L,
         s: S,
-        stack: &mut Stack<COUNTS>,
+        stacks: &mut Stacks<COUNTS>,
         (o, d): (V<L>, V<L>),
         time: F<L>,
         search: Search<L>,
     ) -> Intersection<L> {
         if self.is_world {
-            return self.meet_in_body(l, s, stack, (o, d), search);
+            return self.meet_in_body(l, s, stacks, (o, d), search);
         }
         let transform = self.transform(l, time);
         let local = transform.vector_to_local(d);
         let speed = local.length_squared().sqrt();
         let ray = (transform.point_to_local(o), local * (1.0 / speed));
         let search = Search { limit: search.limit * speed, enough: search.enough * speed };
-        let found = self.meet_in_body(l, s, stack, ray, search);
+        let found = self.meet_in_body(l, s, stacks, ray, search);
         Intersection { t: found.t / speed, ..found }
     }
 
@@ -107,14 +107,14 @@ impl Instance {
         &self,
         l: L,
         s: S,
-        stack: &mut Stack<COUNTS>,
+        stacks: &mut Stacks<COUNTS>,
         (o, d): (V<L>, V<L>),
         search: Search<L>,
     ) -> Intersection<L> {
         let zero = l.u(0);
         match &self.body {
             Body::Mesh(mesh) => {
-                let (t, element) = mesh.closest_by(l, s, stack, (o, d), search);
+                let (t, element) = mesh.closest_by(s, l, stacks, (o, d), search);
                 let none = element.is(MISS);
                 Intersection { t: none.pick(l.f(f32::INFINITY), t), piece: zero, element: none.pick(zero, element) }
             }

@@ -1,4 +1,4 @@
-//! The tree over objects, which rays descend one at a time.
+//! The tree over objects, which rays descend two at a time.
 //!
 //! A list tests a shape against all lanes at once. For a few shapes this costs less than a step in a tree; among many, a tree
 //! finds the few near a ray. This module decides which shapes go where.
@@ -9,7 +9,7 @@ use glam::DVec3;
 use super::{
     Nearest,
     bounds::Bounds,
-    bvh::{Bvh, Leaves, Search, Slabs, Stack, traverse},
+    bvh::{Bvh, Leaves, Search, Searches, Slabs, Stacks, traverse},
     instance::Instance,
     lists::{Listed, Lists},
     object::{Object, ObjectKind},
@@ -123,33 +123,22 @@ impl Objects {
         time: F<L>,
         nearest: &mut Nearest<L>,
     ) {
+        let mut searches = Searches::new(live, Search { limit: nearest.t, enough });
+        let mut found = NearestHits {
+            objects: self,
+            instances,
+            below: &mut Stacks::<false>::default(),
+            origins: arrays(o),
+            directions: arrays(d),
+            times: time.to_array(),
+            enough: enough.to_array(),
+            primitives: nearest.primitive.to_array(),
+            elements: nearest.element.to_array(),
+        };
         let slabs = Slabs::new(l, o, d, &self.bvh.bounds());
-        let (origins, directions) = (arrays(o), arrays(d));
-        let (times, enough) = (time.to_array(), enough.to_array());
-        let mut distances = nearest.t.to_array();
-        let mut primitives = nearest.primitive.as_real_bits().to_array();
-        let mut elements = nearest.element.as_real_bits().to_array();
-        let (mut stack, mut below) = (Stack::<false>::default(), Stack::<false>::default());
-        let mut rest = live.bits();
-        while rest != 0 {
-            let lane = rest.trailing_zeros() as usize % MAX_LANES;
-            rest &= rest - 1;
-            let mut found = NearestHit {
-                objects: self,
-                instances,
-                below: &mut below,
-                o: vector(&origins, lane),
-                d: vector(&directions, lane),
-                time: F(times[lane]),
-                enough: F(enough[lane]),
-                primitive: primitives[lane].to_bits(),
-                element: elements[lane].to_bits(),
-            };
-            let search = (distances[lane], enough[lane]);
-            distances[lane] = traverse(l.token(), &self.bvh, &mut stack, (&slabs, lane), search, &mut found);
-            (primitives[lane], elements[lane]) = (f32::from_bits(found.primitive), f32::from_bits(found.element));
-        }
-        *nearest = Nearest { t: l.load(&distances), primitive: l.load(&primitives).bits(), element: l.load(&elements).bits() };
+        traverse(l.token(), &self.bvh, &mut Stacks::<false>::default(), (&slabs, &mut searches), &mut found);
+        let [primitive, element] = [found.primitives, found.elements].map(|x| l.load(bytemuck::cast_slice(&x)).bits());
+        *nearest = Nearest { t: l.load(&searches.t_max), primitive, element };
     }
 }
 
@@ -161,59 +150,62 @@ impl Objects {
         (o, d): (V<One>, V<One>),
         time: F<One>,
         nearest: &Nearest<One>,
-        stacks: &mut [Stack<true>; 2],
+        stacks: &mut [Stacks<true>; 2],
     ) {
+        let [stacks, below] = stacks;
+        let mut searches = Searches::new(M(true), Search::nearest(One, nearest.t));
+        let mut found = NearestHits {
+            objects: self,
+            instances,
+            below,
+            origins: arrays(o),
+            directions: arrays(d),
+            times: time.to_array(),
+            enough: [0.0; MAX_LANES],
+            primitives: nearest.primitive.to_array(),
+            elements: nearest.element.to_array(),
+        };
         let slabs = Slabs::new(One, o, d, &self.bvh.bounds());
-        let [stack, below] = stacks;
-        let (primitive, element) = (nearest.primitive.0, nearest.element.0);
-        let mut found = NearestHit { objects: self, instances, below, o, d, time, enough: F(0.0), primitive, element };
-        traverse(One.token(), &self.bvh, stack, (&slabs, 0), (nearest.t.0, 0.0), &mut found);
+        traverse(One.token(), &self.bvh, stacks, (&slabs, &mut searches), &mut found);
     }
 }
 
-/// The nearest hit of one ray so far.
-struct NearestHit<'a, const COUNTS: bool> {
+/// The nearest hits so far, by lane.
+struct NearestHits<'a, const COUNTS: bool> {
     objects: &'a Objects,
     instances: &'a [Instance],
-    below: &'a mut Stack<COUNTS>,
-    o: V<One>,
-    d: V<One>,
-    time: F<One>,
-    enough: F<One>,
-    primitive: u32,
-    element: u32,
+    below: &'a mut Stacks<COUNTS>,
+    origins: [[f32; MAX_LANES]; 3],
+    directions: [[f32; MAX_LANES]; 3],
+    times: [f32; MAX_LANES],
+    enough: [f32; MAX_LANES],
+    primitives: [u32; MAX_LANES],
+    elements: [u32; MAX_LANES],
 }
 
-impl<S: Simd, const COUNTS: bool> Leaves<S> for NearestHit<'_, COUNTS> {
+impl<S: Simd, const COUNTS: bool> Leaves<S> for NearestHits<'_, COUNTS> {
     #[inline(always)]
-    fn meet(&mut self, s: S, leaf: u32, t_max: f32) -> f32 {
+    fn meet(&mut self, s: S, lane: usize, leaf: u32, t_max: f32) -> f32 {
+        let (o, d) = (vector(&self.origins, lane), vector(&self.directions, lane));
         let (t, primitive, element) = match self.objects.items[leaf as usize] {
             Item::Listed(which) => {
-                let (t, primitive) = self.objects.lists.meet(One, which, self.o, self.d);
+                let (t, primitive) = self.objects.lists.meet(One, which, o, d);
                 (t, primitive, U(0))
             }
             Item::Instance(index) => {
                 let instance = &self.instances[index as usize];
-                let search = Search { limit: F(t_max), enough: self.enough };
-                let found = instance.meet(One, s, self.below, (self.o, self.d), self.time, search);
+                let search = Search { limit: F(t_max), enough: F(self.enough[lane]) };
+                let found = instance.meet(One, s, self.below, (o, d), F(self.times[lane]), search);
                 (found.t, found.piece + instance.first, found.element)
             }
         };
         // The first of surfaces that coincide.
-        let same = t.0 == t_max && t_max < f32::INFINITY && primitive.0 < self.primitive;
+        let same = t.0 == t_max && t_max < f32::INFINITY && primitive.0 < self.primitives[lane];
         if t.0 > 0.0 && (t.0 < t_max || same) {
-            (self.primitive, self.element) = (primitive.0, element.0);
+            (self.primitives[lane], self.elements[lane]) = (primitive.0, element.0);
             return t.0;
         }
         t_max
-    }
-
-    #[inline(always)]
-    fn touch(&self, leaf: u32) -> u32 {
-        match self.objects.items[leaf as usize] {
-            Item::Listed(_) => 0,
-            Item::Instance(index) => index,
-        }
     }
 }
 

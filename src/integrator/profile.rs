@@ -105,7 +105,7 @@ impl StageCost {
 
 impl CountedRays {
     fn plus(self, other: CountedRays) -> CountedRays {
-        let visits = Visits { nodes: self.visits.nodes + other.visits.nodes, leaves: self.visits.leaves + other.visits.leaves };
+        let visits = self.visits + other.visits;
         CountedRays { rays: self.rays + other.rays, visits }
     }
 }

@@ -143,7 +143,10 @@ impl Collapse<'_> {
         let mut node = Node::EMPTY;
         self.nodes.push(node);
         let branches = self.branches;
-        let children = &children.places[..children.count];
+        // Of boxes at one distance, the first is visited first, and nodes before leaves.
+        let mut places = children.places;
+        let children = &mut places[..children.count];
+        children.sort_by_key(|child| branches[*child as usize].is_leaf());
         for (place, &child) in children.iter().enumerate() {
             let branch = &branches[child as usize];
             for axis in 0..3 {

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | construction by the surface area heuristic | `build.rs`, `bins.rs`, `collapse.rs`, `item.rs` |
 //! | conservative test of a ray against eight boxes at once | `slabs.rs` |
-//! | traversal, near boxes first | `traverse.rs` |
+//! | traversal, near boxes first | `traverse.rs`, `stack.rs` |
 //!
 //! The caller owns the contents of leaves: triangles of a mesh or objects of a scene. Leaves are numbered 0, 1, 2, …, and
 //! [`Bvh::build`] returns the caller's items in each.
@@ -13,6 +13,7 @@ mod build;
 mod collapse;
 mod item;
 mod slabs;
+mod stack;
 #[cfg(test)]
 mod tests;
 mod traverse;
@@ -20,7 +21,7 @@ mod traverse;
 pub use self::{
     item::NONE,
     slabs::Slabs,
-    traverse::{Leaves, Search, Stack, Visits, traverse},
+    traverse::{Leaves, Search, Searches, Stacks, Visits, traverse},
 };
 use super::bounds::Bounds;
 
@@ -41,13 +42,6 @@ struct Node {
 
 impl Node {
     const EMPTY: Node = Node { bounds: [[[f32::INFINITY; WIDTH], [f32::NEG_INFINITY; WIDTH]]; 3], children: [LEAF; WIDTH] };
-
-    /// A word of each cache line.
-    #[inline(always)]
-    fn touch(&self) -> u32 {
-        let [[x, _], [y, _], [z, _]] = &self.bounds;
-        x[0].to_bits() | y[0].to_bits() | z[0].to_bits() | self.children[0]
-    }
 }
 
 /// A tree of boxes.

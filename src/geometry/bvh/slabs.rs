@@ -16,9 +16,9 @@
 //!
 //! A component of d below 2⁻²⁶ of the largest is clamped to it, keeping its sign. Over the length of the scene this shifts the
 //! ray by less than u B/4, and no infinity or NaN can occur.
-use fearless_simd::{Simd, SimdBase, SimdMask, f32x8};
+use fearless_simd::{Simd, SimdBase, f32x8, mask32x8};
 
-use super::{Node, WIDTH};
+use super::Node;
 use crate::{
     geometry::bounds::Bounds,
     math::{F, Lanes, MAX_LANES, V},
@@ -88,9 +88,9 @@ pub(super) struct WideSlabs<S: Simd> {
 }
 
 impl<S: Simd> WideSlabs<S> {
-    /// Distances greater than 0 at which the ray enters the node's boxes, and as bits the boxes that it hits before `t_max`.
+    /// Distances greater than 0 at which the ray enters the node's boxes, and the boxes that it hits before `t_max`.
     #[inline(always)]
-    pub fn meet(&self, s: S, node: &Node, t_max: f32) -> ([f32; WIDTH], u32) {
+    pub fn meet(&self, s: S, node: &Node, t_max: f32) -> (f32x8<S>, mask32x8<S>) {
         // The least positive number: 0 has two signs, and which one comes first would be up to the processor.
         const START: f32 = f32::from_bits(1);
         let (near_x, far_x) = self.axis::<0>(s, node);
@@ -98,7 +98,7 @@ impl<S: Simd> WideSlabs<S> {
         let (near_z, far_z) = self.axis::<2>(s, node);
         let near = near_x.max(near_y).max(near_z.max(f32x8::splat(s, START)));
         let far = far_x.min(far_y).min(far_z.min(f32x8::splat(s, t_max)));
-        (near.to_array(), near.simd_le(far).to_bitmask() as u32)
+        (near, near.simd_le(far))
     }
 
     #[inline(always)]

@@ -1,11 +1,11 @@
 //! A traversal visits every box that a ray hits.
-use fearless_simd::{Fallback, Simd};
+use fearless_simd::Simd;
 use rand::{Rng, SeedableRng, rngs::SmallRng};
 
-use super::{Bvh, Leaves, NONE, Slabs, Stack, traverse};
+use super::{Bvh, Leaves, NONE, Search, Searches, Slabs, Stacks, traverse};
 use crate::{
     geometry::bounds::Bounds,
-    math::{One, V},
+    math::{Lanes, MAX_LANES, SimdLevel, V, in_lanes},
     progress::{Cancelled, Progress, Stage},
 };
 
@@ -25,21 +25,17 @@ fn boxes(count: usize, rng: &mut SmallRng) -> Vec<Bounds> {
 /// Marks the items of the visited leaves.
 struct Marks<'a> {
     order: &'a [u32],
-    shown: Vec<bool>,
+    /// By lane.
+    shown: Vec<Vec<bool>>,
 }
 
 impl<S: Simd> Leaves<S> for Marks<'_> {
     #[inline(always)]
-    fn meet(&mut self, _: S, leaf: u32, t_max: f32) -> f32 {
+    fn meet(&mut self, _: S, lane: usize, leaf: u32, t_max: f32) -> f32 {
         for &item in self.order[4 * leaf as usize..][..4].iter().filter(|&&item| item != NONE) {
-            self.shown[item as usize] = true;
+            self.shown[lane][item as usize] = true;
         }
         t_max
-    }
-
-    #[inline(always)]
-    fn touch(&self, leaf: u32) -> u32 {
-        self.order[4 * leaf as usize]
     }
 }
 
@@ -79,15 +75,30 @@ fn every_box_that_is_met_is_shown() {
         numbers.sort_unstable();
         assert!(numbers.iter().copied().eq(0..count as u32), "each in one leaf");
         assert!(boxes.iter().all(|bounds| bvh.bounds().contains(bounds)));
-        let mut stack = Stack::<false>::default();
-        for k in 0..2000 {
-            let mut corner = || [0; 3].map(|_| rng.random_range(-1.5f32..1.5));
-            let (o, mut d) = (corner(), corner());
-            d[k % 3] *= [1.0, 0.0, -0.0, 1e-12][k % 4];
-            let slabs = Slabs::new(One, V::splat(One, o), V::splat(One, d), &bvh.bounds());
-            let mut marks = Marks { order: &order, shown: vec![false; count] };
-            traverse(Fallback::new(), &bvh, &mut stack, (&slabs, 0), (f32::INFINITY, 0.0), &mut marks);
-            let lost = boxes.iter().zip(marks.shown).position(|(bounds, shown)| !shown && meets(bounds, o, d));
+        for level in SimdLevel::available() {
+            in_lanes!(level, l => shows_all(l, &bvh, &order, &boxes, &mut rng));
+        }
+    }
+}
+
+/// Rays in some of the lanes, in groups whose number of rays varies.
+fn shows_all<L: Lanes>(l: L, bvh: &Bvh, order: &[u32], boxes: &[Bounds], rng: &mut SmallRng) {
+    for k in 0..2000 / L::N {
+        let mut corner = || [0; 3].map(|_| rng.random_range(-1.5f32..1.5));
+        let mut rays = [([0.0; 3], [0.0; 3]); MAX_LANES].map(|_| (corner(), corner()));
+        for (lane, (_, d)) in rays.iter_mut().enumerate() {
+            d[(k + lane) % 3] *= [1.0, 0.0, -0.0, 1e-12][(k + lane) % 4];
+        }
+        let column = |axis: usize| l.load(&rays.map(|(o, d)| [o, d].concat()[axis]));
+        let (o, d) = (V { x: column(0), y: column(1), z: column(2) }, V { x: column(3), y: column(4), z: column(5) });
+        let live = (l.iota() & l.u(rng.random())).is(0);
+        let mut searches = Searches::new(live, Search::nearest(l, l.f(f32::INFINITY)));
+        let mut marks = Marks { order, shown: vec![vec![false; boxes.len()]; MAX_LANES] };
+        let slabs = Slabs::new(l, o, d, &bvh.bounds());
+        traverse(l.token(), bvh, &mut Stacks::<false>::default(), (&slabs, &mut searches), &mut marks);
+        for (lane, ((o, d), shown)) in rays.into_iter().zip(marks.shown).enumerate().take(L::N) {
+            let expected = |bounds: &Bounds| live.bits() >> lane & 1 == 1 && meets(bounds, o, d);
+            let lost = boxes.iter().zip(shown).position(|(bounds, shown)| !shown && expected(bounds));
             assert_eq!(lost, None, "{o:?} {d:?}");
         }
     }

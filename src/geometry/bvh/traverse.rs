@@ -1,8 +1,17 @@
 //! Traversal of the tree, near boxes first.
+//!
+//! What takes time is not the amount of work but waiting: for memory, for the result of one box that says which is next, and for branches
+//! that go elsewhere than predicted. So two rays take turns.
+use std::{marker::PhantomData, ops::Add};
+
 use fearless_simd::Simd;
 
-use super::{Bvh, LEAF, Node, Slabs, WIDTH, build::MAX_DEPTH};
-use crate::math::{F, Lanes};
+use super::{
+    Bvh, LEAF, Slabs,
+    slabs::WideSlabs,
+    stack::{Entered, Stack},
+};
+use crate::math::{F, Lanes, M, MAX_LANES};
 
 /// Which hits are looked for.
 #[derive(Clone, Copy)]
@@ -23,17 +32,10 @@ impl<L: Lanes> Search<L> {
 
 /// The contents of leaves. This is a trait because a closure would be compiled without the instructions of `S`.
 pub trait Leaves<S: Simd> {
-    /// Tests the contents of leaf `leaf` against the ray, keeps the nearest hit, and returns the distance at which the search
+    /// Tests the contents of leaf `leaf` against the ray of a lane, keeps the nearest hit, and returns the distance at which the search
     /// ends: `t_max` or less. Implementations should be `#[inline(always)]`.
-    fn meet(&mut self, s: S, leaf: u32, t_max: f32) -> f32;
-
-    /// Any words of the leaf, one from each cache line. Reading them early acts as a prefetch, which safe code lacks: memory
-    /// responds while nearer boxes are tested.
-    fn touch(&self, leaf: u32) -> u32;
+    fn meet(&mut self, s: S, lane: usize, leaf: u32, t_max: f32) -> f32;
 }
-
-/// The most boxes that wait.
-const SIZE: usize = 256;
 
 /// Work on the way of rays through trees.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -44,115 +46,141 @@ pub struct Visits {
     pub leaves: u64,
 }
 
-/// Boxes that are still to be visited, the nearest of a node last. It can be reused for the next ray. It counts visits only if it
-/// `COUNTS`, which takes 2 % of the time.
-pub struct Stack<const COUNTS: bool = false> {
-    pub visits: Visits,
-    /// Distance (the bits of positive f32 sort like their values) in the upper half, reference to the child in the lower half.
-    entries: [u64; SIZE],
-    len: usize,
-}
+impl Add for Visits {
+    type Output = Visits;
 
-impl<const COUNTS: bool> Stack<COUNTS> {
-    /// Indexes modulo the size, which needs no bounds check. The depth of the tree is bounded, so the index never wraps.
-    #[inline(always)]
-    fn at(&mut self, place: usize) -> &mut u64 {
-        const { assert!(MAX_DEPTH * (WIDTH - 1) < SIZE) };
-        &mut self.entries[place % SIZE]
-    }
-
-    /// Inserts an entry above the farther ones from `base` upwards.
-    #[inline(always)]
-    fn insert(&mut self, base: usize, entry: u64) {
-        let mut place = self.len;
-        while place > base && *self.at(place - 1) < entry {
-            *self.at(place) = *self.at(place - 1);
-            place -= 1;
-        }
-        *self.at(place) = entry;
-        self.len += 1;
-    }
-
-    /// Pops the topmost reference whose distance is at most `t_max`.
-    #[inline(always)]
-    fn pop(&mut self, t_max: f32) -> Option<u32> {
-        while self.len > 0 {
-            self.len -= 1;
-            let entry = *self.at(self.len);
-            if (entry >> 32) as u32 <= t_max.to_bits() {
-                return Some(entry as u32);
-            }
-        }
-        None
+    fn add(self, other: Visits) -> Visits {
+        Visits { nodes: self.nodes + other.nodes, leaves: self.leaves + other.leaves }
     }
 }
 
-impl<const COUNTS: bool> Default for Stack<COUNTS> {
+/// Room for the boxes of two rays.
+pub type Stacks<const COUNTS: bool = false> = [Stack<COUNTS>; 2];
+
+/// The searches of all lanes.
+pub struct Searches<L: Lanes> {
+    /// Where the search of each lane ends.
+    pub t_max: [f32; MAX_LANES],
+    enough: [f32; MAX_LANES],
+    /// Lanes whose search has not begun, as bits.
+    rest: u64,
+    lanes: PhantomData<L>,
+}
+
+impl<L: Lanes> Searches<L> {
+    /// Searches in the lanes of `live`.
     #[inline(always)]
-    fn default() -> Self {
-        Stack { visits: Visits::default(), entries: [0; SIZE], len: 0 }
+    pub fn new(live: M<L>, search: Search<L>) -> Self {
+        Searches { t_max: search.limit.to_array(), enough: search.enough.to_array(), rest: live.bits(), lanes: PhantomData }
+    }
+
+    /// The next lane. It is a constant if there is only one, so that rays of single lanes stay in registers.
+    #[inline(always)]
+    fn next(&mut self) -> Option<usize> {
+        let (rest, lane) = (self.rest, self.rest.trailing_zeros() as usize % L::N);
+        self.rest &= rest.wrapping_sub(1);
+        (rest != 0).then_some(lane)
     }
 }
 
-/// The entry of the lowest set bit in `met`.
-#[inline(always)]
-fn entry(near: &[f32; WIDTH], node: &Node, met: u32) -> u64 {
-    let place = met.trailing_zeros() as usize % WIDTH;
-    u64::from(near[place].to_bits()) << 32 | u64::from(node.children[place])
+/// What rays go through, and where boxes wait for two of them.
+struct Rays<'a, L: Lanes, M, const COUNTS: bool> {
+    bvh: &'a Bvh,
+    slabs: &'a Slabs,
+    searches: &'a mut Searches<L>,
+    stacks: &'a mut Stacks<COUNTS>,
+    leaves: &'a mut M,
 }
 
-/// Passes to `leaves` every leaf whose box the ray of lane `lane` hits before the distance that `leaves` returned last, initially
-/// `t_max` > 0. Returns that distance. A hit before `enough` ends the search.
-#[inline(always)]
-pub fn traverse<S: Simd, const COUNTS: bool>(
-    s: S,
-    bvh: &Bvh,
-    stack: &mut Stack<COUNTS>,
-    (slabs, lane): (&Slabs, usize),
-    (mut t_max, enough): (f32, f32),
-    leaves: &mut impl Leaves<S>,
-) -> f32 {
-    stack.len = 0;
-    if bvh.nodes.is_empty() {
-        return t_max;
+/// One ray on its way.
+struct Walk<S: Simd> {
+    slabs: WideSlabs<S>,
+    lane: usize,
+    /// Its stack.
+    stack: usize,
+    /// The box to visit next.
+    current: u32,
+    t_max: f32,
+    enough: f32,
+}
+
+impl<L: Lanes, M, const COUNTS: bool> Rays<'_, L, M, COUNTS> {
+    /// The next ray at the root, if there is one.
+    #[inline(always)]
+    fn next<S: Simd>(&mut self, s: S, stack: usize) -> Option<Walk<S>> {
+        let lane = self.searches.next()?;
+        self.stacks[stack].clear();
+        let Searches { t_max, enough, .. } = &self.searches;
+        Some(Walk { slabs: self.slabs.splat(s, lane), lane, stack, current: 0, t_max: t_max[lane], enough: enough[lane] })
     }
-    let slabs = slabs.splat(s, lane);
-    let mut current = 0;
-    let mut touched = 0u32;
-    loop {
-        if current & LEAF != 0 {
+}
+
+impl<S: Simd> Walk<S> {
+    /// Visits a box. Returns whether the ray goes on.
+    #[inline(always)]
+    fn step<L: Lanes, const COUNTS: bool>(&mut self, s: S, rays: &mut Rays<L, impl Leaves<S>, COUNTS>) -> bool {
+        let (nodes, stack) = (&rays.bvh.nodes, &mut rays.stacks[self.stack]);
+        if self.current & LEAF != 0 {
             stack.visits.leaves += u64::from(COUNTS);
-            let t = leaves.meet(s, current & !LEAF, t_max);
-            if t < t_max && t < enough {
-                return t;
+            let t = rays.leaves.meet(s, self.lane, self.current & !LEAF, self.t_max);
+            let ends = t < self.t_max && t < self.enough;
+            self.t_max = t;
+            if ends {
+                return false;
             }
-            t_max = t;
         } else {
             stack.visits.nodes += u64::from(COUNTS);
-            let node = &bvh.nodes[current as usize];
-            let (near, mut met) = slabs.meet(s, node, t_max);
-            if met != 0 {
-                let base = stack.len;
-                let mut nearest = entry(&near, node, met);
-                met &= met - 1;
-                while met != 0 {
-                    let other = entry(&near, node, met);
-                    met &= met - 1;
-                    touched |= match other as u32 {
-                        child if child & LEAF != 0 => leaves.touch(child & !LEAF),
-                        child => bvh.nodes[child as usize].touch(),
-                    };
-                    stack.insert(base, nearest.max(other));
-                    nearest = nearest.min(other);
-                }
-                current = nearest as u32;
-                continue;
+            let node = &nodes[self.current as usize];
+            let (near, boxes) = self.slabs.meet(s, node, self.t_max);
+            let entered = Entered::new(s, near, boxes);
+            if let Some(nearest) = entered.nearest(s) {
+                stack.push_others(s, self.current, &entered);
+                self.current = node.children[nearest];
+                return true;
             }
         }
-        let Some(next) = stack.pop(t_max) else {
-            std::hint::black_box(touched);
-            return t_max;
-        };
-        current = next;
+        let Some((node, place)) = stack.pop(self.t_max) else { return false };
+        self.current = nodes[node as usize].children[place];
+        true
     }
+
+    /// Visits a box, and goes on with the next ray where this one ends. Where there is none, finishes the other one and returns false.
+    #[inline(always)]
+    fn turn<L: Lanes, const COUNTS: bool>(&mut self, s: S, rays: &mut Rays<L, impl Leaves<S>, COUNTS>, other: &mut Self) -> bool {
+        if self.step(s, rays) {
+            return true;
+        }
+        rays.searches.t_max[self.lane] = self.t_max;
+        let Some(next) = rays.next(s, self.stack) else {
+            other.finish(s, rays);
+            return false;
+        };
+        *self = next;
+        true
+    }
+
+    #[inline(always)]
+    fn finish<L: Lanes, const COUNTS: bool>(&mut self, s: S, rays: &mut Rays<L, impl Leaves<S>, COUNTS>) {
+        while self.step(s, rays) {}
+        rays.searches.t_max[self.lane] = self.t_max;
+    }
+}
+
+/// Passes to `leaves` every leaf whose box a ray hits before the distance that `leaves` returned last, and stores that distance in
+/// `searches`.
+#[inline(always)]
+pub fn traverse<S: Simd, L: Lanes, const COUNTS: bool>(
+    s: S,
+    bvh: &Bvh,
+    stacks: &mut Stacks<COUNTS>,
+    (slabs, searches): (&Slabs, &mut Searches<L>),
+    leaves: &mut impl Leaves<S>,
+) {
+    let mut rays = Rays { bvh, slabs, searches, stacks, leaves };
+    if bvh.nodes.is_empty() {
+        return;
+    }
+    let Some(mut one) = rays.next(s, 0) else { return };
+    let Some(mut two) = rays.next(s, 1) else { return one.finish(s, &mut rays) };
+    while one.turn(s, &mut rays, &mut two) && two.turn(s, &mut rays, &mut one) {}
 }

@@ -106,13 +106,6 @@ impl Block {
         Block { corners, first }
     }
 
-    /// A word of each cache line.
-    #[inline(always)]
-    pub fn touch(&self) -> u32 {
-        let [a, b, c] = &self.corners;
-        a[0][0].to_bits() | b[1][0].to_bits() | c[0][0].to_bits() | self.first
-    }
-
     /// The vertices, sheared.
     #[inline(always)]
     pub fn sheared<S: Simd>(&self, s: S, ray: &Shear) -> Sheared<S> {

@@ -30,13 +30,13 @@ use fearless_simd::Simd;
 use fearless_simd_macros::simd;
 
 use self::{
-    block::{Block, Shear, Shears},
+    block::{Block, Shears},
     vertices::{Vertices, rows},
 };
 pub use self::{data::MeshData, surface::MeshPoint};
 use super::{
     bounds::Bounds,
-    bvh::{Bvh, Leaves, NONE, Search, Slabs, Stack, traverse},
+    bvh::{Bvh, Leaves, NONE, Search, Searches, Slabs, Stacks, traverse},
 };
 use crate::{
     math::{F, Lanes, MAX_LANES, U, V},
@@ -56,33 +56,28 @@ pub struct Mesh {
     _room_for_pieces: Option<Reservation>,
 }
 
-/// The nearest intersection so far; tests leaves for nearer ones.
-struct NearestTriangle<'a> {
+/// The slots of the nearest triangles so far; tests leaves for nearer ones.
+struct NearestTriangles<'a> {
     blocks: &'a [Block],
-    ray: Shear,
-    slot: u32,
+    rays: &'a Shears,
+    slots: [u32; MAX_LANES],
 }
 
-impl<S: Simd> Leaves<S> for NearestTriangle<'_> {
+impl<S: Simd> Leaves<S> for NearestTriangles<'_> {
     #[inline(always)]
-    fn meet(&mut self, s: S, leaf: u32, mut t_max: f32) -> f32 {
-        let block = &self.blocks[leaf as usize];
-        let sheared = block.sheared(s, &self.ray);
+    fn meet(&mut self, s: S, lane: usize, leaf: u32, mut t_max: f32) -> f32 {
+        let (block, ray) = (&self.blocks[leaf as usize], self.rays.lane(lane));
+        let sheared = block.sheared(s, &ray);
         let mut candidates = sheared.candidates(s);
         while candidates != 0 {
             let place = candidates.trailing_zeros();
             candidates &= candidates - 1;
-            let t = sheared.distance(place as usize, &self.ray);
+            let t = sheared.distance(place as usize, &ray);
             let nearer = (t > 0.0) & (t < t_max);
             t_max = if nearer { t } else { t_max };
-            self.slot = if nearer { block.first + place } else { self.slot };
+            self.slots[lane] = if nearer { block.first + place } else { self.slots[lane] };
         }
         t_max
-    }
-
-    #[inline(always)]
-    fn touch(&self, leaf: u32) -> u32 {
-        self.blocks[leaf as usize].touch()
     }
 }
 
@@ -105,43 +100,30 @@ impl Mesh {
     /// Both sides count. d need not be of unit length. Lanes with a `t_max` of 0 cost almost nothing.
     #[inline(always)]
     pub fn closest<L: Lanes>(&self, l: L, o: V<L>, d: V<L>, t_max: F<L>) -> (F<L>, U<L>) {
-        self.closest_by(l, l.token(), &mut Stack::<false>::default(), (o, d), Search::nearest(l, t_max))
+        self.closest_by(l.token(), l, &mut Stacks::<false>::default(), (o, d), Search::nearest(l, t_max))
     }
 
     /// The same within the limit of a search; boxes and triangles are tested with the instructions of `s`, for any lanes.
-    #[inline(always)]
-    pub fn closest_by<L: Lanes, S: Simd, const COUNTS: bool>(
+    #[simd]
+    pub fn closest_by<S: Simd, L: Lanes, const COUNTS: bool>(
         &self,
-        l: L,
         s: S,
-        stack: &mut Stack<COUNTS>,
+        l: L,
+        stacks: &mut Stacks<COUNTS>,
         (o, d): (V<L>, V<L>),
         search: Search<L>,
     ) -> (F<L>, U<L>) {
         let rays = Rays::new(l, o, d, &self.bounds());
-        let (mut distances, enough) = (search.limit.to_array(), search.enough.to_array());
-        let mut triangles = [0.0; MAX_LANES];
-        for lane in 0..L::N {
-            let (t, triangle) = self.closest_of(s, stack, &rays, lane, (distances[lane], enough[lane]));
-            distances[lane] = t;
-            triangles[lane] = f32::from_bits(triangle);
+        let mut searches = Searches::new(l.f(0.0).lt(search.limit), search);
+        let mut nearest = NearestTriangles { blocks: &self.blocks, rays: &rays.shears, slots: [NONE; MAX_LANES] };
+        traverse(s, &self.bvh, stacks, (&rays.slabs, &mut searches), &mut nearest);
+        let mut triangles = nearest.slots;
+        if !self.triangle_of.is_empty() {
+            for slot in &mut triangles[..L::N] {
+                *slot = self.triangle_of.get(*slot as usize).copied().unwrap_or(NONE);
+            }
         }
-        (l.load(&distances), l.load(&triangles).bits())
-    }
-
-    /// The same for the ray in one lane.
-    #[simd]
-    fn closest_of<S: Simd, const COUNTS: bool>(
-        &self,
-        s: S,
-        stack: &mut Stack<COUNTS>,
-        rays: &Rays,
-        lane: usize,
-        search: (f32, f32),
-    ) -> (f32, u32) {
-        let mut nearest = NearestTriangle { blocks: &self.blocks, ray: rays.shears.lane(lane), slot: NONE };
-        let t = traverse(s, &self.bvh, stack, (&rays.slabs, lane), search, &mut nearest);
-        (t, self.triangle_of.get(nearest.slot as usize).copied().unwrap_or(nearest.slot))
+        (l.load(&searches.t_max), l.load(bytemuck::cast_slice(&triangles)).bits())
     }
 
     /// The vertices of a triangle.

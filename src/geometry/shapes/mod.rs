@@ -9,7 +9,7 @@ use glam::{DAffine3, DVec3};
 
 use super::{
     MISS, Motion, Nearest, SurfacePoint,
-    bvh::{Search, Stack, Visits},
+    bvh::{Search, Stacks, Visits},
     clusters::take_clusters,
     identity::same_map,
     instance::{Body, Instance},
@@ -249,7 +249,7 @@ impl Shapes {
     pub fn visits(&self, ray: (V<One>, V<One>), time: F<One>) -> Visits {
         let (o, d) = ray;
         let mut nearest = self.closest_listed(One, o, d);
-        let mut stacks = [Stack::<true>::default(), Stack::default()];
+        let mut stacks = <[Stacks<true>; 2]>::default();
         for instance in self.loops.iter().map(|index| &self.instances[*index as usize]) {
             if instance.near(M(true), o, d).0 {
                 let search = Search::nearest(One, nearest.t);
@@ -260,8 +260,8 @@ impl Shapes {
         if let Some(objects) = &self.objects {
             objects.count(&self.instances, ray, time, &nearest, &mut stacks);
         }
-        let [a, b] = stacks.map(|stack| stack.visits);
-        Visits { nodes: a.nodes + b.nodes, leaves: a.leaves + b.leaves }
+        let visits = stacks.as_flattened().iter().map(|stack| stack.visits);
+        visits.fold(Visits::default(), |all, visits| all + visits)
     }
 
     /// The first of the surfaces that are not in lists, in the lanes of `live`, or `listed` if that is nearer. Any before `enough` will
