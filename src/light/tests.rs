@@ -67,8 +67,8 @@ fn directions_to_lights_are_distributed_as_their_pdf() {
     const SUB: usize = 24;
     const SAMPLES: u32 = 400_000;
     let (lights, shapes, alone) = lights();
-    let glossy = Some(Lobe { wo: vector(0.6, 0.0, 0.8), alpha: F(0.1) });
-    for (transmits, lobe) in [(false, None), (true, None), (false, glossy)] {
+    let glossy = |alpha| Some(Lobe { wo: vector(0.6, 0.0, 0.8), alpha: F(alpha) });
+    for (transmits, lobe) in [(false, None), (true, None), (false, glossy(0.1)), (false, glossy(0.6))] {
         let at = ReferencePoint { p: vector(0.1, -0.2, 0.1), n: vector(0.0, 0.6, 0.8), transmits: M(transmits), lobe };
         let mut counts = vec![0.0; ACROSS * AROUND];
         let mut drawn = 0.0;
@@ -215,4 +215,18 @@ fn a_lamp_arrives_unless_something_is_nearer() {
     assert_eq!(arrives(2, f32::INFINITY, MISS), (true, f32::INFINITY));
     assert_eq!(arrives(2, 1e30, 2), (false, 1e30));
     assert_eq!([arrives(0, 2.0, 0).0, arrives(0, 2.0, 1).0], [true, false]);
+}
+
+#[test]
+fn an_even_sky_is_sampled_except_where_a_narrow_lobe_reflects_it() {
+    let (several, shapes, _) = lights();
+    let sky = || Some(Background::Constant(ConstantRadiance([0.5, 0.4, 0.6])));
+    let alone = Lights::new(&shapes, &[], &[], sky(), DVec3::ZERO);
+    for (lights, alpha, sampled) in [(&several, 0.1, false), (&several, 0.6, true), (&alone, 0.1, false), (&alone, 0.6, true)] {
+        let lobe = Some(Lobe { wo: vector(0.6, 0.0, 0.8), alpha: F(alpha) });
+        let at = ReferencePoint { p: vector(0.1, -0.2, 0.1), n: vector(0.0, 0.6, 0.8), transmits: M(false), lobe };
+        let samples = (0..1000).map(|i| lights.sample(One, &shapes, &at, F(0.0), &coordinates(i)));
+        assert_eq!(samples.filter(|sample| sample.target.0 == MISS && sample.pdf.0 > 0.0).count() > 0, sampled, "{alpha}");
+        assert_eq!(lights.pdf(One, &shapes, &at, vector(0.0, 0.0, 1.0), &place(U(MISS))).0 > 0.0, sampled, "{alpha}");
+    }
 }

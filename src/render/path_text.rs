@@ -132,7 +132,7 @@ fn light_sample(scene: &Scene, light: &SampledLight, term: &mut impl FnMut(&str,
         &match light.outcome {
             LightOutcome::Seen => format!("is visible, adds {}", three(light.contribution)),
             LightOutcome::Hidden => "is occluded".to_owned(),
-            LightOutcome::Void => "adds nothing: BSDF or radiance is 0".to_owned(),
+            LightOutcome::Void => "adds nothing: density, BSDF or radiance is 0".to_owned(),
         },
     );
 }
@@ -207,7 +207,7 @@ mod tests {
                 true,
                 LightOutcome::Void,
                 [false, true],
-                [", front, ", "adds nothing: BSDF or radiance is 0", "ends: no light can follow"],
+                [", front, ", "adds nothing: density, BSDF or radiance is 0", "ends: no light can follow"],
             ),
         ] {
             let told = told(front, outcome, [goes_on, survives]);

@@ -46,7 +46,7 @@ impl Surrounding for Constant {
 }
 
 /// The same radiance from all directions, W·sr⁻¹·m⁻². It is sampled in proportion to the cosine, on both sides of the surface alike if
-/// the surface transmits.
+/// the surface transmits, and not at all where a narrow lobe reflects it: the next direction of the path finds it, too.
 pub struct ConstantRadiance(pub [f32; 3]);
 
 impl Radiant for ConstantRadiance {
@@ -93,5 +93,9 @@ impl Radiant for ConstantRadiance {
 #[inline(always)]
 fn cosine_pdf<L: Lanes>(at: &ReferencePoint<L>, wi: V<L>) -> F<L> {
     let cos = wi.dot(at.n);
-    at.transmits.pick(cos.abs() * (0.5 * FRAC_1_PI), cos.max(cos.splat(0.0)) * FRAC_1_PI)
+    let pdf = at.transmits.pick(cos.abs() * (0.5 * FRAC_1_PI), cos.max(cos.splat(0.0)) * FRAC_1_PI);
+    match &at.lobe {
+        Some(lobe) => lobe.is_narrow().pick(cos.splat(0.0), pdf),
+        None => pdf,
+    }
 }

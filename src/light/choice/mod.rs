@@ -17,7 +17,7 @@ use super::{
     emission::{Emission, Emitters},
     lamp::{Lamp, Lamps},
     reference_point::ReferencePoint,
-    selection::Selection,
+    selection::{Selection, Sky},
 };
 use crate::{
     geometry::{MISS, Motion, PrimitiveRef, Shape, Shapes},
@@ -103,8 +103,8 @@ impl Lights {
         lights.count = sources.len();
         lights.fluxes = sources.iter().map(|(piece, motion, emission)| flux(&Bound::new(piece, motion, emission))).collect();
         let sky = lights.background.as_ref().map_or(0.0, Background::luminance);
-        lights.selection = Selection::new(&sources, lamps, sky, near);
-        lights.selection_of_lamps = Selection::new(&[], lamps, 0.0, near);
+        lights.selection = Selection::new(&sources, lamps, Sky { luminance: sky, is_even: lights.have_even_sky() }, near);
+        lights.selection_of_lamps = Selection::new(&[], lamps, Sky::default(), near);
         lights
     }
 
@@ -160,9 +160,9 @@ impl Lights {
         self.count + self.lamps.len() + usize::from(self.background.is_some()) > 1
     }
 
-    /// Whether the selection uses [`ReferencePoint::lobe`].
+    /// Whether light samples depend on [`ReferencePoint::lobe`].
     pub fn heed_lobes(&self) -> bool {
-        self.are_several() && self.selection.is_without_tree()
+        (self.are_several() || self.have_even_sky()) && self.selection.is_without_tree()
     }
 
     /// Whether the background is sampled by cells.

@@ -36,11 +36,19 @@ const MOST_CANDIDATES: usize = if FEW > LARGE + HEADS { FEW } else { LARGE + HEA
 /// The tree needs some heads beside the lights that are weighted one by one.
 const _: () = assert!(LARGE + MOST_DIRECTIONAL + 8 <= MOST_CANDIDATES);
 
+/// The background, as a light.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Sky {
+    /// Its mean luminance.
+    pub luminance: f32,
+    /// Whether it has the same radiance everywhere.
+    pub is_even: bool,
+}
+
 /// The candidates of a choice: the background, the lights that are weighted one by one, and the heads of the tree.
 #[derive(Default)]
 pub(super) struct Selection {
-    /// Mean luminance of the background.
-    sky: f32,
+    sky: Sky,
     sources: Vec<Source>,
     tree: Tree,
     /// Words of sources and heads, as in the tree.
@@ -50,7 +58,7 @@ pub(super) struct Selection {
 impl Selection {
     /// Builds the selection. `lights` are the emitting shapes with their motion, and lamps are numbered after them. `near` is a point
     /// near the middle of the scene.
-    pub fn new(lights: &[(Shape, Motion, Emission)], lamps: &[Lamp], sky: f32, near: DVec3) -> Selection {
+    pub fn new(lights: &[(Shape, Motion, Emission)], lamps: &[Lamp], sky: Sky, near: DVec3) -> Selection {
         let count = lights.len() + lamps.len();
         let surface = |(shape, motion, emission): &(Shape, Motion, Emission)| Bound::new(shape, motion, emission);
         let (single, tree) = if count <= FEW {
@@ -89,9 +97,11 @@ impl Selection {
     /// The weight of the background.
     #[inline(always)]
     fn sky<L: Lanes>(&self, l: L, at: &ReferencePoint<L>) -> F<L> {
+        let Sky { luminance, is_even } = self.sky;
         match &at.lobe {
-            Some(lobe) => lobe.of_sky() * self.sky,
-            None => l.f(self.sky),
+            Some(lobe) if is_even => lobe.is_narrow().pick(l.f(0.0), lobe.of_sky() * luminance),
+            Some(lobe) => lobe.of_sky() * luminance,
+            None => l.f(luminance),
         }
     }
 

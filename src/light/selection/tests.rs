@@ -2,7 +2,7 @@
 use glam::{DMat3, DVec3};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
-use super::{FEW, Item, Selection, outstanding};
+use super::{FEW, Item, Selection, Sky, outstanding};
 use crate::{
     geometry::{MISS, Motion, Outline, PrimitiveRef, Shape, Shapes},
     light::{
@@ -55,7 +55,7 @@ impl Set {
     fn selection(&self) -> Selection {
         let still = |(shape, emission): (&Shape, &Emission)| (shape.clone(), Motion::default(), *emission);
         let lights: Vec<_> = self.shapes.iter().zip(&self.emissions).map(still).collect();
-        Selection::new(&lights, &self.lamps, self.sky, DVec3::ZERO)
+        Selection::new(&lights, &self.lamps, Sky { luminance: self.sky, is_even: false }, DVec3::ZERO)
     }
 
     /// Number of lights without the background.
