@@ -2,7 +2,7 @@
 //!
 //! A list tests a shape against all lanes at once. For a few shapes this costs less than a step in a tree; among many, a tree
 //! finds the few near a ray. This module decides which shapes go where.
-use fearless_simd::{ExtractToken, Simd};
+use fearless_simd::Simd;
 use fearless_simd_macros::simd;
 use glam::DVec3;
 
@@ -113,47 +113,19 @@ impl Objects {
     }
 
     /// Updates `nearest` with nearer hits along o + td, d of unit length, in the lanes of `live`. A hit before `enough` ends the search.
+    /// The stacks are those of this tree and of the trees below.
     #[simd]
-    pub fn closest<L: Lanes>(
+    pub fn closest<L: Lanes, const COUNTS: bool>(
         &self,
         l: L,
         instances: &[Instance],
+        [stacks, below]: &mut [Stacks<COUNTS>; 2],
         (live, enough): (M<L>, F<L>),
-        (o, d): (V<L>, V<L>),
-        time: F<L>,
+        ((o, d), time): ((V<L>, V<L>), F<L>),
         nearest: &mut Nearest<L>,
     ) {
-        let mut searches = Searches::new(live, Search { limit: nearest.t, enough });
-        let mut found = NearestHits {
-            objects: self,
-            instances,
-            below: &mut Stacks::<false>::default(),
-            origins: arrays(o),
-            directions: arrays(d),
-            times: time.to_array(),
-            enough: enough.to_array(),
-            primitives: nearest.primitive.to_array(),
-            elements: nearest.element.to_array(),
-        };
         let slabs = Slabs::new(l, o, d, &self.bvh.bounds());
-        traverse(l.token(), &self.bvh, &mut Stacks::<false>::default(), (&slabs, &mut searches), &mut found);
-        let [primitive, element] = [found.primitives, found.elements].map(|x| l.load(bytemuck::cast_slice(&x)).bits());
-        *nearest = Nearest { t: l.load(&searches.t_max), primitive, element };
-    }
-}
-
-impl Objects {
-    /// Finds the nearest hit of one ray that is nearer than `nearest`, and counts the visits of this tree and of those below.
-    pub fn count(
-        &self,
-        instances: &[Instance],
-        (o, d): (V<One>, V<One>),
-        time: F<One>,
-        nearest: &Nearest<One>,
-        stacks: &mut [Stacks<true>; 2],
-    ) {
-        let [stacks, below] = stacks;
-        let mut searches = Searches::new(M(true), Search::nearest(One, nearest.t));
+        let mut searches = Searches::new(live, Search { limit: nearest.t, enough });
         let mut found = NearestHits {
             objects: self,
             instances,
@@ -161,12 +133,13 @@ impl Objects {
             origins: arrays(o),
             directions: arrays(d),
             times: time.to_array(),
-            enough: [0.0; MAX_LANES],
+            enough: enough.to_array(),
             primitives: nearest.primitive.to_array(),
             elements: nearest.element.to_array(),
         };
-        let slabs = Slabs::new(One, o, d, &self.bvh.bounds());
-        traverse(One.token(), &self.bvh, stacks, (&slabs, &mut searches), &mut found);
+        traverse(l.token(), &self.bvh, stacks, (&slabs, &mut searches), &mut found);
+        let [primitive, element] = [found.primitives, found.elements].map(|x| l.load(bytemuck::cast_slice(&x)).bits());
+        *nearest = Nearest { t: l.load(&searches.t_max), primitive, element };
     }
 }
 

@@ -11,7 +11,7 @@ pub(super) struct PathQueues {
     pub paths: Queue,
     /// Filled if emitter hits are weighted.
     pub previous_vertices: Queue,
-    /// Filled beside `previous_vertices` in scenes with conductors and several lights.
+    /// Filled beside `previous_vertices` in scenes with metals and several lights or an even sky.
     pub previous_lobes: Queue,
     /// Filled in scenes with media.
     pub media: Queue,

@@ -25,7 +25,7 @@ record! {
 }
 
 record! {
-    /// The [`crate::light::Lobe`] of the previous vertex. Stored beside [`PreviousVertex`] if light selection uses lobes.
+    /// The [`crate::light::Lobe`] of the previous vertex. Stored beside [`PreviousVertex`] if light samples depend on lobes.
     PreviousLobe {
         wo: V,
         alpha: F,

@@ -179,7 +179,7 @@ impl<'a> Work<'a> {
         self.rays.time(l, self.stream(l, slot).one(Dimension::TIME))
     }
 
-    /// Whether light selection uses lobes; emitter hits then need them for their pdf.
+    /// Whether light samples depend on lobes; emitter hits then need them for their pdf.
     #[inline(always)]
     pub(super) fn heeds_lobes(&self) -> bool {
         self.settings.estimator.compares() && self.scene.heeds_lobes()

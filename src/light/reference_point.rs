@@ -11,6 +11,6 @@ pub struct ReferencePoint<L: Lanes> {
     pub n: V<L>,
     /// Lanes whose surface receives light from both sides.
     pub transmits: M<L>,
-    /// The glossy lobe at the point; `None` if surfaces are diffuse or the selection does not use lobes.
+    /// The glossy lobe at the point; `None` if surfaces are diffuse or light samples do not depend on lobes.
     pub lobe: Option<Lobe<L>>,
 }

@@ -26,7 +26,7 @@ pub trait Shade {
     const ENTERS: bool = Self::TRANSMITS;
     /// Whether it has a diffuse transmittance besides its colour: see [`Shade::with_transmittance`].
     const HAS_TRANSMITTANCE: bool = false;
-    /// Whether lights are chosen with its lobe.
+    /// Whether light samples depend on its lobe.
     const GLOSSY: bool = false;
     /// Whether it has a frame along the tangent and textures of its own, in scenes with materials that need them: then it is made
     /// by [`Shade::at_chart`].

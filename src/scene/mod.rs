@@ -210,7 +210,7 @@ impl Scene {
         settings.count_crossings && settings.max_bounces.is_some() && !self.surfaces.are_opaque()
     }
 
-    /// Whether lights are chosen by what glossy surfaces reflect of them.
+    /// Whether light samples depend on what glossy surfaces reflect.
     pub fn heeds_lobes(&self) -> bool {
         self.lights.heed_lobes() && self.surfaces.glossy
     }

@@ -143,7 +143,7 @@ impl Collapse<'_> {
         let mut node = Node::EMPTY;
         self.nodes.push(node);
         let branches = self.branches;
-        // Of boxes at one distance, the first is visited first, and nodes before leaves.
+        // Places break ties of distance: nodes come before leaves.
         let mut places = children.places;
         let children = &mut places[..children.count];
         children.sort_by_key(|child| branches[*child as usize].is_leaf());

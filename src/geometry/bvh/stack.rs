@@ -19,8 +19,8 @@ pub struct Stack<const COUNTS: bool = false> {
     len: usize,
 }
 
-/// The boxes of a node that a ray enters. The key of a box is its distance, of which the last three bits are the place in the node: the bits
-/// of positive floats sort like their values.
+/// The boxes of a node that a ray enters. The key of a box has the bits of its distance, which sort like their values, with the last three
+/// replaced by its place in the node.
 pub(super) struct Entered<S: Simd> {
     keys: u32x8<S>,
     boxes: mask32x8<S>,

@@ -1,7 +1,7 @@
 //! Traversal of the tree, near boxes first.
 //!
-//! What takes time is not the amount of work but waiting: for memory, for the result of one box that says which is next, and for branches
-//! that go elsewhere than predicted. So two rays take turns.
+//! Most of the time is spent waiting for memory, and for the test of a node, whose result says where to go next. So two rays take turns: one
+//! is tested while the other one waits.
 use std::{marker::PhantomData, ops::Add};
 
 use fearless_simd::Simd;
@@ -54,7 +54,7 @@ impl Add for Visits {
     }
 }
 
-/// Room for the boxes of two rays.
+/// Room for the boxes of two descent.
 pub type Stacks<const COUNTS: bool = false> = [Stack<COUNTS>; 2];
 
 /// The searches of all lanes.
@@ -84,12 +84,12 @@ impl<L: Lanes> Searches<L> {
 }
 
 /// What rays go through, and where boxes wait for two of them.
-struct Rays<'a, L: Lanes, M, const COUNTS: bool> {
+struct Descent<'a, L: Lanes, C, const COUNTS: bool> {
     bvh: &'a Bvh,
     slabs: &'a Slabs,
     searches: &'a mut Searches<L>,
     stacks: &'a mut Stacks<COUNTS>,
-    leaves: &'a mut M,
+    leaves: &'a mut C,
 }
 
 /// One ray on its way.
@@ -104,7 +104,7 @@ struct Walk<S: Simd> {
     enough: f32,
 }
 
-impl<L: Lanes, M, const COUNTS: bool> Rays<'_, L, M, COUNTS> {
+impl<L: Lanes, C, const COUNTS: bool> Descent<'_, L, C, COUNTS> {
     /// The next ray at the root, if there is one.
     #[inline(always)]
     fn next<S: Simd>(&mut self, s: S, stack: usize) -> Option<Walk<S>> {
@@ -118,11 +118,11 @@ impl<L: Lanes, M, const COUNTS: bool> Rays<'_, L, M, COUNTS> {
 impl<S: Simd> Walk<S> {
     /// Visits a box. Returns whether the ray goes on.
     #[inline(always)]
-    fn step<L: Lanes, const COUNTS: bool>(&mut self, s: S, rays: &mut Rays<L, impl Leaves<S>, COUNTS>) -> bool {
-        let (nodes, stack) = (&rays.bvh.nodes, &mut rays.stacks[self.stack]);
+    fn step<L: Lanes, const COUNTS: bool>(&mut self, s: S, descent: &mut Descent<L, impl Leaves<S>, COUNTS>) -> bool {
+        let (nodes, stack) = (&descent.bvh.nodes, &mut descent.stacks[self.stack]);
         if self.current & LEAF != 0 {
             stack.visits.leaves += u64::from(COUNTS);
-            let t = rays.leaves.meet(s, self.lane, self.current & !LEAF, self.t_max);
+            let t = descent.leaves.meet(s, self.lane, self.current & !LEAF, self.t_max);
             let ends = t < self.t_max && t < self.enough;
             self.t_max = t;
             if ends {
@@ -146,13 +146,18 @@ impl<S: Simd> Walk<S> {
 
     /// Visits a box, and goes on with the next ray where this one ends. Where there is none, finishes the other one and returns false.
     #[inline(always)]
-    fn turn<L: Lanes, const COUNTS: bool>(&mut self, s: S, rays: &mut Rays<L, impl Leaves<S>, COUNTS>, other: &mut Self) -> bool {
-        if self.step(s, rays) {
+    fn turn<L: Lanes, const COUNTS: bool>(
+        &mut self,
+        s: S,
+        descent: &mut Descent<L, impl Leaves<S>, COUNTS>,
+        other: &mut Self,
+    ) -> bool {
+        if self.step(s, descent) {
             return true;
         }
-        rays.searches.t_max[self.lane] = self.t_max;
-        let Some(next) = rays.next(s, self.stack) else {
-            other.finish(s, rays);
+        descent.searches.t_max[self.lane] = self.t_max;
+        let Some(next) = descent.next(s, self.stack) else {
+            other.finish(s, descent);
             return false;
         };
         *self = next;
@@ -160,14 +165,14 @@ impl<S: Simd> Walk<S> {
     }
 
     #[inline(always)]
-    fn finish<L: Lanes, const COUNTS: bool>(&mut self, s: S, rays: &mut Rays<L, impl Leaves<S>, COUNTS>) {
-        while self.step(s, rays) {}
-        rays.searches.t_max[self.lane] = self.t_max;
+    fn finish<L: Lanes, const COUNTS: bool>(&mut self, s: S, descent: &mut Descent<L, impl Leaves<S>, COUNTS>) {
+        while self.step(s, descent) {}
+        descent.searches.t_max[self.lane] = self.t_max;
     }
 }
 
-/// Passes to `leaves` every leaf whose box a ray hits before the distance that `leaves` returned last, and stores that distance in
-/// `searches`.
+/// Passes to `leaves` every leaf whose box a ray hits before the distance that `leaves` returned last for this ray, and stores that distance
+/// in `searches`.
 #[inline(always)]
 pub fn traverse<S: Simd, L: Lanes, const COUNTS: bool>(
     s: S,
@@ -176,11 +181,11 @@ pub fn traverse<S: Simd, L: Lanes, const COUNTS: bool>(
     (slabs, searches): (&Slabs, &mut Searches<L>),
     leaves: &mut impl Leaves<S>,
 ) {
-    let mut rays = Rays { bvh, slabs, searches, stacks, leaves };
     if bvh.nodes.is_empty() {
         return;
     }
-    let Some(mut one) = rays.next(s, 0) else { return };
-    let Some(mut two) = rays.next(s, 1) else { return one.finish(s, &mut rays) };
-    while one.turn(s, &mut rays, &mut two) && two.turn(s, &mut rays, &mut one) {}
+    let mut descent = Descent { bvh, slabs, searches, stacks, leaves };
+    let Some(mut one) = descent.next(s, 0) else { return };
+    let Some(mut two) = descent.next(s, 1) else { return one.finish(s, &mut descent) };
+    while one.turn(s, &mut descent, &mut two) && two.turn(s, &mut descent, &mut one) {}
 }

@@ -114,7 +114,7 @@ impl Mesh {
         search: Search<L>,
     ) -> (F<L>, U<L>) {
         let rays = Rays::new(l, o, d, &self.bounds());
-        let mut searches = Searches::new(l.f(0.0).lt(search.limit), search);
+        let mut searches = Searches::new(search.limit.above(0.0), search);
         let mut nearest = NearestTriangles { blocks: &self.blocks, rays: &rays.shears, slots: [NONE; MAX_LANES] };
         traverse(s, &self.bvh, stacks, (&rays.slabs, &mut searches), &mut nearest);
         let mut triangles = nearest.slots;

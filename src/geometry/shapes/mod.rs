@@ -258,7 +258,7 @@ impl Shapes {
             }
         }
         if let Some(objects) = &self.objects {
-            objects.count(&self.instances, ray, time, &nearest, &mut stacks);
+            objects.closest(One, &self.instances, &mut stacks, (M(true), F(0.0)), (ray, time), &mut nearest);
         }
         let visits = stacks.as_flattened().iter().map(|stack| stack.visits);
         visits.fold(Visits::default(), |all, visits| all + visits)
@@ -293,7 +293,8 @@ impl Shapes {
         if let Some(objects) = &self.objects
             && live.any()
         {
-            objects.closest(l, &self.instances, (live, enough), (o, d), time, &mut nearest);
+            let stacks = &mut <[Stacks<false>; 2]>::default();
+            objects.closest(l, &self.instances, stacks, (live, enough), ((o, d), time), &mut nearest);
         }
         nearest
     }

@@ -12,7 +12,7 @@ use crate::{
         sphere_field,
         transform::{LaneTransform, StaticTransform},
     },
-    math::{F, M, One, U, V},
+    math::{F, Lanes, M, MAX_LANES, One, SimdLevel, U, V, in_lanes},
 };
 
 /// Every kind under every transform that keeps its size, meshes and isosurfaces, about a cube: every third one moves.
@@ -84,6 +84,36 @@ fn the_tree_finds_what_trying_each_finds() {
         };
     }
     assert!(met > 1500, "{met}");
+}
+
+/// Some rays in lanes, of which some have none, against the same rays alone.
+fn assert_lanes_meet_what_single_rays_meet<L: Lanes>(l: L, all: &Shapes, rng: &mut SmallRng) {
+    let rays: [[V<One>; 2]; MAX_LANES] = std::array::from_fn(|_| [v(unit_vector(rng) * 3.0), v(unit_vector(rng))]);
+    let times: [f32; MAX_LANES] = std::array::from_fn(|_| rng.random_range(0.0..1.0));
+    let is_live: [f32; MAX_LANES] = std::array::from_fn(|_| f32::from(rng.random::<u32>() % 4 > 0));
+    let [o, d] = [0, 1].map(|i| {
+        let column = |of: fn(&V<One>) -> f32| l.load(&rays.map(|ray| of(&ray[i])));
+        V { x: column(|v| v.x.0), y: column(|v| v.y.0), z: column(|v| v.z.0) }
+    });
+    let found = all.closest(l, l.load(&is_live).above(0.0), o, d, l.load(&times));
+    let (t, primitive, element) = (found.t.to_array(), found.primitive.to_array(), found.element.to_array());
+    for (lane, [o, d]) in rays.into_iter().enumerate().take(L::N).filter(|(lane, _)| is_live[*lane] > 0.0) {
+        let alone = all.closest(One, M(true), o, d, F(times[lane]));
+        assert_eq!((t[lane], primitive[lane]), (alone.t.0, alone.primitive.0));
+        assert!(alone.primitive.0 == MISS || element[lane] == alone.element.0);
+    }
+}
+
+#[test]
+fn rays_in_lanes_meet_what_single_rays_meet() {
+    let mut rng = SmallRng::seed_from_u64(2);
+    let crowd = crowd(&mut rng);
+    let all = Shapes::new(crowd.iter().map(|(shape, motion)| (shape, motion)), DVec3::ZERO);
+    for level in SimdLevel::available() {
+        for _ in 0..300 {
+            in_lanes!(level, l => assert_lanes_meet_what_single_rays_meet(l, &all, &mut rng));
+        }
+    }
 }
 
 /// A unit square at this height, and a larger one in the same plane.

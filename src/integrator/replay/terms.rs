@@ -133,8 +133,8 @@ pub struct SampledLight {
     pub object: Option<u32>,
     /// Name of the sampled lamp without surface.
     pub lamp: Option<String>,
-    /// Pdf of the direction, including the probability of choosing the light; 0 if no light is on this side. For a lamp without
-    /// surface, that probability alone.
+    /// Pdf of the direction, including the probability of choosing the light; 0 if no light is on this side, or if the lobe is so narrow
+    /// that the sky is left to the next direction. For a lamp without surface, that probability alone.
     pub pdf: f32,
     /// BSDF times |cos θ_i|.
     pub f_cos: [f32; 3],
@@ -163,7 +163,7 @@ pub enum LightOutcome {
     Seen,
     /// The light is occluded.
     Hidden,
-    /// No ray was traced: the light is dark on this side, or nothing would be reflected.
+    /// No ray was traced: no direction was sampled, the light is dark on this side, or nothing would be reflected.
     Void,
 }
 

@@ -77,7 +77,7 @@ pub trait Radiant {
     /// Whether samples read the coordinates of a cell.
     const HAS_CELLS: bool = false;
 
-    /// Whether samples are distributed like those of a diffuse surface.
+    /// Whether samples are distributed like those of a diffuse surface; narrow lobes then take none.
     const IS_EVEN: bool = false;
 
     /// Radiance from the unit direction `d`.
@@ -147,7 +147,7 @@ impl Background {
         in_background!(self, background => has_cells(background))
     }
 
-    /// Whether samples are distributed like those of a diffuse surface.
+    /// Whether samples are distributed like those of a diffuse surface; narrow lobes then take none.
     pub fn is_even(&self) -> bool {
         fn is_even<R: Radiant>(_: &R) -> bool {
             R::IS_EVEN

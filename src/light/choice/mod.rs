@@ -170,7 +170,7 @@ impl Lights {
         self.background.as_ref().is_some_and(Background::has_cells)
     }
 
-    /// Whether the background is sampled like a diffuse surface.
+    /// Whether the background is sampled like a diffuse surface, and not at all at narrow lobes.
     pub fn have_even_sky(&self) -> bool {
         self.background.as_ref().is_some_and(Background::is_even)
     }

@@ -98,11 +98,9 @@ impl Selection {
     #[inline(always)]
     fn sky<L: Lanes>(&self, l: L, at: &ReferencePoint<L>) -> F<L> {
         let Sky { luminance, is_even } = self.sky;
-        match &at.lobe {
-            Some(lobe) if is_even => lobe.is_narrow().pick(l.f(0.0), lobe.of_sky() * luminance),
-            Some(lobe) => lobe.of_sky() * luminance,
-            None => l.f(luminance),
-        }
+        let Some(lobe) = &at.lobe else { return l.f(luminance) };
+        let weight = lobe.of_sky() * luminance;
+        if is_even { lobe.is_narrow().pick(l.f(0.0), weight) } else { weight }
     }
 
     /// Chooses a light, or [`MISS`] for the background, and returns it with its probability.

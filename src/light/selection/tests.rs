@@ -42,20 +42,20 @@ struct Set {
     shapes: Vec<Shape>,
     emissions: Vec<Emission>,
     lamps: Vec<Lamp>,
-    sky: f32,
+    sky: Sky,
 }
 
 impl Set {
     fn new(name: &'static str, lights: impl IntoIterator<Item = (Shape, f32, Side)>) -> Set {
         let emission = |light, side| Emission { radiance: [light; 3], mean: [light; 3], texture: None, side, translucent: false };
         let (shapes, emissions) = lights.into_iter().map(|(shape, light, side)| (shape, emission(light, side))).unzip();
-        Set { name, shapes, emissions, lamps: Vec::new(), sky: 0.0 }
+        Set { name, shapes, emissions, lamps: Vec::new(), sky: Sky::default() }
     }
 
     fn selection(&self) -> Selection {
         let still = |(shape, emission): (&Shape, &Emission)| (shape.clone(), Motion::default(), *emission);
         let lights: Vec<_> = self.shapes.iter().zip(&self.emissions).map(still).collect();
-        Selection::new(&lights, &self.lamps, Sky { luminance: self.sky, is_even: false }, DVec3::ZERO)
+        Selection::new(&lights, &self.lamps, self.sky, DVec3::ZERO)
     }
 
     /// Number of lights without the background.
@@ -107,7 +107,7 @@ fn sets() -> Vec<Set> {
             (any_shape(r, size), 10f64.powf(r.between(-4.0, 4.0)) as f32, any_side(r))
         })
         .collect();
-    all.push(Set { sky: 0.3, ..Set::new("of all kinds", lights) });
+    all.push(Set { sky: Sky { luminance: 0.3, is_even: false }, ..Set::new("of all kinds", lights) });
     let lamp = |_| (Shape::disk(r.point(3.0).with_y(2.0), -DVec3::Y, 0.05), 1.0, front);
     all.push(Set::new("a ceiling of lamps", (0..MANY).map(lamp)));
     all.push(Set::new("identical", (0..MANY).map(|_| (ball(DVec3::X, 0.1), 1.0, front))));
@@ -132,7 +132,7 @@ fn with_lamps(r: &mut Random, name: &'static str, [surfaces, positions, directio
     let shapes: Vec<_> = (0..surfaces).map(|_| (any_shape(r, 0.1), 1.0, any_side(r))).collect();
     let mut lamps: Vec<Lamp> = (0..positions).map(|_| any_lamp(r)).collect();
     lamps.extend((0..directions).map(|_| Lamp::directional(r.direction(), [r.next(); 3])));
-    Set { sky: 0.01, lamps, ..Set::new(name, shapes) }
+    Set { sky: Sky { luminance: 0.01, is_even: true }, lamps, ..Set::new(name, shapes) }
 }
 
 /// A lamp with a position, of any kind.

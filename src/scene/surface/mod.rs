@@ -45,7 +45,7 @@ pub struct Surfaces {
     pub textured: bool,
     /// The stages that some surface uses.
     pub stages: Vec<Stage>,
-    /// Whether some surface is glossy, so lights are chosen with its lobe.
+    /// Whether some surface is glossy, so that light samples depend on its lobe.
     pub glossy: bool,
     /// Whether all surfaces are diffuse, two-sided, opaque, and of constant colour.
     pub plain: bool,

@@ -9,7 +9,7 @@ use glam::{DVec3, Vec3, vec3};
 use rand::{Rng, SeedableRng, rngs::SmallRng};
 
 use super::{
-    Mesh, MeshData, NONE,
+    Mesh, MeshData, NONE, Search, Stacks,
     block::{SIZE, Shears},
     generate,
 };
@@ -295,6 +295,31 @@ fn no_hit_on_crowded_needles_is_lost_to_the_boxes_of_their_pieces() {
         let off = (Vec3::new(p.x.0, p.y.0, p.z.0) - a).dot((b - a).cross(c - a).normalize()).abs();
         assert!(off < 1e-4 * (1.0 + Vec3::from(*o).length()), "{off}");
     }
+}
+
+/// A hit before a distance may end the search, but none behind the nearest one beyond it.
+#[test]
+fn a_search_ends_at_the_nearest_hit_or_at_one_that_is_near_enough() {
+    const ENOUGH: f32 = 1.2;
+    fn ends<L: Lanes>(l: L, mesh: &Mesh, rays: &[Ray]) -> Vec<f32> {
+        let mut ends = Vec::new();
+        for rays in rays.chunks(L::N) {
+            let search = Search { limit: l.f(f32::INFINITY), enough: l.f(ENOUGH) };
+            let (t, _) = mesh.closest_by(l.token(), l, &mut Stacks::<false>::default(), in_columns(l, rays), search);
+            ends.extend(&t.to_array()[..rays.len()]);
+        }
+        ends
+    }
+    let (mut rng, mut others) = (SmallRng::seed_from_u64(12), 0);
+    for mesh in meshes(&mut rng) {
+        let rays = rays(&mesh, 1600, &mut rng);
+        let ends = in_lanes!(SimdLevel::best(), l => ends(l, &mesh, &rays));
+        for (end, (nearest, _)) in ends.into_iter().zip(closest(&mesh, &rays)) {
+            assert!(end == nearest || nearest < end && end < ENOUGH, "{end} {nearest}");
+            others += usize::from(end != nearest);
+        }
+    }
+    assert!(others > 0, "no search ended early");
 }
 
 #[test]
