@@ -5,6 +5,7 @@
 //! | construction by the surface area heuristic | `build.rs`, `bins.rs`, `collapse.rs`, `item.rs` |
 //! | conservative test of a ray against eight boxes at once | `slabs.rs` |
 //! | traversal, near boxes first | `traverse.rs`, `stack.rs` |
+//! | counts of nodes and leaves | `visits.rs` |
 //!
 //! The caller owns the contents of leaves: triangles of a mesh or objects of a scene. Leaves are numbered 0, 1, 2, …, and
 //! [`Bvh::build`] returns the caller's items in each.
@@ -17,11 +18,13 @@ mod stack;
 #[cfg(test)]
 mod tests;
 mod traverse;
+mod visits;
 
 pub use self::{
     item::NONE,
     slabs::Slabs,
-    traverse::{Leaves, Search, Searches, Stacks, Visits, traverse},
+    traverse::{Leaves, Search, Searches, Stacks, traverse},
+    visits::Visits,
 };
 use super::bounds::Bounds;
 

@@ -83,7 +83,7 @@ impl<const COUNTS: bool> Default for Stack<COUNTS> {
 /// The numbers sorted, the largest first, by a bitonic network (K. E. Batcher, "Sorting networks and their applications", 1968).
 #[inline(always)]
 fn descending<S: Simd>(s: S, x: u32x8<S>) -> u32x8<S> {
-    // Within blocks of four numbers, each in turn with its neighbour, and backwards.
+    // Blocks of four numbers with neighbours swapped, and reversed.
     let pairs = u8x32::simd_from(s, const { bytes([1, 0, 3, 2]) });
     let backwards = u8x32::simd_from(s, const { bytes([3, 2, 1, 0]) });
     let x = compare(s, x, x.swizzle_dyn_within_blocks(pairs), 0b1010_1010);
@@ -100,7 +100,7 @@ fn compare<S: Simd>(s: S, x: u32x8<S>, partners: u32x8<S>, last: u64) -> u32x8<S
     mask32x8::from_bitmask(s, last).select(x.min(partners), x.max(partners))
 }
 
-/// The bytes of numbers, by their places within a block of four.
+/// Indices of bytes that move whole numbers within blocks of four: each place gets the number at `places`.
 const fn bytes(places: [u8; 4]) -> [u8; 32] {
     let mut bytes = [0; 32];
     let mut at = 0;

@@ -2,7 +2,7 @@
 //!
 //! Most of the time is spent waiting for memory, and for the test of a node, whose result says where to go next. So two rays take turns: one
 //! is tested while the other one waits.
-use std::{marker::PhantomData, ops::Add};
+use std::marker::PhantomData;
 
 use fearless_simd::Simd;
 
@@ -37,24 +37,7 @@ pub trait Leaves<S: Simd> {
     fn meet(&mut self, s: S, lane: usize, leaf: u32, t_max: f32) -> f32;
 }
 
-/// Work on the way of rays through trees.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Visits {
-    /// Nodes, each a test of eight boxes.
-    pub nodes: u64,
-    /// Leaves, each a test of up to eight triangles or of an object.
-    pub leaves: u64,
-}
-
-impl Add for Visits {
-    type Output = Visits;
-
-    fn add(self, other: Visits) -> Visits {
-        Visits { nodes: self.nodes + other.nodes, leaves: self.leaves + other.leaves }
-    }
-}
-
-/// Room for the boxes of two descent.
+/// Room for the boxes of two rays.
 pub type Stacks<const COUNTS: bool = false> = [Stack<COUNTS>; 2];
 
 /// The searches of all lanes.
@@ -96,7 +79,7 @@ struct Descent<'a, L: Lanes, C, const COUNTS: bool> {
 struct Walk<S: Simd> {
     slabs: WideSlabs<S>,
     lane: usize,
-    /// Its stack.
+    /// The index of its stack.
     stack: usize,
     /// The box to visit next.
     current: u32,
