@@ -7,7 +7,7 @@
 //!
 //! The operators are in [`super::number`], the arithmetic in [`super::simd`] and `one.rs`. Of the kernel, only the tests of one
 //! ray against eight boxes or triangles use vectors of the SIMD crate directly (`geometry/bvh/slabs.rs`,
-//! `geometry/mesh/block.rs`).
+//! `geometry/mesh/shear.rs`).
 use fearless_simd::{ExtractToken, Fallback};
 
 /// The widest configuration; arrays that hold the lanes of any configuration have this length.

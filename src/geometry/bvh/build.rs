@@ -2,7 +2,10 @@
 //!
 //! Both sides of a large branch grow at the same time. The tree is the same for any number of threads, because a split depends on the
 //! items of its branch alone.
-use std::cmp::Ordering;
+use std::{
+    cmp::Ordering,
+    sync::atomic::{AtomicU64, Ordering::Relaxed},
+};
 
 use rayon::prelude::*;
 
@@ -69,6 +72,10 @@ struct Builder<'a, const LEAF_SIZE: usize> {
     /// Items of a branch whose sides grow at the same time.
     large: usize,
     progress: &'a Progress,
+    /// What is reported for all `count` items, and what has been.
+    work: u64,
+    count: usize,
+    reported: AtomicU64,
 }
 
 impl Bvh {
@@ -76,25 +83,33 @@ impl Bvh {
     /// leaves: leaf k holds `order[k * LEAF_SIZE..][..LEAF_SIZE]`, of which the last ones may be [`NONE`](super::NONE).
     pub fn build<const LEAF_SIZE: usize>(boxes: impl Iterator<Item = Bounds>) -> (Bvh, Vec<u32>) {
         let boxes: Vec<Bounds> = boxes.collect();
-        Bvh::build_watched::<LEAF_SIZE>(boxes.len(), |number| boxes[number], None, &Progress::default()).expect("nobody cancels")
+        Bvh::build_watched::<LEAF_SIZE>(boxes.len(), |number| boxes[number], None, (&Progress::default(), 0))
+            .expect("nobody cancels")
     }
 
-    /// The same for `count` boxes, on all threads, with progress, which counts items, and cancellation. Of items in one place with
+    /// The same for `count` boxes, on all threads, with cancellation and progress, which reports `work` in all. Of items in one place with
     /// the same `contents`, only the first is in the tree, so that a ray does not test them all.
     pub fn build_watched<const LEAF_SIZE: usize>(
         count: usize,
         bounds: impl Fn(usize) -> Bounds + Sync,
         contents: Option<&Compare>,
-        progress: &Progress,
+        (progress, work): (&Progress, u64),
     ) -> Result<(Bvh, Vec<u32>), Cancelled> {
         let mut items: Vec<Item> = (0..count).into_par_iter().map(|number| Item::new(number, &bounds(number))).collect();
         let all = Part::of(&items, 0);
-        let builder = Builder::<LEAF_SIZE> { contents, large: LARGE.max(count / LARGE_SHARE), progress };
+        let builder = Builder::<LEAF_SIZE> {
+            contents,
+            large: LARGE.max(count / LARGE_SHARE),
+            progress,
+            work,
+            count,
+            reported: AtomicU64::new(0),
+        };
         let mut branches = Vec::with_capacity(most_branches::<LEAF_SIZE>(count));
         if count > 0 {
             builder.grow(&mut items, all, MAX_DEPTH, &mut branches)?;
         }
-        progress.advance(if count <= REPORT { count as u64 } else { 0 })?;
+        progress.advance(work - builder.reported.into_inner())?;
         let [min, max] = [all.bounds.min, all.bounds.max].map(|corner| corner.truncate().to_array());
         // The boxes of the items are not needed any more, and take most of the memory.
         let numbers: Vec<u32> = items.par_iter().map(Item::number).collect();
@@ -139,11 +154,18 @@ impl<const LEAF_SIZE: usize> Builder<'_, LEAF_SIZE> {
         };
         if part.len() > REPORT {
             let finished = parts.iter().map(Part::len).filter(|count| *count <= REPORT);
-            self.progress.advance(finished.sum::<usize>() as u64)?;
+            self.report(finished.sum())?;
         }
         let (branch, costs) = Branch::over(&part.bounds, of_right, &costs);
         branches[place] = branch;
         Ok(costs)
+    }
+
+    /// Reports the work on finished items.
+    fn report(&self, items: usize) -> Result<(), Cancelled> {
+        let work = items as u64 * self.work / self.count as u64;
+        self.reported.fetch_add(work, Relaxed);
+        self.progress.advance(work)
     }
 
     /// Moves the first of all items with the same content to the front, in the order of their contents. The others are left out.

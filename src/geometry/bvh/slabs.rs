@@ -3,7 +3,7 @@
 //! The test must not lose hits that the tests in the leaves *report*, including their rounding. Let o be the origin and d the
 //! direction of the ray, z the axis of d's largest component, and u = ε/2. For a point of the scene, let a be its distance from o
 //! along axis i, and b that along z:
-//! * the triangle test (`mesh/block.rs`) is exact for vertices with an error of u (2|a| + 4|b|) along i and u |b| along z;
+//! * the triangle test (`mesh/shear.rs`) is exact for vertices with an error of u (2|a| + 4|b|) along i and u |b| along z;
 //! * the distance it returns is rounded by u, which along i is u |a|;
 //! * a slab test rounds a difference, a reciprocal and a product: 3 u |a|.
 //!

@@ -114,12 +114,14 @@ fn progress_counts_the_boxes_and_a_cancelled_build_has_no_tree() {
     // Few are counted at the end, and many on the way.
     for count in [0, 5, 40_000] {
         let progress = Progress::default();
-        progress.expect(Stage::Trees, count as u64 + 1);
-        let built = Bvh::build_watched::<4>(count, point, None, &progress);
+        // Seven for three items each.
+        let work = count as u64 * 7 / 3;
+        progress.expect(Stage::Trees, work + 1);
+        let built = Bvh::build_watched::<4>(count, point, None, (&progress, work));
         assert_eq!(built.map(|(_, order)| order), Ok(Bvh::build::<4>((0..count).map(point)).1), "{count}");
-        assert_eq!(progress.fraction(), count as f64 / (count + 1) as f64);
+        assert_eq!(progress.fraction(), work as f64 / (work + 1) as f64);
         progress.cancel();
-        assert_eq!(Bvh::build_watched::<4>(count, point, None, &progress).err(), Some(Cancelled), "{count}");
+        assert_eq!(Bvh::build_watched::<4>(count, point, None, (&progress, work)).err(), Some(Cancelled), "{count}");
     }
 }
 
@@ -132,7 +134,8 @@ fn copies_in_one_place_count_once_and_others_there_stay() {
         i => Bounds { min: [-size(i); 3], max: [size(i); 3] },
     };
     let contents = |a: u32, b: u32| (a % 9).cmp(&(b % 9));
-    let (bvh, order) = Bvh::build_watched::<4>(1000, item, Some(&contents), &Progress::default()).expect("nobody cancels");
+    let (bvh, order) =
+        Bvh::build_watched::<4>(1000, item, Some(&contents), (&Progress::default(), 1000)).expect("nobody cancels");
     let mut kept: Vec<u32> = order.into_iter().filter(|&item| item != NONE).collect();
     kept.sort_unstable();
     assert_eq!(kept, [(0..9).collect(), vec![999]].concat());

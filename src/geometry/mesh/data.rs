@@ -74,7 +74,7 @@ impl MeshData {
 pub(super) struct Pose {
     map: DAffine3,
     covector: DMat3,
-    is_mirrored: bool,
+    pub is_mirrored: bool,
 }
 
 impl Pose {

@@ -2,38 +2,45 @@
 //!
 //! | part | file |
 //! |---|---|
-//! | a ray against several triangles at once | `block.rs` |
+//! | a ray against several triangles at once | `shear.rs` |
+//! | the triangles of leaves | `leaves.rs` |
 //! | construction | `build.rs` |
-//! | the surface point at a hit | `surface.rs` |
+//! | what leaves hold: triangles, pairs or pieces | `items.rs` |
+//! | pairs of triangles with a common edge | `pairs.rs` |
 //! | pieces of long triangles | `pieces.rs` |
-//! | the order of triangles in leaves | `slots.rs` |
+//! | the surface point at a hit | `surface.rs` |
 //! | coordinates, smooth normals and colours there | `shading.rs` |
 //! | directions towards one that emits | `toward.rs` |
 //! | vertices and triangles, as a scene describes them | `data.rs` |
 //! | the same where the mesh stands | `vertices.rs` |
 //! | procedural meshes | `generate.rs` |
-mod block;
 mod build;
 mod data;
 mod edges;
 pub mod generate;
+mod items;
+mod leaves;
+mod pairs;
 mod pieces;
 mod shading;
-mod slots;
+mod shear;
 mod surface;
 #[cfg(test)]
 mod tests;
 mod toward;
 mod vertices;
 
+use std::hint::cold_path;
+
 use fearless_simd::Simd;
 use fearless_simd_macros::simd;
 
+pub use self::{data::MeshData, surface::MeshPoint};
 use self::{
-    block::{Block, Shears},
+    leaves::{Filled, Leaf, TriangleLeaves},
+    shear::{SIZE, Shears},
     vertices::{Vertices, rows},
 };
-pub use self::{data::MeshData, surface::MeshPoint};
 use super::{
     bounds::Bounds,
     bvh::{Bvh, Leaves, NONE, Search, Searches, Slabs, Stacks, traverse},
@@ -46,36 +53,36 @@ use crate::{
 /// A triangle mesh with its tree. A triangle's front is the side from which its vertices run counter-clockwise.
 pub struct Mesh {
     bvh: Bvh,
-    blocks: Vec<Block>,
-    /// The vertices of the triangles, in the order of the leaves.
-    triangles: Vec<[u32; 3]>,
-    /// The triangle in each slot of the blocks; empty if it is the slot itself.
-    triangle_of: Vec<u32>,
+    leaves: TriangleLeaves,
     vertices: Vertices,
     dropped: usize,
     _room_for_pieces: Option<Reservation>,
 }
 
 /// The slots of the nearest triangles so far; tests leaves for nearer ones.
-struct NearestTriangles<'a> {
-    blocks: &'a [Block],
+struct NearestTriangles<'a, C> {
+    leaves: &'a [C],
     rays: &'a Shears,
     slots: [u32; MAX_LANES],
 }
 
-impl<S: Simd> Leaves<S> for NearestTriangles<'_> {
+impl<S: Simd, C: Leaf> Leaves<S> for NearestTriangles<'_, C> {
     #[inline(always)]
     fn meet(&mut self, s: S, lane: usize, leaf: u32, mut t_max: f32) -> f32 {
-        let (block, ray) = (&self.blocks[leaf as usize], self.rays.lane(lane));
-        let sheared = block.sheared(s, &ray);
+        let ray = self.rays.lane(lane);
+        let sheared = self.leaves[leaf as usize].sheared(s, &ray);
         let mut candidates = sheared.candidates(s);
         while candidates != 0 {
             let place = candidates.trailing_zeros();
             candidates &= candidates - 1;
             let t = sheared.distance(place as usize, &ray);
-            let nearer = (t > 0.0) & (t < t_max);
-            t_max = if nearer { t } else { t_max };
-            self.slots[lane] = if nearer { block.first + place } else { self.slots[lane] };
+            // The compiler keeps this branch, so that the processor goes on with what it predicts and does not wait for the distance.
+            if !(t > 0.0 && t < t_max) {
+                cold_path();
+                continue;
+            }
+            t_max = t;
+            self.slots[lane] = leaf * SIZE as u32 + place;
         }
         t_max
     }
@@ -115,20 +122,33 @@ impl Mesh {
     ) -> (F<L>, U<L>) {
         let rays = Rays::new(l, o, d, &self.bounds());
         let mut searches = Searches::new(search.limit.above(0.0), search);
-        let mut nearest = NearestTriangles { blocks: &self.blocks, rays: &rays.shears, slots: [NONE; MAX_LANES] };
-        traverse(s, &self.bvh, stacks, (&rays.slabs, &mut searches), &mut nearest);
-        let mut triangles = nearest.slots;
-        if !self.triangle_of.is_empty() {
-            for slot in &mut triangles[..L::N] {
-                *slot = self.triangle_of.get(*slot as usize).copied().unwrap_or(NONE);
-            }
-        }
+        let triangles = match &self.leaves {
+            TriangleLeaves::Apart(filled) => self.nearest(s, stacks, (&rays, &mut searches), filled),
+            TriangleLeaves::Shared(filled) => self.nearest(s, stacks, (&rays, &mut searches), filled),
+        };
         (l.load(&searches.t_max), l.load(bytemuck::cast_slice(&triangles)).bits())
+    }
+
+    /// The nearest triangles, by lane.
+    #[inline(always)]
+    fn nearest<S: Simd, L: Lanes, C: Leaf, const COUNTS: bool>(
+        &self,
+        s: S,
+        stacks: &mut Stacks<COUNTS>,
+        (rays, searches): (&Rays, &mut Searches<L>),
+        filled: &Filled<C>,
+    ) -> [u32; MAX_LANES] {
+        let mut nearest = NearestTriangles { leaves: &filled.leaves, rays: &rays.shears, slots: [NONE; MAX_LANES] };
+        traverse(s, &self.bvh, stacks, (&rays.slabs, searches), &mut nearest);
+        for slot in &mut nearest.slots[..L::N] {
+            *slot = filled.triangle(*slot);
+        }
+        nearest.slots
     }
 
     /// The vertices of a triangle.
     pub fn corners(&self, triangle: u32) -> [[f32; 3]; 3] {
-        self.vertices.corners(self.triangles[triangle as usize])
+        self.vertices.corners(self.vertices.triangles()[triangle as usize])
     }
 
     /// The box around all triangles.
@@ -136,14 +156,14 @@ impl Mesh {
         self.bvh.bounds()
     }
 
-    /// Number of triangles, which are numbered 0, 1, … in the mesh's own order.
+    /// Number of triangles. They are numbered in the order of the data, without dropped ones.
     pub fn len(&self) -> usize {
-        self.triangles.len()
+        self.vertices.triangles().len()
     }
 
     /// Whether there are no triangles.
     pub fn is_empty(&self) -> bool {
-        self.triangles.is_empty()
+        self.vertices.triangles().is_empty()
     }
 
     /// Whether it has interpolated normals.
@@ -164,6 +184,6 @@ impl Mesh {
     /// See [`rows`].
     #[inline(always)]
     fn rows<L: Lanes, const COLUMNS: usize>(&self, l: L, triangle: U<L>, table: &[[f32; COLUMNS]]) -> [[F<L>; 4]; 3] {
-        rows(l, &self.triangles, triangle, table)
+        rows(l, self.vertices.triangles(), triangle, table)
     }
 }

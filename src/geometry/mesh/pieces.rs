@@ -6,8 +6,9 @@
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
+use super::shear::SIZE;
 use crate::{
-    geometry::bounds::Bounds,
+    geometry::{bounds::Bounds, bvh::NONE},
     memory::{self, Reservation},
 };
 
@@ -37,13 +38,25 @@ pub(super) struct Pieces {
     pub memory: Reservation,
 }
 
+impl Pieces {
+    /// The triangles of the pieces in a leaf, each once.
+    pub fn triangles(&self, leaf: &[u32]) -> [u32; SIZE] {
+        let mut triangles = [NONE; SIZE];
+        for place in 0..SIZE {
+            let triangle = self.pieces.get(leaf[place] as usize).map_or(NONE, |piece| piece.triangle);
+            triangles[place] = if triangles[..place].contains(&triangle) { NONE } else { triangle };
+        }
+        triangles
+    }
+}
+
 /// The pieces of `count` triangles; `None` if too few of them are long, or if there is no room.
-pub(super) fn pieces(count: usize, corners: impl Fn(usize) -> [[f32; 3]; 3] + Sync) -> Option<Pieces> {
-    let bounds = |triangle: usize| Bounds::of_points(corners(triangle));
-    let is_long = |triangle: usize| bounds(triangle).surface_area() > 2.0 * LONG * area(corners(triangle));
-    let measure = |triangle: usize| Sums::of(&bounds(triangle), is_long(triangle));
+pub(super) fn pieces(count: usize, corners: impl Fn(u32) -> [[f32; 3]; 3] + Sync) -> Option<Pieces> {
+    let bounds = |triangle: u32| Bounds::of_points(corners(triangle));
+    let is_long = |triangle: u32| bounds(triangle).surface_area() > 2.0 * LONG * area(corners(triangle));
+    let measure = |triangle: u32| Sums::of(&bounds(triangle), is_long(triangle));
     // Sums of chunks, so that they do not depend on the threads.
-    let chunk = |first: usize| (first..count.min(first + CHUNK)).map(measure).fold(Sums::EMPTY, Sums::plus);
+    let chunk = |first: usize| (first as u32..count.min(first + CHUNK) as u32).map(measure).fold(Sums::EMPTY, Sums::plus);
     let firsts: Vec<usize> = (0..count).step_by(CHUNK).collect();
     let chunks: Vec<Sums> = firsts.into_par_iter().map(chunk).collect();
     let sums = chunks.into_iter().fold(Sums::EMPTY, Sums::plus);
@@ -53,16 +66,16 @@ pub(super) fn pieces(count: usize, corners: impl Fn(usize) -> [[f32; 3]; 3] + Sy
     let memory = memory::reserve(format_args!("pieces of {count} triangles"), BYTES * count as u64).ok()?;
     // Halving adds up to twice as many pieces as the length asks for.
     let longest = 2.0 * sums.lengths / (PIECES * count as f32);
-    let divide = |triangle: usize| {
+    let divide = |triangle: u32| {
         let mut pieces = Vec::new();
         let polygon = corners(triangle).map(|corner| Vec3::from(corner).as_dvec3());
         let halvings = if is_long(triangle) { MOST_HALVINGS } else { 0 };
         halve(&polygon, longest, halvings, &mut |polygon| {
-            pieces.push(Piece { triangle: triangle as u32, bounds: around(polygon) });
+            pieces.push(Piece { triangle, bounds: around(polygon) });
         });
         pieces
     };
-    let parts: Vec<Vec<Piece>> = (0..count).into_par_iter().map(divide).collect();
+    let parts: Vec<Vec<Piece>> = (0..count as u32).into_par_iter().map(divide).collect();
     Some(Pieces { pieces: parts.concat(), memory })
 }
 
@@ -171,6 +184,13 @@ mod tests {
             let point = Bounds::of_points([p.to_array()]);
             assert!(pieces[..4].iter().any(|piece| piece.bounds.contains(&point)), "{p}");
         }
+    }
+
+    #[test]
+    fn a_leaf_has_a_triangle_once_however_many_of_its_pieces_it_has() {
+        let Pieces { pieces, memory } = pieces(64, |_| NEEDLE).expect("they are long");
+        let triangles = Pieces { pieces, memory }.triangles(&[0, 9, 1, 8, 3, NONE, 4, NONE]);
+        assert_eq!(triangles, [0, 2, NONE, NONE, NONE, NONE, 1, NONE]);
     }
 
     #[test]

@@ -27,7 +27,7 @@ impl Mesh {
         // Adding up what can bring a ray back to its triangle, with u = ε/2 and R the size of the triangle:
         // * `p` is a weighted mean of vertices, so that it leaves the plane only by its own rounding, √3 (3 u R + u |p|), however
         //   wrong the weights; the origin after it was moved is rounded by another √3 u |p|;
-        // * the intersection is exact for vertices that are off by 6 u R along two axes and u R along one (`block.rs`), √73 u R;
+        // * the intersection is exact for vertices that are off by 6 u R along two axes and u R along one (`shear.rs`), √73 u R;
         // * a direction that seems to leave may dive by the rounding of n · d, of d's shear and of n itself: 8 u + 4√3 u κ with
         //   κ = |b||c|/|b × c| for edges b and c, which over the triangle, √3 R, is (14 + 12.2 κ) u R.
         const ROUNDINGS_OF_R: f32 = 15.0 * f32::EPSILON;

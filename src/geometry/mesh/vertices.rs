@@ -12,7 +12,8 @@ pub(super) struct Vertices {
     data: Arc<MeshData>,
     /// Positions and normals, if the map moves them.
     moved: Option<[Vec<[f32; 3]>; 2]>,
-    pose: Pose,
+    /// Triangles, if they are not all those of the data, or turned.
+    triangles: Option<Vec<[u32; 3]>>,
 }
 
 impl Vertices {
@@ -22,7 +23,19 @@ impl Vertices {
             let positions = data.vertices.par_iter().map(|p| pose.point(p)).collect();
             [positions, data.normals.par_iter().map(|n| pose.normal(n)).collect()]
         });
-        Vertices { data: data.clone(), moved, pose }
+        let turn = |triangle| pose.triangle(triangle);
+        let triangles = pose.is_mirrored.then(|| data.triangles.par_iter().copied().map(turn).collect());
+        Vertices { data: data.clone(), moved, triangles }
+    }
+
+    /// Drops the triangles that are not `kept`, by their numbers and corners. The others get new numbers in the same order.
+    pub fn retain_triangles(&mut self, kept: impl Fn(usize, [[f32; 3]; 3]) -> bool + Sync) {
+        let is_kept = |(number, triangle): (usize, &[u32; 3])| kept(number, self.corners(*triangle));
+        // Almost all meshes keep all triangles.
+        if !self.triangles().par_iter().enumerate().all(is_kept) {
+            let numbered = self.triangles().iter().enumerate();
+            self.triangles = Some(numbered.filter(|numbered| is_kept(*numbered)).map(|(_, triangle)| *triangle).collect());
+        }
     }
 
     pub fn positions(&self) -> &[[f32; 3]] {
@@ -44,14 +57,9 @@ impl Vertices {
         &self.data.colours
     }
 
-    /// Number of triangles of the data.
-    pub fn triangle_count(&self) -> usize {
-        self.data.triangles.len()
-    }
-
-    /// The vertices of a triangle of the data, counter-clockwise seen from the front.
-    pub fn triangle(&self, number: u32) -> [u32; 3] {
-        self.pose.triangle(self.data.triangles[number as usize])
+    /// The vertices of the triangles, counter-clockwise seen from the front.
+    pub fn triangles(&self) -> &[[u32; 3]] {
+        self.triangles.as_ref().unwrap_or(&self.data.triangles)
     }
 
     /// The positions of the vertices of a triangle.
@@ -114,11 +122,12 @@ mod tests {
     #[test]
     fn a_mesh_that_is_not_moved_shares_its_vertices_and_a_mirrored_one_keeps_its_front() {
         let data = tetrahedron();
-        let here = Vertices::new(&data, &DAffine3::IDENTITY);
+        let mut here = Vertices::new(&data, &DAffine3::IDENTITY);
         assert_eq!(here.positions().as_ptr(), data.vertices.as_ptr());
-        assert_eq!(here.triangle(1), [0, 2, 3]);
+        here.retain_triangles(|_, _| true);
+        assert_eq!(here.triangles().as_ptr(), data.triangles.as_ptr());
         let mirrored = Vertices::new(&data, &DAffine3::from_scale(DVec3::new(1.0, 1.0, -2.0)));
-        assert_eq!(mirrored.corners(mirrored.triangle(1)), [[0.0, 0.0, 0.0], [0.0, 0.0, -8.0], [0.0, 2.0, 0.0]]);
+        assert_eq!(mirrored.corners(mirrored.triangles()[1]), [[0.0, 0.0, 0.0], [0.0, 0.0, -8.0], [0.0, 2.0, 0.0]]);
         assert_eq!(mirrored.uvs().as_ptr(), data.uvs.as_ptr());
     }
 

@@ -4,7 +4,11 @@ use glam::Vec3;
 use rand::{Rng, SeedableRng, rngs::SmallRng};
 
 use super::{
-    super::{Mesh, MeshData, block::Shears, generate},
+    super::{
+        Mesh, MeshData, generate,
+        leaves::{Filled, Leaf, TriangleLeaves},
+        shear::{SIZE, Shears},
+    },
     soup, unit,
 };
 use crate::math::{One, U, V};
@@ -14,6 +18,10 @@ fn rays_that_leave_a_surface_do_not_meet_it() {
     let mut rng = SmallRng::seed_from_u64(9);
     for shift in [0.0, 3.0, 1e3] {
         let mut data = soup(500, &mut rng);
+        data.vertices.iter_mut().flatten().for_each(|x| *x += shift);
+        assert_left(&Mesh::new(&data), 1.0, &mut rng);
+        // Pairs are tested by corners in another order.
+        let mut data = generate::torus_knot(1000);
         data.vertices.iter_mut().flatten().for_each(|x| *x += shift);
         assert_left(&Mesh::new(&data), 1.0, &mut rng);
     }
@@ -29,6 +37,16 @@ fn rays_that_leave_a_surface_do_not_meet_it() {
 /// Rays to all sides, many of them along the surface, from points of all triangles no farther from their first vertex than
 /// `extent` times their size.
 fn assert_left(mesh: &Mesh, extent: f32, rng: &mut SmallRng) {
+    match &mesh.leaves {
+        TriangleLeaves::Apart(filled) => assert_left_by(mesh, filled, extent, rng),
+        TriangleLeaves::Shared(filled) => assert_left_by(mesh, filled, extent, rng),
+    }
+}
+
+fn assert_left_by(mesh: &Mesh, filled: &Filled<impl Leaf>, extent: f32, rng: &mut SmallRng) {
+    let slots: Vec<u32> = (0..(filled.leaves.len() * SIZE) as u32).collect();
+    let slot_of = |triangle: u32| slots.iter().copied().find(|slot| filled.triangle(*slot) == triangle);
+    let slot_of: Vec<u32> = (0..mesh.len() as u32).map(|triangle| slot_of(triangle).expect("a leaf has it")).collect();
     for k in 0..200_000u32 {
         let triangle = k % mesh.len() as u32;
         let [a, b, c] = mesh.corners(triangle).map(Vec3::from);
@@ -42,16 +60,10 @@ fn assert_left(mesh: &Mesh, extent: f32, rng: &mut SmallRng) {
         let side = if n.dot(d) < 0.0 { -1.0 } else { 1.0 };
         let o = Vec3::from(at.p.lane(0)) + n * (side * at.error.0);
         let shear = Shears::new(One, V::splat(One, o.to_array()), V::splat(One, d.to_array())).lane(0);
-        let (block, place) = place_of(mesh, triangle);
-        let t = mesh.blocks[block].sheared(Fallback::new(), &shear).distance(place, &shear);
+        let slot = slot_of[triangle as usize] as usize;
+        let t = filled.leaves[slot / SIZE].sheared(Fallback::new(), &shear).distance(slot % SIZE, &shear);
         assert!(t.is_nan() || t <= 0.0, "{t:e} {o} {d} {n} error {:e} at {a} {b} {c}", at.error.0);
     }
-}
-
-/// Block and place in it of a triangle.
-fn place_of(mesh: &Mesh, triangle: u32) -> (usize, usize) {
-    let block = mesh.blocks.partition_point(|block| block.first <= triangle) - 1;
-    (block, (triangle - mesh.blocks[block].first) as usize)
 }
 
 #[test]

@@ -18,18 +18,8 @@ use fearless_simd::{Simd, SimdBase, SimdMask, f32x8};
 
 use crate::math::{Lanes, M, MAX_LANES, Pick, V};
 
-/// Number of triangles in a block.
+/// Number of triangles that are tested at once, and that a leaf has at most.
 pub(super) const SIZE: usize = 8;
-
-/// Vertices of up to [`SIZE`] triangles, side by side; NaN in unused slots.
-#[derive(Clone, Copy)]
-#[repr(align(32))]
-pub(super) struct Block {
-    /// By vertex, then axis.
-    corners: [[[f32; SIZE]; 3]; 3],
-    /// The number of its first triangle.
-    pub first: u32,
-}
 
 /// The rays o + td of several lanes, prepared for the test of triangles.
 pub(super) struct Shears {
@@ -45,7 +35,7 @@ pub(super) struct Shears {
 
 /// The same for one ray.
 pub(super) struct Shear {
-    axes: [usize; 3],
+    pub axes: [usize; 3],
     origin: [f32; 3],
     slope: [f32; 2],
     depth: f32,
@@ -60,6 +50,9 @@ fn turned<L: Lanes>(v: V<L>, x_last: M<L>, y_last: M<L>) -> V<L> {
         z: x_last.pick(v.x, y_last.pick(v.y, v.z)),
     }
 }
+
+/// The axes by the one that comes last. A constant would be written to the stack for every leaf.
+static AXES: [[usize; 3]; 3] = [[1, 2, 0], [2, 0, 1], [0, 1, 2]];
 
 impl Shears {
     #[inline(always)]
@@ -85,7 +78,7 @@ impl Shears {
     #[inline(always)]
     pub fn lane(&self, lane: usize) -> Shear {
         Shear {
-            axes: [[1, 2, 0], [2, 0, 1], [0, 1, 2]][self.z[lane] as usize],
+            axes: AXES[self.z[lane] as usize],
             origin: [self.origin[0][lane], self.origin[1][lane], self.origin[2][lane]],
             slope: [self.slope[0][lane], self.slope[1][lane]],
             depth: self.depth[lane],
@@ -93,38 +86,18 @@ impl Shears {
     }
 }
 
-impl Block {
-    pub fn new(triangles: impl Iterator<Item = [[f32; 3]; 3]>, first: u32) -> Block {
-        let mut corners = [[[f32::NAN; SIZE]; 3]; 3];
-        for (place, triangle) in triangles.enumerate() {
-            for (corner, vertex) in triangle.iter().enumerate() {
-                for axis in 0..3 {
-                    corners[corner][axis][place] = vertex[axis];
-                }
-            }
-        }
-        Block { corners, first }
-    }
-
-    /// The vertices, sheared.
+impl Shear {
+    /// A vertex of each triangle, by axis, sheared.
     #[inline(always)]
-    pub fn sheared<S: Simd>(&self, s: S, ray: &Shear) -> Sheared<S> {
-        Sheared { corners: [self.corner(s, ray, 0), self.corner(s, ray, 1), self.corner(s, ray, 2)] }
-    }
-
-    #[inline(always)]
-    fn corner<S: Simd>(&self, s: S, ray: &Shear, corner: usize) -> [f32x8<S>; 3] {
-        let corner = &self.corners[corner];
-        let x = f32x8::load_array_ref(s, &corner[ray.axes[0]]) - ray.origin[0];
-        let y = f32x8::load_array_ref(s, &corner[ray.axes[1]]) - ray.origin[1];
-        let z = f32x8::load_array_ref(s, &corner[ray.axes[2]]) - ray.origin[2];
-        [x - z * ray.slope[0], y - z * ray.slope[1], z]
+    pub fn apply<S: Simd>(&self, [x, y, z]: [f32x8<S>; 3]) -> [f32x8<S>; 3] {
+        let (x, y, z) = (x - self.origin[0], y - self.origin[1], z - self.origin[2]);
+        [x - z * self.slope[0], y - z * self.slope[1], z]
     }
 }
 
-/// The vertices of a block, sheared for a ray; by corner, then axis.
+/// The vertices of the triangles of a leaf, sheared for a ray; by corner, then axis.
 pub(super) struct Sheared<S: Simd> {
-    corners: [[f32x8<S>; 3]; 3],
+    pub corners: [[f32x8<S>; 3]; 3],
 }
 
 impl<S: Simd> Sheared<S> {
