@@ -75,8 +75,15 @@ impl Instance {
 
     /// The first intersection with o + td, d of unit length, and t > 0. Lanes with a limit of 0 cost almost nothing.
     #[simd]
-    pub fn closest<L: Lanes>(&self, l: L, ray: (V<L>, V<L>), time: F<L>, search: Search<L>) -> Intersection<L> {
-        self.meet(l, l.token(), &mut Stacks::<false>::default(), ray, time, search)
+    pub fn closest<L: Lanes, const COUNTS: bool>(
+        &self,
+        l: L,
+        stacks: &mut Stacks<COUNTS>,
+        ray: (V<L>, V<L>),
+        time: F<L>,
+        search: Search<L>,
+    ) -> Intersection<L> {
+        self.meet(l, l.token(), stacks, ray, time, search)
     }
 
     /// The same; a mesh is tested with the instructions of `s`, for any lanes.
