@@ -1,4 +1,4 @@
-//! Decides what pixels share, by a trial on a few tiles.
+//! Decides what pixels share, by a trial on parts of a few tiles.
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use rayon::prelude::*;
@@ -12,8 +12,10 @@ use crate::{
     scene::{CameraRays, Estimator, RenderSettings, Reuse, Scene, Sharing},
 };
 
-/// Positions of the tiles in the image.
+/// Positions of the parts of the image that are tried.
 const PLACES: [[f64; 2]; 5] = [[0.25, 0.25], [0.75, 0.25], [0.5, 0.5], [0.25, 0.75], [0.75, 0.75]];
+/// Width and height of a part. Whole tiles decide nearly the same, and 16 samples per pixel then take 2 to 6 % longer (benches/LOG.md).
+const SIZE: [u32; 2] = [TILE, TILE / 2];
 /// Samples per pixel, for each way to share and each seed.
 const SPP: u32 = 4;
 /// Errors are relative to the mean of this many pixels, a row of a tile: the mean of a pixel alone follows its noise.
@@ -72,7 +74,7 @@ pub(super) fn resolved_unless(
 
 /// What a trial of a way to share has made.
 struct SharingTrial {
-    /// Means of the pixels of all tiles, row by row, with each seed.
+    /// Means of the pixels of all parts, row by row, with each seed.
     images: [Vec<[f64; 3]>; 2],
     rays: f64,
 }
@@ -162,7 +164,7 @@ fn mean_of_row(images: &[&[[f64; 3]]], start: usize) -> [f64; 3] {
     [0, 1, 2].map(|channel| pixels().map(|pixel| pixel[channel]).sum::<f64>() / pixels().count() as f64)
 }
 
-/// A few samples of some tiles, with two seeds: the difference of the images shows the error that Sobol points leave.
+/// A few samples of parts of some tiles, with two seeds: the difference of the images shows the error that Sobol points leave.
 fn trial(
     scene: &Scene,
     rays: &CameraRays,
@@ -170,10 +172,10 @@ fn trial(
     batches: &PerThread<Batch>,
     interrupted: &(dyn Fn() -> bool + Sync),
 ) -> Result<SharingTrial, Interrupted> {
-    let [width, height] = scene.camera.resolution;
-    let tile = |(seed, [x, y]): (u32, [f64; 2])| {
-        let origin = [(width, x), (height, y)].map(|(side, part)| (f64::from(side) * part) as u32 / TILE * TILE);
-        let size = [TILE.min(width - origin[0]), TILE.min(height - origin[1])];
+    let resolution = scene.camera.resolution;
+    let tile = |(seed, place): (u32, [f64; 2])| {
+        let origin = [0, 1].map(|i| (f64::from(resolution[i]) * place[i]) as u32 / SIZE[i] * SIZE[i]);
+        let size = [0, 1].map(|i| SIZE[i].min(resolution[i] - origin[i]));
         let settings = RenderSettings { seed, ..*settings };
         let job = PassJob { scene, rays, settings: &settings };
         sampled(&mut batches.get(), job, Tile::new(origin, size), interrupted)
