@@ -28,8 +28,11 @@ use super::{
 };
 
 const NOTES: &str = "\
-Times are sums over threads. The image is discarded, and sampling is uniform even if the scene asks for adaptive sampling. \
-The choice of lights is part of shading.
+Times of stages are wall-clock times summed over threads, so waiting on a busy machine counts; more samples even that out. The trial of \
+sharing is not counted. The table of bounces leaves out camera rays, path reuse and film; its rays per sample include shadow rays. The \
+choice of lights is part of shading.
+
+The image is discarded, and sampling is uniform even if the scene asks for adaptive sampling.
 
 Example: noisefall bench scenes/million_triangles.toml -o where.svg";
 
