@@ -15,24 +15,25 @@ use noisefall::{
         threads::{PassJob, Threads},
     },
     report::stack::{Bar, stacked},
-    scene::{Camera, Sharing},
+    scene::{Camera, Estimator, RenderSettings, Sharing},
 };
 use serde_json::{Value, json};
 
 use super::{
     figures::{self, named},
-    messages::{Failure, print, wrong_usage},
+    messages::{Failure, print, tell, wrong_usage},
     options as parse,
     scene_file::SceneOptions,
     stop::{INTERRUPTED, stop_signal},
 };
 
 const NOTES: &str = "\
-Times of stages are wall-clock times summed over threads, so waiting on a busy machine counts; more samples even that out. The trial of \
-sharing is not counted. The table of bounces leaves out camera rays, path reuse and film; its rays per sample include shadow rays. The \
-choice of lights is part of shading.
+Times of stages are wall-clock times summed over threads, so waiting on a busy machine counts; more samples even that out. The trial \
+that decides what pixels share is not part of them. The table of bounces leaves out camera rays, path reuse and film; its rays per \
+sample include shadow rays. Path reuse includes bright samples. The choice of lights is part of shading.
 
-The image is discarded, and sampling is uniform even if the scene asks for adaptive sampling.
+The image is discarded, and sampling is uniform even if the scene asks for adaptive sampling. Paths from lights are not measured: \
+if the scene asks for them, `mis` is measured.
 
 Example: noisefall bench scenes/million_triangles.toml -o where.svg";
 
@@ -64,6 +65,8 @@ pub struct Arguments {
 struct Measured {
     profile: Profile,
     build: Duration,
+    /// What the trials took that decide the estimator and the sharing.
+    trial: Duration,
     elapsed: Duration,
     threads: usize,
     spp: u32,
@@ -84,19 +87,25 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     camera.check().map_err(|error| error.to_string())?;
     let threads = Threads::new(arguments.threads.into(), SimdLevel::best()).map_err(|error| error.to_string())?;
     let stop = stop_signal("interrupted: nothing was measured")?;
-    let (rays, settings) = (scene.rays(&camera), settings_of(&scene, &camera));
+    let start = Instant::now();
+    let (rays, (settings, estimator)) = (scene.rays(&camera), settings_of(&scene, &camera));
+    let trial = start.elapsed();
+    if settings.estimator != estimator {
+        let [measured, asked] = [settings.estimator, estimator].map(Estimator::name);
+        tell(&format!("note: paths from lights, as of `{asked}`, are not measured; this is `{measured}`"));
+    }
     let job = PassJob { scene: &scene, rays: &rays, settings: &settings };
     let start = Instant::now();
     let Ok(profile) = threads.profile(job, arguments.spp, &|| stop.load(Ordering::Relaxed)) else {
         return Ok(ExitCode::from(INTERRUPTED));
     };
     let (elapsed, sharing) = (start.elapsed(), scene.sharing(&rays, &settings));
-    let measured = Measured { profile, build, elapsed, threads: threads.count(), spp: arguments.spp, sharing };
+    let measured = Measured { profile, build, trial, elapsed, threads: threads.count(), spp: arguments.spp, sharing };
     if let Some(output) = &arguments.output {
         replace(output, measured.plot(&scene.title).as_bytes()).map_err(|error| error.to_string())?;
     }
     if arguments.json {
-        let mut line = figures::settings(&settings);
+        let mut line = figures::settings(&RenderSettings { reuse: scene.settings.reuse, ..settings });
         line.extend(measured.figures([("scene", json!(arguments.scene)), ("resolution", json!(camera.resolution))]));
         print(&Value::Object(line).to_string())?;
     } else {
@@ -147,7 +156,7 @@ impl Measured {
         let (whole, samples) = (profile.whole(), profile.samples as f64);
         let nanoseconds = |time: Duration, count: f64| if count > 0.0 { time.as_secs_f64() * 1e9 / count } else { 0.0 };
         let mut text = format!(
-            "{} samples ({} per pixel, {}) in {:.2} s on {} threads; scene ready after {:.2} s\n\n\
+            "{} samples ({} per pixel, {}) in {:.2} s; threads: {}; scene ready after {:.2} s, trial {:.2} s\n\n\
              stage            time  ns per sample   rays per sample   ns per ray\n",
             profile.samples,
             self.spp,
@@ -155,6 +164,7 @@ impl Measured {
             self.elapsed.as_secs_f64(),
             self.threads,
             self.build.as_secs_f64(),
+            self.trial.as_secs_f64(),
         );
         let mut row = |name: &str, cost: StageCost| {
             let per_ray = if cost.rays > 0 { format!("{:.1}", nanoseconds(cost.time, cost.rays as f64)) } else { String::new() };
@@ -204,6 +214,7 @@ impl Measured {
             ("sharing", json!(self.sharing.name())),
             ("samples", json!(self.profile.samples)),
             ("build_seconds", json!(self.build.as_secs_f64())),
+            ("trial_seconds", json!(self.trial.as_secs_f64())),
             ("seconds", json!(self.elapsed.as_secs_f64())),
             ("nodes_per_ray", json!(self.visits().map(|[nodes, _]| nodes))),
             ("leaves_per_ray", json!(self.visits().map(|[_, leaves]| leaves))),

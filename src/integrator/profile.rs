@@ -115,9 +115,16 @@ struct Clock<'a> {
     profile: &'a mut Profile,
     last: Instant,
     rays: u64,
+    bright: Option<BrightSharing<'a>>,
 }
 
 impl Observer for Clock<'_> {
+    fn before_sharing(&mut self, _work: &Work, batch: &mut Batch) {
+        if let Some(sharing) = self.bright {
+            sharing.set_aside(batch);
+        }
+    }
+
     fn at_surfaces(&mut self, work: &Work, batch: &Batch) {
         let paths = batch.current();
         for at in (0..paths.len()).step_by(COUNTED) {
@@ -146,15 +153,14 @@ pub fn trace_profiled(
     interrupted: &dyn Fn() -> bool,
     profile: &mut Profile,
 ) -> Result<(), Interrupted> {
-    let rays = batch.rays;
-    let mut clock = Clock { profile, last: Instant::now(), rays };
+    let bright = work.thresholds.map(|thresholds| BrightSharing { work, thresholds });
+    let mut clock = Clock { profile, last: Instant::now(), rays: batch.rays, bright };
     in_lanes!(level, l => trace_in(l, work, batch, interrupted, &mut clock))?;
-    let Some(thresholds) = work.thresholds else { return Ok(()) };
-    clock.last = Instant::now();
-    let sharing = BrightSharing { work, thresholds };
-    sharing.set_aside(batch);
-    sharing.share(level, batch, interrupted)?;
-    clock.after(PathStage::Reuse, batch);
+    if let Some(sharing) = bright {
+        clock.last = Instant::now();
+        sharing.share(level, batch, interrupted)?;
+        clock.after(PathStage::Reuse, batch);
+    }
     Ok(())
 }
 
@@ -162,24 +168,28 @@ pub fn trace_profiled(
 mod tests {
     use super::*;
     use crate::{
-        integrator::{TILE, trace},
-        scene::{RenderSettings, Reuse, built_in},
+        integrator::{TILE, thresholds, trace},
+        scene::{RenderSettings, Reuse, parse},
     };
 
     #[test]
     fn a_profile_has_the_rays_of_a_trace_and_changes_no_bit_of_it() {
-        let scene = built_in();
+        let text = include_str!("../../scenes/room_window.toml").to_owned();
+        let scene = parse("room_window.toml", text).expect("a shipped scene compiles");
         let rays = scene.rays(&scene.camera);
-        for reuse in [Reuse::Off, Reuse::On] {
+        let level = SimdLevel::best();
+        for reuse in [Reuse::Off, Reuse::On, Reuse::Bright, Reuse::Both] {
             let settings = RenderSettings { reuse, ..RenderSettings::default() };
-            let work = Work::tile(&scene, &rays, &settings, [96, 96], [TILE; 2], 3);
             let (mut batch, mut profile) = (Batch::default(), Profile::default());
-            trace_profiled(SimdLevel::best(), &work, &mut batch, &|| false, &mut profile).expect("nobody interrupts");
+            let first = Work::tile(&scene, &rays, &settings, [320, 224], [TILE; 2], 3);
+            let thresholds = thresholds(level, &first, &mut batch, &|| false).expect("nobody interrupts");
+            let work = Work { thresholds: thresholds.as_ref(), ..first };
+            trace_profiled(level, &work, &mut batch, &|| false, &mut profile).expect("nobody interrupts");
             let (radiance, traced) = (batch.radiance().to_vec(), batch.rays);
-            trace(SimdLevel::best(), &work, &mut batch, &|| false).expect("nobody interrupts");
-            assert!(radiance == batch.radiance());
+            trace(level, &work, &mut batch, &|| false).expect("nobody interrupts");
+            assert!(radiance == batch.radiance(), "{reuse:?}");
             assert_eq!((profile.whole().rays, profile.bounces[0][0].rays), (traced, u64::from(TILE * TILE)));
-            assert_eq!(profile.reuse.rays > 0, reuse == Reuse::On);
+            assert_eq!(profile.reuse.rays > 0, reuse != Reuse::Off, "{reuse:?}");
             assert!(profile.bounces.len() > 4 && profile.bounces.len() <= Profile::MOST);
             let twice = profile.clone().plus(&profile);
             assert_eq!(twice.of_stage(PathStage::Shadow).rays, 2 * profile.of_stage(PathStage::Shadow).rays);

@@ -10,7 +10,7 @@ use super::{
 pub use crate::integrator::{CountedRays, PathStage, Profile, StageCost};
 use crate::{
     integrator::{Batch, Interrupted, Work, thresholds, trace_profiled},
-    scene::{Camera, RenderSettings, Scene},
+    scene::{Camera, Estimator, RenderSettings, Scene},
 };
 
 impl Threads {
@@ -48,10 +48,18 @@ impl Threads {
     }
 }
 
-/// The settings of a scene as a profile takes them: uniform, and with sharing decided.
-pub fn settings_of(scene: &Scene, camera: &Camera) -> RenderSettings {
+/// The settings of a scene as a profile takes them: uniform, with what is chosen by trial decided. Paths from lights are not profiled; in their
+/// place is `mis`, whose paths are those from the camera. Also returns the estimator of a render.
+pub fn settings_of(scene: &Scene, camera: &Camera) -> (RenderSettings, Estimator) {
+    let rays = scene.rays(camera);
     let settings = RenderSettings { adaptive: false, ..scene.settings };
-    resolved(scene, &scene.rays(camera), &settings)
+    let decided = resolved(scene, &rays, &settings);
+    if decided.estimator.traces_light_paths() {
+        let by_mis = RenderSettings { estimator: Estimator::Mis, ..settings };
+        (resolved(scene, &rays, &by_mis), decided.estimator)
+    } else {
+        (decided, decided.estimator)
+    }
 }
 
 #[cfg(test)]
@@ -63,7 +71,7 @@ mod tests {
     fn a_profile_covers_all_samples_of_an_image_and_can_be_interrupted() {
         let scene = built_in();
         let camera = Camera { resolution: [70, 40], ..scene.camera };
-        let (rays, settings) = (scene.rays(&camera), settings_of(&scene, &camera));
+        let (rays, (settings, _)) = (scene.rays(&camera), settings_of(&scene, &camera));
         let job = PassJob { scene: &scene, rays: &rays, settings: &settings };
         let threads = Threads::new(2, SimdLevel::best()).expect("threads");
         let profile = threads.profile(job, 3, &|| false).expect("nobody interrupts");

@@ -31,4 +31,9 @@ fn bench_tells_time_and_rays_by_stage_and_bounce() {
     assert_eq!((rays(&figures["stages"]["rays"]), rays(&bounces[0]["stages"]["rays"])), (sum, 2400));
     let wrong = shell.run(&["bench", "knot.toml", "-o", "where.png"]);
     assert!(wrong.status.code() == Some(2) && text(&wrong.stderr).contains("must end in .svg"), "{}", text(&wrong.stderr));
+    let caustic = scene("glass_ball_caustic");
+    let done = shell.run(&["bench", &caustic, "--size", "16x12", "--spp", "1", "--json"]);
+    assert!(text(&done.stderr).contains("are not measured; this is `mis`"), "{}", text(&done.stderr));
+    let figures: Value = serde_json::from_str(&text(&done.stdout)).expect("a line of JSON");
+    assert!(fits_part(&figures, "bench", &schema) && figures["estimator"] == "mis", "{figures}");
 }
