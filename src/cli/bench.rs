@@ -65,7 +65,7 @@ pub struct Arguments {
 struct Measured {
     profile: Profile,
     build: Duration,
-    /// What the trials took that decide the estimator and the sharing.
+    /// Time of the trials that decide the estimator and the sharing.
     trial: Duration,
     elapsed: Duration,
     threads: usize,

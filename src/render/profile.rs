@@ -48,8 +48,8 @@ impl Threads {
     }
 }
 
-/// The settings of a scene as a profile takes them: uniform, with what is chosen by trial decided. Paths from lights are not profiled; in their
-/// place is `mis`, whose paths are those from the camera. Also returns the estimator of a render.
+/// The settings of a scene as a profile takes them: uniform, with what is chosen by trial decided. Also returns the estimator of a render:
+/// paths from lights are not profiled, but `mis` in their place, which has paths from the camera alone.
 pub fn settings_of(scene: &Scene, camera: &Camera) -> (RenderSettings, Estimator) {
     let rays = scene.rays(camera);
     let settings = RenderSettings { adaptive: false, ..scene.settings };

@@ -27,8 +27,8 @@ use crate::{
 };
 
 thread_local! {
-    /// Room for the boxes of the rays of this thread. It is kept, because filling it with zeros for every register of rays takes up to 4 % of
-    /// their time.
+    /// Room for the boxes of the rays of this thread. It is kept, because filling it with zeros for every register of rays takes up to
+    /// 4 % of their time.
     static STACKS: Cell<Option<Box<[Stacks; 2]>>> = const { Cell::new(None) };
 }
 
