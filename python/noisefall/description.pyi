@@ -513,6 +513,8 @@ class Material:
     """A thin pane of glass: reflects and transmits without refraction."""
     two_sided: bool | None = None
     """Whether the back reflects too. Default: true."""
+    two_sided_relief: bool | None = None
+    """Whether bump and normal maps look the same from both sides. Otherwise bumps of the front are dents of the back. Default: false."""
 
 @dataclass(kw_only=True)
 class Emission:

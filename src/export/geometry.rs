@@ -31,6 +31,7 @@ pub fn model_of(data: &MeshData) -> Model {
         normals: (!data.normals.is_empty()).then(|| data.normals.clone()),
         uvs: (!data.uvs.is_empty()).then(|| data.uvs.clone()),
         colours: (!data.colours.is_empty()).then(|| data.colours.clone()),
+        tangents: (!data.tangents.is_empty()).then(|| data.tangents.clone()),
     }
 }
 

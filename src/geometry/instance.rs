@@ -183,6 +183,19 @@ impl Instance {
         (coordinates, [transform.vector_to_world(u), transform.vector_to_world(v)])
     }
 
+    /// The given tangents of a mesh; see [`Shapes::axes`](super::Shapes::axes). The mask is false where there are none.
+    #[simd]
+    pub fn given_axes<L: Lanes>(&self, l: L, place: &PrimitiveRef<L>, point: &SurfacePoint<L>) -> ([V<L>; 2], M<L>) {
+        match &self.body {
+            Body::Mesh(mesh) if mesh.has_tangents() => {
+                let transform = self.transform(l, place.time);
+                let ([t, b], are_given) = mesh.given_axes(l, place.element, transform.point_to_local(point.p));
+                ([transform.vector_to_world(t), transform.vector_to_world(b)], are_given)
+            }
+            _ => ([point.n_geometric; 2], l.first(0)),
+        }
+    }
+
     /// The interpolated normal of a smooth mesh, unit; elsewhere the geometric one.
     #[simd]
     pub fn smooth_normal<L: Lanes>(&self, l: L, place: &PrimitiveRef<L>, point: &SurfacePoint<L>) -> V<L> {

@@ -27,8 +27,9 @@ mod tests {
             normals: Some(vec![[0.0; 3]; 4]),
             uvs: Some(vec![[0.0; 2]; 4]),
             colours: Some(vec![[0.0; 4]; 4]),
+            tangents: Some(vec![[0.0; 4]; 4]),
         };
-        assert_eq!(model.bytes(), 4 * (12 + 12 + 8 + 16) + 2 * 12);
+        assert_eq!(model.bytes(), 4 * (12 + 12 + 8 + 16 + 16) + 2 * 12);
         let mut assets = Assets::default();
         assets.insert("meshes/a.ply", model);
         assets.insert("textures/a.png", vec![0u8; 100]);

@@ -38,6 +38,7 @@ impl TubeMesh {
             normals: Some(Vec::with_capacity(vertices)),
             uvs: Some(Vec::with_capacity(vertices)),
             colours: None,
+            tangents: None,
         };
         TubeMesh { model, sides }
     }

@@ -14,7 +14,7 @@ use crate::{
 ///
 /// A height h displaces the surface to p + h n; without the small terms from the curvature of n, its normal is n − ∇h (J. Blinn,
 /// "Simulation of Wrinkled Surfaces", SIGGRAPH 1978). A normal map holds (x, y, z)/2 + ½ of the normal, with x along ∂p/∂u, y
-/// against ∂p/∂v (up in the image) and z along n.
+/// against ∂p/∂v (up in the image) and z along n, or along given tangents. A flipped surface turns this frame about x by half a turn.
 #[inline(always)]
 pub(super) fn shading_normal<L: Lanes>(
     l: L,
@@ -30,20 +30,30 @@ pub(super) fn shading_normal<L: Lanes>(
     if !(bumped | mapped).any() {
         return n;
     }
-    let (along_u, along_v) = scene.shapes.tangents(l, place, point);
+    let derivatives = scene.shapes.tangents(l, place, point);
     let mut tilted = n;
     if mapped.any() {
         let code = scene.textures.colour(l, map + u32::MAX, mapped, at);
         let [x, y, z] = [code.x * 2.0 - 1.0, code.y * 2.0 - 1.0, code.z * 2.0 - 1.0];
-        let normal = along_u.normalized() * x - along_v.normalized() * y + n * z;
+        let [red, green] = scene.shapes.axes(l, place, point, derivatives);
+        // Unlike `n`, the geometric normal is never flipped.
+        let y = n.dot(point.n_geometric).below(0.0).pick(-y, y);
+        let normal = red.normalized() * x + green.normalized() * y + n * z;
         tilted = mapped.pick(normal.normalized(), n);
     }
     if bumped.any() {
         let id = bumped.pick(bump + u32::MAX, l.u(0));
-        let slope = gradient(l, &scene.textures, id, bumped, along_u, along_v, at) * height;
+        let slope = gradient(l, &scene.textures, id, bumped, derivatives, at) * height;
         tilted = bumped.pick((tilted - slope).normalized(), tilted);
     }
     tilted
+}
+
+/// The normal that a viewer behind the surface sees if relief rises from both of its sides: `tilted`, which is on the side of the viewer
+/// and shows bumps of the front as dents, with its part along the surface turned round. `n` is the normal of the surface.
+#[inline(always)]
+pub(super) fn seen_from_behind<L: Lanes>(tilted: V<L>, n: V<L>) -> V<L> {
+    n * (n.dot(tilted) * 2.0) - tilted
 }
 
 /// Minimum height of the viewer over a shading normal.
@@ -60,7 +70,7 @@ pub(super) fn visible_smooth_normal<L: Lanes>(smooth: V<L>, n: V<L>, wo: V<L>) -
 /// "Microfacet-based Normal Mapping for Robust Monte Carlo Path Tracing", SIGGRAPH Asia 2017), and is replaced by it otherwise.
 #[inline(always)]
 pub(super) fn visible_normal<L: Lanes>(l: L, flags: U<L>, tilted: V<L>, n: V<L>, wo: V<L>) -> (V<L>, U<L>) {
-    let mirrored = n * (n.dot(tilted) * 2.0) - tilted;
+    let mirrored = seen_from_behind(tilted, n);
     let faces_away = !tilted.dot(wo).above(0.0);
     let is_mirrored = faces_away & is_set(flags, MIRRORED);
     let tilted = is_mirrored.pick(mirrored, tilted);
@@ -75,8 +85,7 @@ fn gradient<L: Lanes>(
     textures: &Textures,
     id: U<L>,
     mask: M<L>,
-    along_u: V<L>,
-    along_v: V<L>,
+    (along_u, along_v): (V<L>, V<L>),
     at: &TextureCoordinates<L>,
 ) -> V<L> {
     let steps = textures.steps(l, id);

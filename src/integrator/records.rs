@@ -82,8 +82,10 @@ record! {
         /// Texture coordinates.
         u: F,
         v: F,
-        /// ∂p/∂u, of any length.
+        /// The tangent, of any length.
         along_u: V,
+        /// 1 if the bitangent is on the left of the tangent seen from the front, −1 if it is on the right.
+        handedness: F,
         /// Colour and opacity of vertices, in scenes with textures that read them.
         vertex: V,
         vertex_opacity: F,

@@ -266,8 +266,8 @@ impl<L: Lanes> ShadingVertex<L> {
     pub fn frame_about<K: Shade>(&self, l: L, work: &Work, n: V<L>, chart: Option<&Chart<L>>) -> Frame<L> {
         let Some(chart) = chart else { return Frame::new(n) };
         let (cos, sin) = K::turn(l, &work.scene.surfaces.materials, &self.local);
-        // The turn is about the front normal.
-        let sin = self.local.front.pick(sin, -sin);
+        // The turn is from the tangent towards the bitangent.
+        let sin = self.local.front.pick(sin, -sin) * chart.handedness;
         Frame::along(n, chart.along_u, (cos, sin))
     }
 

@@ -1,7 +1,7 @@
 //! Properties that vary over a surface: colour, roughness and shading normal at the points where paths arrive.
 use super::{
     interaction::{SurfaceInteraction, vertex_colour},
-    normal_mapping::{shading_normal, visible_normal, visible_smooth_normal},
+    normal_mapping::{seen_from_behind, shading_normal, visible_normal, visible_smooth_normal},
     records::{Chart, Detail, Relief},
 };
 use crate::{
@@ -9,7 +9,7 @@ use crate::{
     math::{Lanes, M, Pick, U, V},
     scene::{
         Scene,
-        surface::{FLIPPED, ONE_SIDED, SQUARED, is_set},
+        surface::{FLIPPED, ON_BOTH_SIDES, ONE_SIDED, SQUARED, is_set},
     },
     texture::TextureCoordinates,
 };
@@ -33,6 +33,16 @@ impl<L: Lanes> IncidentPaths<L> {
         let front = self.interaction.cos.above(0.0) ^ is_set(self.word, FLIPPED);
         (front, front | !is_set(self.word, ONE_SIDED))
     }
+
+    /// The normal `n` on the side of the paths, tilted by the textures of the surface in the lanes of `mask`.
+    #[inline(always)]
+    fn tilted(&self, l: L, scene: &Scene, mask: M<L>, n: V<L>, at: &TextureCoordinates<L>) -> V<L> {
+        let side = l.f(1.0).copysign(self.interaction.cos);
+        let side = is_set(self.word, FLIPPED).pick(-side, side);
+        let tilted = shading_normal(l, scene, &self.interaction, mask, n * side, at) * side;
+        let [.., flags] = l.rows(&scene.surfaces.relief, self.interaction.row);
+        (side.below(0.0) & is_set(flags.bits(), ON_BOTH_SIDES)).pick(seen_from_behind(tilted, n), tilted)
+    }
 }
 
 /// Texture coordinates and tangents of the paths.
@@ -40,9 +50,10 @@ impl<L: Lanes> IncidentPaths<L> {
 pub(super) fn chart<L: Lanes>(l: L, scene: &Scene, incident: &IncidentPaths<L>) -> Chart<L> {
     let SurfaceInteraction { place, point, .. } = &incident.interaction;
     let Coordinates { u, v } = scene.shapes.coordinates(l, place, point);
-    let (along_u, _) = scene.shapes.tangents(l, place, point);
+    let [along_u, up] = scene.shapes.axes(l, place, point, scene.shapes.tangents(l, place, point));
     let [x, y, z, vertex_opacity] = vertex_colour(l, scene, *place, *point).unwrap_or([l.f(1.0); 4]);
-    Chart { u, v, along_u, vertex: V { x, y, z }, vertex_opacity }
+    let handedness = l.f(1.0).copysign(along_u.cross(up).dot(point.n_geometric));
+    Chart { u, v, along_u, handedness, vertex: V { x, y, z }, vertex_opacity }
 }
 
 /// Evaluates textures in the lanes of `mask`, for surfaces of colour `colour` and normal `n` without them. Returns colour, details,
@@ -83,9 +94,8 @@ pub(super) fn vary<L: Lanes>(
             alpha = rough.pick(is_set(*word, SQUARED).pick(value * value, value), alpha);
         }
         if !surfaces.relief.is_empty() {
-            let side = l.f(1.0).copysign(*cos);
             let [.., flags] = l.rows(&surfaces.relief, *row);
-            let tilted = shading_normal(l, scene, interaction, mask, n * side, &at) * side;
+            let tilted = incident.tilted(l, scene, mask, n, &at);
             n = if *keeps_hidden_normals { tilted } else { visible_normal(l, flags.bits(), tilted, n, wo).0 };
         }
     }
@@ -94,21 +104,13 @@ pub(super) fn vary<L: Lanes>(
 
 /// The relief of a surface with the normal `n`, whose smooth normal is `smooth`.
 #[inline(always)]
-pub(super) fn relief<L: Lanes>(
-    l: L,
-    scene: &Scene,
-    IncidentPaths { interaction, .. }: &IncidentPaths<L>,
-    mask: M<L>,
-    n: V<L>,
-    smooth: V<L>,
-) -> Relief<L> {
-    let SurfaceInteraction { place, row, point, cos } = interaction;
+pub(super) fn relief<L: Lanes>(l: L, scene: &Scene, incident: &IncidentPaths<L>, mask: M<L>, n: V<L>, smooth: V<L>) -> Relief<L> {
+    let SurfaceInteraction { place, row, point, .. } = &incident.interaction;
     let Coordinates { u, v } = scene.shapes.coordinates(l, place, point);
     let vertex = vertex_colour(l, scene, *place, *point);
     let at = TextureCoordinates { u, v, p: point.p, vertex: vertex.as_ref() };
-    let side = l.f(1.0).copysign(*cos);
     let [.., flags] = l.rows(&scene.surfaces.relief, *row);
-    Relief { smooth, tilted_surface: shading_normal(l, scene, interaction, mask, n * side, &at) * side, flags: flags.bits() }
+    Relief { smooth, tilted_surface: incident.tilted(l, scene, mask, n, &at), flags: flags.bits() }
 }
 
 /// Diffuse transmittance in the lanes of `mask`.

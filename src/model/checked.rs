@@ -10,7 +10,8 @@ impl Model {
         let normals = self.normals.as_deref().map_or(0, size_of_val);
         let uvs = self.uvs.as_deref().map_or(0, size_of_val);
         let colours = self.colours.as_deref().map_or(0, size_of_val);
-        (vertices + normals + uvs + colours) as u64
+        let tangents = self.tangents.as_deref().map_or(0, size_of_val);
+        (vertices + normals + uvs + colours + tangents) as u64
     }
 
     /// The mesh as a reader returns it: with unit normals and finite coordinates. An error is the end of a sentence about the mesh.
@@ -26,13 +27,15 @@ impl Model {
         if let Some(at) = self.vertices.par_iter().position_first(|vertex| !vertex.iter().all(|x| x.is_finite())) {
             return Err(format!("vertex {at} is not finite"));
         }
-        let lengths = [self.normals.as_ref().map(Vec::len), self.uvs.as_ref().map(Vec::len), self.colours.as_ref().map(Vec::len)];
+        let fours = [&self.colours, &self.tangents].map(|values| values.as_ref().map(Vec::len));
+        let lengths = [self.normals.as_ref().map(Vec::len), self.uvs.as_ref().map(Vec::len), fours[0], fours[1]];
         if let Some(length) = lengths.into_iter().flatten().find(|length| *length != count) {
             return Err(format!("there are {count} vertices, and {length} values for them"));
         }
         let finite = |x: &mut f32| *x = if x.is_finite() { *x } else { 0.0 };
         self.uvs.iter_mut().flatten().flatten().for_each(finite);
         self.colours.iter_mut().flatten().flatten().for_each(finite);
+        self.tangents.iter_mut().flatten().flatten().for_each(finite);
         if let Some(normals) = &mut self.normals {
             normals.iter_mut().flatten().for_each(finite);
             normals::complete(normals, &self.vertices, &self.triangles);

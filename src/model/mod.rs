@@ -51,6 +51,8 @@ pub struct Model {
     pub uvs: Option<Vec<[f32; 2]>>,
     /// One per vertex: linear Rec. 709 and opacity.
     pub colours: Option<Vec<[f32; 4]>>,
+    /// One per vertex: a direction in the surface and a handedness; see [`crate::geometry::MeshData::tangents`].
+    pub tangents: Option<Vec<[f32; 4]>>,
 }
 
 /// Error of reading a mesh file.

@@ -21,6 +21,8 @@ pub struct MaterialInstance {
     pub normal_shadowing: bool,
     /// Whether normals of bump and normal maps that face away from the viewer are mirrored.
     pub mirrored_normals: bool,
+    /// Whether the back shows bump and normal map as the front does.
+    pub two_sided_relief: bool,
     /// Black from behind.
     pub one_sided: bool,
     /// Fraction of the light that meets the surface.

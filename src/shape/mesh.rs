@@ -19,9 +19,9 @@ use crate::{
 
 /// Bytes per triangle of a procedural mesh, including its share of vertices and the computation of their normals.
 const MADE_TRIANGLE: u64 = 110;
-/// Bytes per vertex and per triangle of lists, of colours, and of smooth normals while they are computed.
+/// Bytes per vertex and per triangle of lists, of colours and of tangents each, and of smooth normals while they are computed.
 const VERTEX: u64 = 32;
-const COLOUR: u64 = 16;
+const FOUR: u64 = 16;
 const TRIANGLE: u64 = 12;
 const SMOOTHING: u64 = 64;
 /// Range of the number of triangles of a procedural mesh.
@@ -230,9 +230,9 @@ fn from_file(resources: &Resources, file: &NamedFile, smooth: bool) -> Result<Me
         (None, None) => read_watched(file.path(), progress).map_err(|error| error.to_string()),
     };
     let model = model.map_err(|message| Problem::at("path", message, "this mesh cannot be used"))?;
-    let Model { vertices, triangles, normals, uvs, colours } = model;
-    let colouring = if colours.is_some() { COLOUR } else { 0 };
-    let bytes = (VERTEX + colouring) * vertices.len() as u64 + TRIANGLE * triangles.len() as u64;
+    let Model { vertices, triangles, normals, uvs, colours, tangents } = model;
+    let fours = u64::from(colours.is_some()) + u64::from(tangents.is_some());
+    let bytes = (VERTEX + FOUR * fours) * vertices.len() as u64 + TRIANGLE * triangles.len() as u64;
     resources.reserve("path", format_args!("{} vertices and {} triangles", vertices.len(), triangles.len()), bytes)?;
     let normals = match normals.filter(|_| smooth) {
         None if smooth => {
@@ -245,8 +245,8 @@ fn from_file(resources: &Resources, file: &NamedFile, smooth: bool) -> Result<Me
     let mut colours = colours.unwrap_or_default();
     // Textures of vertex colours count on their range. NaN becomes 0.
     colours.as_flattened_mut().iter_mut().for_each(|x| *x = if *x > 0.0 { x.min(1.0) } else { 0.0 });
-    let (normals, uvs) = (normals.unwrap_or_default(), uvs.unwrap_or_default());
-    Ok(MeshData { vertices, triangles, normals, uvs, colours })
+    let (normals, uvs, tangents) = (normals.unwrap_or_default(), uvs.unwrap_or_default(), tangents.unwrap_or_default());
+    Ok(MeshData { vertices, triangles, normals, uvs, colours, tangents })
 }
 
 fn from_lists(resources: &Resources, vertices: &[[f64; 3]], triangles: &[[u32; 3]], smooth: bool) -> Result<MeshData, Problem> {

@@ -98,7 +98,7 @@ impl Files {
     }
 
     /// The view of a shape by parallel rays from (2, 1.5, 3).
-    fn seen(&self, shape: &str, material: &str) -> Features {
+    fn seen(&self, shape: &str, material: &str, flip: bool) -> Features {
         let path = |name: &str| self.path(name).display().to_string();
         let shape = shape.replace("MESH", &path("mesh.obj")).replace("SMOOTH", &path("smooth.obj"));
         let scene: Scene = scene(&format!(
@@ -110,6 +110,7 @@ impl Files {
             {}
             [[objects]]
             material = 'm'
+            flip = {flip}
             shape = {{ {shape} }}",
             path("uv.exr"),
             path("height.exr"),
@@ -171,9 +172,9 @@ fn places(seen: &Features) -> Vec<Place> {
 }
 
 /// Checks that the normals are those of `exact` wherever they face the viewer.
-fn assert_normals(files: &Files, material: &str, exact: impl Fn(&Place) -> DVec3) {
+fn assert_normals(files: &Files, material: &str, flip: bool, exact: impl Fn(&Place) -> DVec3) {
     for (name, shape) in SHAPES {
-        let (plain, found) = (files.seen(shape, ""), files.seen(shape, material));
+        let (plain, found) = (files.seen(shape, "", flip), files.seen(shape, material, flip));
         let mut deviations = Vec::new();
         for place in places(&plain) {
             let expected = exact(&place).normalize();
@@ -196,22 +197,30 @@ fn assert_normals(files: &Files, material: &str, exact: impl Fn(&Place) -> DVec3
 #[test]
 fn bump_tilts_normals_against_the_slope_of_its_heights() {
     let files = Files::new();
-    assert_normals(&files, &format!("bump = {{ texture = 'height', height = {HEIGHT} }}"), |place| {
-        let [u, v] = place.along;
-        // The gradient g lies in the surface, and g · ∂p/∂u = ∂h/∂u, g · ∂p/∂v = ∂h/∂v.
-        let metric = DMat2::from_cols(DVec2::new(u.dot(u), u.dot(v)), DVec2::new(u.dot(v), v.dot(v)));
-        let by = metric.inverse() * (RISE * HEIGHT);
-        place.normal - u * by.x - v * by.y
-    });
+    let bump = format!("bump = {{ texture = 'height', height = {HEIGHT} }}");
+    // All shapes show their fronts, or, if they are flipped, their backs: heights count along the reversed normal.
+    for (flip, two_sided_relief, rise) in [(false, false, 1.0), (false, true, 1.0), (true, false, -1.0), (true, true, 1.0)] {
+        assert_normals(&files, &format!("{bump}\ntwo_sided_relief = {two_sided_relief}"), flip, |place| {
+            let [u, v] = place.along;
+            // The gradient g lies in the surface, and g · ∂p/∂u = ∂h/∂u, g · ∂p/∂v = ∂h/∂v.
+            let metric = DMat2::from_cols(DVec2::new(u.dot(u), u.dot(v)), DVec2::new(u.dot(v), v.dot(v)));
+            let by = metric.inverse() * (RISE * HEIGHT) * rise;
+            place.normal - u * by.x - v * by.y
+        });
+    }
 }
 
 #[test]
 fn normal_maps_tilt_normals_along_u_and_against_v() {
     let files = Files::new();
-    assert_normals(&files, "normal_map = 'TILT'", |place| {
-        let [u, v] = place.along.map(DVec3::normalize);
-        u * TILT.x - v * TILT.y + place.normal * TILT.z
-    });
+    // A flipped surface turns the frame about ∂p/∂u, and shows its back.
+    let sides = [(false, false, [1.0, -1.0]), (false, true, [1.0, -1.0]), (true, false, [-1.0, -1.0]), (true, true, [1.0, 1.0])];
+    for (flip, two_sided_relief, [red, green]) in sides {
+        assert_normals(&files, &format!("normal_map = 'TILT'\ntwo_sided_relief = {two_sided_relief}"), flip, |place| {
+            let [u, v] = place.along.map(DVec3::normalize);
+            u * (red * TILT.x) + v * (green * TILT.y) + place.normal * TILT.z
+        });
+    }
 }
 
 /// A lamp lights a wall over a mirror whose normals lean by 15°: paths from the camera and paths from the lamp meet it at cosines

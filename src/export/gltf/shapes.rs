@@ -112,6 +112,10 @@ impl Export<'_> {
             let normals: Vec<[f32; 3]> = data.normals.iter().map(|n| normal(*n, key.flip)).collect();
             attributes.insert("NORMAL".to_owned(), json!(self.document.attribute(&normals)?));
         }
+        if !data.tangents.is_empty() && !data.normals.is_empty() {
+            let tangents: Vec<[f32; 4]> = data.tangents.iter().map(|t| tangent(*t)).collect();
+            attributes.insert("TANGENT".to_owned(), json!(self.document.attribute(&tangents)?));
+        }
         if !data.uvs.is_empty() {
             // v of glTF points down.
             let uvs: Vec<[f32; 2]> = data.uvs.iter().map(|[u, v]| [*u, 1.0 - *v]).collect();
@@ -146,6 +150,12 @@ fn normal(n: [f32; 3], flip: bool) -> [f32; 3] {
     let n = Vec3::from(n);
     let unit = if (n.length_squared() - 1.0).abs() <= ROUNDING { n } else { n.try_normalize().unwrap_or(n) };
     if flip { (-unit).to_array() } else { unit.to_array() }
+}
+
+/// A tangent of unit length, and its handedness.
+fn tangent([x, y, z, w]: [f32; 4]) -> [f32; 4] {
+    let [x, y, z] = normal([x, y, z], false);
+    [x, y, z, 1f32.copysign(w)]
 }
 
 /// Whether a map is more than a scale, a rotation and a mirror.

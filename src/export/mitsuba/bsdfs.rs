@@ -64,8 +64,12 @@ impl Export<'_> {
         if one_sided && transmits && !is_blend {
             self.remark("`two_sided = false` of a transparent material", "both sides", "the back transmits light too");
         }
-        let sided = if one_sided || transmits { element } else { Element::plugin("bsdf", "twosided").with(element) };
-        let bumped = self.bumped(material, sided);
+        let sided = |element| if one_sided || transmits { element } else { Element::plugin("bsdf", "twosided").with(element) };
+        // Within a `twosided`, relief rises from both sides.
+        let bumped = match material.two_sided_relief {
+            Some(true) => sided(self.bumped(material, element)),
+            _ => self.bumped(material, sided(element)),
+        };
         match &material.opacity {
             None | Some(Textured::Constant(1.0)) => bumped,
             Some(opacity) => {

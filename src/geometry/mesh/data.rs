@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use crate::geometry::bounds::Bounds;
 
-/// Vertices and triangles. `normals`, `uvs` and `colours` have one entry for each vertex, or none.
+/// Vertices and triangles. `normals`, `uvs`, `colours` and `tangents` have one entry for each vertex, or none.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MeshData {
     /// Positions, metres.
@@ -19,6 +19,10 @@ pub struct MeshData {
     pub uvs: Vec<[f32; 2]>,
     /// Linear Rec. 709 and opacity, from 0 to 1.
     pub colours: Vec<[f32; 4]>,
+    /// Directions t in the surface, of any length, and a handedness w: red of a normal map tilts along t, and green along w n × t, where
+    /// n is the normal on the front. Highlights of anisotropic facets are turned from t towards w n × t. A negative w stands for −1,
+    /// any other for 1. Without tangents, t is ∂p/∂u, and green tilts upwards in the image.
+    pub tangents: Vec<[f32; 4]>,
 }
 
 impl MeshData {
@@ -52,6 +56,7 @@ impl MeshData {
             normals: self.normals.par_iter().map(|n| pose.normal(n)).collect(),
             uvs: self.uvs.clone(),
             colours: self.colours.clone(),
+            tangents: self.tangents.par_iter().map(|t| pose.tangent(t)).collect(),
         })
     }
 
@@ -90,6 +95,12 @@ impl Pose {
 
     pub fn point(&self, p: &[f32; 3]) -> [f32; 3] {
         self.map.transform_point3(Vec3::from(*p).as_dvec3()).as_vec3().to_array()
+    }
+
+    /// A mirror turns the handedness round: it keeps the front, and with it the direction of the normal.
+    pub fn tangent(&self, [x, y, z, w]: &[f32; 4]) -> [f32; 4] {
+        let t = self.map.transform_vector3(Vec3::new(*x, *y, *z).as_dvec3()).as_vec3();
+        t.extend(if self.is_mirrored { -w } else { *w }).to_array()
     }
 
     pub fn normal(&self, n: &[f32; 3]) -> [f32; 3] {

@@ -171,6 +171,11 @@ impl Mesh {
         !self.vertices.normals().is_empty()
     }
 
+    /// Whether vertices have tangents.
+    pub fn has_tangents(&self) -> bool {
+        !self.vertices.tangents().is_empty()
+    }
+
     /// Whether vertices have texture coordinates.
     pub fn has_uvs(&self) -> bool {
         !self.vertices.uvs().is_empty()

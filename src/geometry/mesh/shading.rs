@@ -2,7 +2,7 @@
 use super::{Mesh, surface::mix};
 use crate::{
     geometry::Coordinates,
-    math::{F, Lanes, Pick, U, V},
+    math::{F, Lanes, M, Pick, U, V},
 };
 
 impl Mesh {
@@ -29,6 +29,24 @@ impl Mesh {
         let along_u = defined.pick((ab * v2 - ac * v1) * scale, ab);
         let along_v = defined.pick((ac * u1 - ab * u2) * scale, ac);
         (Coordinates { u, v: 1.0 - v }, [along_u, -along_v])
+    }
+
+    /// The given tangent at a point `p` of a triangle, and the bitangent: see [`MeshData::tangents`](super::MeshData::tangents). Neither is
+    /// of unit length. Only for a mesh with tangents; the mask is false where the tangent is not in the surface.
+    #[inline(always)]
+    pub fn given_axes<L: Lanes>(&self, l: L, triangle: U<L>, p: V<L>) -> ([V<L>; 2], M<L>) {
+        // The square of the sine of the smallest angle to the normal.
+        const LEAST: f32 = 1e-10;
+        let [beta, gamma] = self.surface_point(l, triangle, p).barycentrics;
+        let weights = [1.0 - beta - gamma, beta, gamma];
+        let [a, b, c] = self.rows(l, triangle, self.vertices.tangents());
+        let [x, y, z, w] = [0, 1, 2, 3].map(|column| mix(weights, [a[column], b[column], c[column]]));
+        let t = V { x, y, z };
+        let n =
+            if self.is_smooth() { self.smooth_normal(l, triangle, p) } else { self.surface_point(l, triangle, p).n_geometric };
+        let bitangent = n.cross(t);
+        let scale = t.length_squared() * n.length_squared() * LEAST;
+        ([t, bitangent * l.f(1.0).copysign(w)], scale.lt(bitangent.length_squared()))
     }
 
     /// The interpolated normal on the front side; not of unit length. Only for a mesh with normals.

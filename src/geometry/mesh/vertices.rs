@@ -10,18 +10,25 @@ use crate::math::{F, Lanes, MAX_LANES, U};
 /// The image of mesh data under a map. It shares with the data what the map leaves as it is.
 pub(super) struct Vertices {
     data: Arc<MeshData>,
-    /// Positions and normals, if the map moves them.
-    moved: Option<[Vec<[f32; 3]>; 2]>,
+    /// Positions, normals and tangents, if the map moves them.
+    moved: Option<Moved>,
     /// Triangles, if they are not all those of the data, or turned.
     triangles: Option<Vec<[u32; 3]>>,
+}
+
+struct Moved {
+    positions: Vec<[f32; 3]>,
+    normals: Vec<[f32; 3]>,
+    tangents: Vec<[f32; 4]>,
 }
 
 impl Vertices {
     pub fn new(data: &Arc<MeshData>, map: &DAffine3) -> Vertices {
         let pose = Pose::new(map);
-        let moved = (*map != DAffine3::IDENTITY).then(|| {
-            let positions = data.vertices.par_iter().map(|p| pose.point(p)).collect();
-            [positions, data.normals.par_iter().map(|n| pose.normal(n)).collect()]
+        let moved = (*map != DAffine3::IDENTITY).then(|| Moved {
+            positions: data.vertices.par_iter().map(|p| pose.point(p)).collect(),
+            normals: data.normals.par_iter().map(|n| pose.normal(n)).collect(),
+            tangents: data.tangents.par_iter().map(|t| pose.tangent(t)).collect(),
         });
         let turn = |triangle| pose.triangle(triangle);
         let triangles = pose.is_mirrored.then(|| data.triangles.par_iter().copied().map(turn).collect());
@@ -39,12 +46,17 @@ impl Vertices {
     }
 
     pub fn positions(&self) -> &[[f32; 3]] {
-        self.moved.as_ref().map_or(&self.data.vertices, |[positions, _]| positions)
+        self.moved.as_ref().map_or(&self.data.vertices, |moved| &moved.positions)
     }
 
     /// Normals of any length; may be empty.
     pub fn normals(&self) -> &[[f32; 3]] {
-        self.moved.as_ref().map_or(&self.data.normals, |[_, normals]| normals)
+        self.moved.as_ref().map_or(&self.data.normals, |moved| &moved.normals)
+    }
+
+    /// Tangents and their handedness; may be empty.
+    pub fn tangents(&self) -> &[[f32; 4]] {
+        self.moved.as_ref().map_or(&self.data.tangents, |moved| &moved.tangents)
     }
 
     /// Texture coordinates; may be empty.

@@ -41,6 +41,28 @@ impl Shapes {
         (along_u, along_v)
     }
 
+    /// The directions along which red and green of a normal map tilt the normal on the front, of any length: the tangents of a mesh that
+    /// has some, else ∂p/∂u and −∂p/∂v, which are `derivatives`.
+    #[inline(always)]
+    pub fn axes<L: Lanes>(
+        &self,
+        l: L,
+        place: &PrimitiveRef<L>,
+        point: &SurfacePoint<L>,
+        (along_u, along_v): (V<L>, V<L>),
+    ) -> [V<L>; 2] {
+        let mut axes = [along_u, -along_v];
+        if !self.have_tangents {
+            return axes;
+        }
+        let mut rest = self.at_instance(l, place);
+        while let Some((here, instance)) = rest.next(self) {
+            let ([t, b], are_given) = instance.given_axes(l, &rest.within(here, place), point);
+            axes = [(here & are_given).pick(t, axes[0]), (here & are_given).pick(b, axes[1])];
+        }
+        axes
+    }
+
     /// The shading normal of a smooth mesh, otherwise the geometric normal.
     #[inline(always)]
     pub fn smooth_normal<L: Lanes>(&self, l: L, place: &PrimitiveRef<L>, point: &SurfacePoint<L>) -> V<L> {

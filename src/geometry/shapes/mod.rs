@@ -53,6 +53,8 @@ pub struct Shapes {
     near: DVec3,
     meshes: MeshTrees,
     have_moved_meshes: bool,
+    /// Whether some mesh has tangents.
+    have_tangents: bool,
 }
 
 impl Shapes {
@@ -142,6 +144,7 @@ impl Shapes {
                 self.has_elements = true;
                 let (mesh, still) = meshes.place(data, map)?;
                 self.dropped += mesh.dropped();
+                self.have_tangents |= mesh.has_tangents();
                 (Body::Mesh(mesh), still)
             }
             Shape::Isosurface { surface, map } => (Body::Isosurface(surface.clone()), *map),

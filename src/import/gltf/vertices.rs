@@ -115,6 +115,7 @@ impl<'a> Vertices<'a> {
             normals: normals.transpose()?,
             uvs: uvs.transpose()?,
             colours: colours.transpose()?,
+            tangents: None,
         })
     }
 

@@ -1,11 +1,12 @@
 //! Shading normals by viewer. One that faces away from the viewer is mirrored or replaced: see [`super::super::normal_mapping`].
 use crate::{
     integrator::{
-        normal_mapping::{GRAZING, visible_normal},
+        normal_mapping::{GRAZING, seen_from_behind, visible_normal},
         normal_shadowing::shadowing_of_normals,
         records::Relief,
     },
     math::{Lanes, M, Pick, U, V},
+    scene::surface::{ON_BOTH_SIDES, is_set},
 };
 
 /// The normals of surface points, on the side the path arrived from.
@@ -37,8 +38,12 @@ impl<L: Lanes> Normals<L> {
         let choice = is_smooth.pick(l.u(1), l.u(0));
         let Some(relief) = &self.relief else { return ViewedNormal { n: untilted, untilted, choice } };
         let tilted = is_smooth.pick(self.shading, relief.tilted_surface);
+        // Of relief on both sides, the other side shows another one than a path sees that arrived from here.
+        let is_other = side.below(0.0) & is_set(relief.flags, ON_BOTH_SIDES);
+        let tilted = is_other.pick(seen_from_behind(tilted, untilted), tilted);
         let (n, form) = visible_normal(l, relief.flags, tilted * side, untilted * side, d);
-        ViewedNormal { n: n * side, untilted, choice: choice + (form << 1) }
+        let choice = choice + (form << 1) + is_other.pick(l.u(8), l.u(0));
+        ViewedNormal { n: n * side, untilted, choice }
     }
 
     /// The fraction of light from the direction `wi` that the relief does not shadow for a viewer.

@@ -27,7 +27,7 @@ use crate::{
 /// | 5 | both partial sums, the triangle, and the word of the surface |
 /// | 6, 7, 8 | chart and diffuse transmittance |
 /// | 9 | shading normal; flags of the relief |
-/// | 10, 11 | normals of the relief |
+/// | 10, 11 | normals of the relief; handedness of the chart |
 const ROWS: u32 = 12;
 
 /// The vertices, each with the place of the one before it in its path.
@@ -94,9 +94,10 @@ impl LightVertices {
             let detail = Detail::read(l, &hits.details, at.start);
             (alpha, error, word, shading_n) = (detail.alpha, detail.error, detail.surface, detail.n);
         }
-        let mut chart = [zero; 9];
+        let (mut chart, mut handedness) = ([zero; 9], zero);
         if work.scene.surfaces.charted && stage.reads_chart() {
-            let Chart { u, v, along_u, vertex, vertex_opacity } = Chart::read(l, &hits.charts, at.start);
+            let Chart { u, v, along_u, handedness: side, vertex, vertex_opacity } = Chart::read(l, &hits.charts, at.start);
+            handedness = side;
             chart = [u, v, along_u.x, along_u.y, along_u.z, vertex.x, vertex.y, vertex.z, vertex_opacity];
         }
         let mut transmitted = V::splat(l, [0.0; 3]);
@@ -122,7 +123,7 @@ impl LightVertices {
             row(e, f, g, h),
             row(i, transmitted.x, transmitted.y, transmitted.z),
             row(shading_n.x, shading_n.y, shading_n.z, flags.as_real_bits()),
-            row(smooth.x, smooth.y, smooth.z, zero),
+            row(smooth.x, smooth.y, smooth.z, handedness),
             row(tilted.x, tilted.y, tilted.z, zero),
         ];
         let slot = hit.slot.to_array();
@@ -217,7 +218,9 @@ impl LightVertices {
         let (of_chart, more, rest) = (l.rows(&self.rows, row + 6), l.rows(&self.rows, row + 7), l.rows(&self.rows, row + 8));
         if work.scene.surfaces.charted && stage.reads_chart() {
             let ([u, v, x, y], [z, r, g, b], [vertex_opacity, ..]) = (of_chart, more, rest);
-            Chart { u, v, along_u: V { x, y, z }, vertex: V { x: r, y: g, z: b }, vertex_opacity }.push(keep, &mut queues.charts);
+            let [.., handedness] = l.rows(&self.rows, row + 10);
+            let (along_u, vertex) = (V { x, y, z }, V { x: r, y: g, z: b });
+            Chart { u, v, along_u, handedness, vertex, vertex_opacity }.push(keep, &mut queues.charts);
         }
         if stage.has_transmittance() {
             let [_, x, y, z] = rest;

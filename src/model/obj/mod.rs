@@ -91,7 +91,7 @@ fn model(lists: &Lists, faces: Faces, places: usize, place: impl Fn(&Corner) -> 
     let vertices = distinct.iter().map(|corner| lists.places[corner.place as usize]).collect();
     let colour = |corner: &Corner| lists.colours.get(corner.place as usize).copied().unwrap_or(WHITE);
     let colours = (!lists.colours.is_empty()).then(|| distinct.iter().map(colour).collect());
-    Ok(Model { vertices, triangles, normals, uvs, colours })
+    Ok(Model { vertices, triangles, normals, uvs, colours, tangents: None })
 }
 
 /// The result of [`distinct`] for corners that are positions only.

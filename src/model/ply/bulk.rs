@@ -7,7 +7,7 @@ use std::io::{Read, Take};
 use super::{
     super::{Model, ModelFormatError},
     header::{Element, Kind, Layout},
-    slots::{FIRST_COLOUR, NUMBERS, OPACITY, Slots, linear},
+    slots::{FIRST_COLOUR, FIRST_TANGENT, NUMBERS, OPACITY, Slots, linear},
     values::Values,
 };
 use crate::{
@@ -92,8 +92,9 @@ pub fn vertices<V: Values>(
     let mut normals = columns.are_there(3, 6).then(|| vec![[0.0; 3]; count]);
     let mut uvs = columns.are_there(6, FIRST_COLOUR).then(|| vec![[0.0; 2]; count]);
     let mut colours = columns.are_there(FIRST_COLOUR, OPACITY).then(|| vec![[0.0; 4]; count]);
+    let mut tangents = columns.are_there(FIRST_TANGENT, NUMBERS).then(|| vec![[0.0; 4]; count]);
     let (place, normal, uv) = (columns.decoder::<V, 3>(0), columns.decoder::<V, 3>(3), columns.decoder::<V, 2>(6));
-    let colour = columns.decoder::<V, 4>(FIRST_COLOUR);
+    let (colour, tangent) = (columns.decoder::<V, 4>(FIRST_COLOUR), columns.decoder::<V, 4>(FIRST_TANGENT));
     let finite = |x: f32| if x.is_finite() { x } else { 0.0 };
     let decoded = |colour: [f32; 4]| -> [f32; 4] {
         std::array::from_fn(|i| match columns.list[FIRST_COLOUR + i] {
@@ -107,8 +108,9 @@ pub fn vertices<V: Values>(
             && fill(part(&mut normals, from, to), block, size, |row| Some(normal(row).map(finite)))
             && fill(part(&mut uvs, from, to), block, size, |row| Some(uv(row).map(finite)))
             && fill(part(&mut colours, from, to), block, size, |row| Some(decoded(colour(row))))
+            && fill(part(&mut tangents, from, to), block, size, |row| Some(tangent(row).map(finite)))
     })?;
-    Ok(is_read.then_some(Model { vertices, triangles: Vec::new(), normals, uvs, colours }))
+    Ok(is_read.then_some(Model { vertices, triangles: Vec::new(), normals, uvs, colours, tangents }))
 }
 
 /// Reads the faces of an element that has only triangles and no other property.

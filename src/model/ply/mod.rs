@@ -14,7 +14,7 @@ pub(super) use self::header::is_ply;
 use self::{
     bulk::{BLOCK, Rows},
     header::{Element, Encoding, Header, Kind, Layout},
-    slots::{FIRST_COLOUR, NUMBERS, OPACITY, linear, reserve_vertices, slots},
+    slots::{FIRST_COLOUR, FIRST_TANGENT, NUMBERS, OPACITY, linear, reserve_vertices, slots},
     values::{Binary, Text, Values},
 };
 pub use self::{stream::read as read_rows, write::encode};
@@ -92,6 +92,7 @@ fn read_vertices<V: Values>(
     let mut normals = is_there[3..6].iter().all(|there| *there).then(Vec::new);
     let mut uvs = is_there[6..FIRST_COLOUR].iter().all(|there| *there).then(Vec::new);
     let mut colours = is_there[FIRST_COLOUR..OPACITY].iter().all(|there| *there).then(Vec::new);
+    let mut tangents = is_there[FIRST_TANGENT..].iter().all(|there| *there).then(Vec::new);
     let mut vertex = [0.0; NUMBERS];
     vertex[OPACITY] = 1.0;
     for index in 0..element.count {
@@ -99,13 +100,14 @@ fn read_vertices<V: Values>(
             progress.check()?;
         }
         read_vertex(&slots, values, &mut vertex).map_err(|problem| in_element(problem, &element.name, index))?;
-        let [x, y, z, nx, ny, nz, u, v, red, green, blue, opacity] = vertex;
+        let [x, y, z, nx, ny, nz, u, v, red, green, blue, opacity, tx, ty, tz, tw] = vertex;
         room.push(&mut model.vertices, [x, y, z], "vertices")?;
         normals.iter_mut().try_for_each(|normals| room.push(normals, [nx, ny, nz], "normals"))?;
         uvs.iter_mut().try_for_each(|uvs| room.push(uvs, [u, v], "texture coordinates"))?;
         colours.iter_mut().try_for_each(|colours| room.push(colours, [red, green, blue, opacity], "colours"))?;
+        tangents.iter_mut().try_for_each(|tangents| room.push(tangents, [tx, ty, tz, tw], "tangents"))?;
     }
-    (model.normals, model.uvs, model.colours) = (normals, uvs, colours);
+    (model.normals, model.uvs, model.colours, model.tangents) = (normals, uvs, colours, tangents);
     Ok(())
 }
 
@@ -124,7 +126,8 @@ fn read_vertex(
                     return Err(place.broken(format!("{number} is not a finite number")));
                 }
                 let number = if number.is_finite() { number } else { 0.0 };
-                vertex[*slot] = if *slot < FIRST_COLOUR { number } else { linear(number, *kind, *slot) };
+                let is_colour = (FIRST_COLOUR..=OPACITY).contains(slot);
+                vertex[*slot] = if is_colour { linear(number, *kind, *slot) } else { number };
             }
             _ => skip_property(*layout, values)?,
         }

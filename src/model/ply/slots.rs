@@ -7,10 +7,11 @@ use crate::{
     memory::{Reservation, TooMuch},
 };
 
-/// Numbers of a vertex: position, normal, texture coordinates, colour and opacity.
-pub const NUMBERS: usize = 12;
+/// Numbers of a vertex: position, normal, texture coordinates, colour and opacity, tangent and its handedness.
+pub const NUMBERS: usize = 16;
 pub const FIRST_COLOUR: usize = 8;
 pub const OPACITY: usize = 11;
+pub const FIRST_TANGENT: usize = 12;
 /// Layouts of the properties of a vertex, and the number that each is.
 pub type Slots = Vec<(Layout, Option<usize>)>;
 
@@ -30,6 +31,10 @@ fn slot(name: &str) -> Option<usize> {
         &["green", "g", "diffuse_green"],
         &["blue", "b", "diffuse_blue"],
         &["alpha", "a", "diffuse_alpha"],
+        &["tx"],
+        &["ty"],
+        &["tz"],
+        &["tw"],
     ];
     names.iter().position(|names| names.contains(&name.as_str()))
 }

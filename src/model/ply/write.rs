@@ -4,7 +4,8 @@ use crate::{
     model::Model,
 };
 
-/// The bytes of a PLY file. Texture coordinates are `s` and `t`, colours `red`, `green`, `blue` and `alpha`, linear.
+/// The bytes of a PLY file. Texture coordinates are `s` and `t`, colours `red`, `green`, `blue` and `alpha`, linear, and tangents `tx`,
+/// `ty`, `tz` and `tw`.
 pub fn encode(model: &Model) -> Result<Vec<u8>, TooMuch> {
     const TRIANGLE: usize = 13;
     let columns = columns(model);
@@ -38,7 +39,8 @@ fn columns(model: &Model) -> Vec<Column<'_>> {
     let normals = model.normals.as_deref().map(|normals| column(&["nx", "ny", "nz"], normals));
     let uvs = model.uvs.as_deref().map(|uvs| column(&["s", "t"], uvs));
     let colours = model.colours.as_deref().map(|colours| column(&["red", "green", "blue", "alpha"], colours));
-    [Some(column(&["x", "y", "z"], &model.vertices)), normals, uvs, colours].into_iter().flatten().collect()
+    let tangents = model.tangents.as_deref().map(|tangents| column(&["tx", "ty", "tz", "tw"], tangents));
+    [Some(column(&["x", "y", "z"], &model.vertices)), normals, uvs, colours, tangents].into_iter().flatten().collect()
 }
 
 fn header(model: &Model, columns: &[Column]) -> String {
@@ -64,11 +66,12 @@ mod tests {
             normals: Some(vec![[0.0, 0.6, 0.8]; 3]),
             uvs: Some(vec![[0.1, 0.7], [-3.5, 2.0], [0.0, 1.0]]),
             colours: None,
+            tangents: Some(vec![[0.8, -0.36, 0.48, -1.0]; 3]),
         };
         let read = decode(&encode(&model).expect("there is room"), &Progress::default()).expect("it is a mesh");
         let bits = |model: &Model| model.vertices.iter().flatten().map(|x| x.to_bits()).collect::<Vec<_>>();
         assert_eq!((bits(&read), &read), (bits(&model), &model));
-        let bare = Model { normals: None, uvs: None, ..model };
+        let bare = Model { normals: None, uvs: None, tangents: None, ..model };
         assert_eq!(decode(&encode(&bare).expect("there is room"), &Progress::default()).expect("it is a mesh"), bare);
     }
 

@@ -70,6 +70,7 @@ fn instance<'d>(
         normal_map: normal_map.transpose()?,
         normal_shadowing: described.normal_shadowing == Some(true),
         mirrored_normals: described.mirrored_normals == Some(true),
+        two_sided_relief: described.two_sided_relief == Some(true),
         one_sided: described.two_sided == Some(false),
         opacity,
         blend: None,

@@ -34,6 +34,7 @@ fn within(blend: &MaterialInstance, part: &MaterialInstance) -> Option<MaterialI
         normal_map: part.normal_map.or(blend.normal_map),
         normal_shadowing: blend.normal_shadowing || part.normal_shadowing,
         mirrored_normals: blend.mirrored_normals || part.mirrored_normals,
+        two_sided_relief: blend.two_sided_relief || part.two_sided_relief,
         one_sided: blend.one_sided || part.one_sided,
         opacity,
         blend: part.blend,
@@ -49,7 +50,10 @@ fn mixed(
     weight: NumberSource,
     textures: &mut TextureCompiler,
 ) -> Option<MaterialInstance> {
-    let normals = |part: &MaterialInstance| (part.bump, part.normal_map, part.normal_shadowing, part.mirrored_normals);
+    let normals = |part: &MaterialInstance| {
+        let flags = [part.normal_shadowing, part.mirrored_normals, part.two_sided_relief];
+        (part.bump, part.normal_map, flags)
+    };
     let surface = |part: &MaterialInstance| (part.one_sided, part.opacity, normals(part));
     if surface(&first) != surface(second) || first.blend.or(second.blend).is_some() {
         return None;

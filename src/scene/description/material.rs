@@ -24,6 +24,8 @@ pub struct MaterialDescription {
     pub normal_shadowing: Option<bool>,
     /// Whether normals of bump and normal maps that face away from the viewer are mirrored; `None` means that they are not.
     pub mirrored_normals: Option<bool>,
+    /// Whether bumps rise from both sides; `None` means that bumps of the front are dents of the back.
+    pub two_sided_relief: Option<bool>,
     /// Whether the back reflects too; `None` means that it does.
     pub two_sided: Option<bool>,
     /// Fraction of the light that meets the surface; the rest passes. `None` means 1.
@@ -48,6 +50,10 @@ impl Declare for MaterialDescription {
             "Whether mapped normals that face away from the viewer are mirrored at the normal of the surface. Otherwise that normal replaces them. Default: false.",
         )
         .aliases("flip_invalid_normals");
+        const RELIEF: Parameter = Parameter::new(
+            "two_sided_relief",
+            "Whether bump and normal maps look the same from both sides. Otherwise bumps of the front are dents of the back. Default: false.",
+        );
         const TWO_SIDED: Parameter =
             Parameter::new("two_sided", "Whether the back reflects too. Default: true.").aliases("twosided double_sided");
         p.one_of(&mut self.kind);
@@ -55,6 +61,7 @@ impl Declare for MaterialDescription {
         p.optional(&NORMAL_MAP, &mut self.normal_map, String::new, |p, path| p.value(&NORMAL_MAP, Value::File(path)));
         p.optional(&SHADOWING, &mut self.normal_shadowing, || true, |p, shadowing| p.flag(&SHADOWING, shadowing));
         p.optional(&MIRRORED, &mut self.mirrored_normals, || true, |p, mirrored| p.flag(&MIRRORED, mirrored));
+        p.optional(&RELIEF, &mut self.two_sided_relief, || true, |p, relief| p.flag(&RELIEF, relief));
         p.optional(&TWO_SIDED, &mut self.two_sided, || true, |p, two_sided| p.flag(&TWO_SIDED, two_sided));
         p.optional(
             &OPACITY,

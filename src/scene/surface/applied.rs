@@ -24,6 +24,8 @@ pub struct AppliedMaterial<'a> {
     pub normal_shadowing: bool,
     /// Whether normals that face away from the viewer are mirrored.
     pub mirrored_normals: bool,
+    /// Whether the back shows bump and normal map as the front does.
+    pub two_sided_relief: bool,
 }
 
 /// The properties of a surface that its row depends on, as bits.
@@ -45,6 +47,7 @@ impl<'a> AppliedMaterial<'a> {
             normal_map: instance.normal_map,
             normal_shadowing: instance.normal_shadowing,
             mirrored_normals: instance.mirrored_normals,
+            two_sided_relief: instance.two_sided_relief,
         })
     }
 
@@ -60,6 +63,7 @@ impl<'a> AppliedMaterial<'a> {
             normal_map: instance.normal_map.or(self.normal_map),
             normal_shadowing: self.normal_shadowing || instance.normal_shadowing,
             mirrored_normals: self.mirrored_normals || instance.mirrored_normals,
+            two_sided_relief: self.two_sided_relief || instance.two_sided_relief,
             ..*self
         }
     }
@@ -79,8 +83,9 @@ impl<'a> AppliedMaterial<'a> {
 
     /// Equal for surfaces with equal rows.
     pub fn key(&self) -> Key {
-        let flags = [self.flip, self.emits, self.smooth, self.one_sided, self.normal_shadowing, self.mirrored_normals];
-        let flags = flags.into_iter().fold(0, |bits, flag| bits << 1 | u32::from(flag));
+        let of_surface = [self.flip, self.emits, self.smooth, self.one_sided];
+        let flags = of_surface.into_iter().chain([self.normal_shadowing, self.mirrored_normals, self.two_sided_relief]);
+        let flags = flags.fold(0, |bits, flag| bits << 1 | u32::from(flag));
         let (bump, height) = self.bump.map_or((0, 0.0), |(id, height)| (id + 1, height));
         [self.number, flags, bump, height.to_bits(), self.normal_map.map_or(0, |id| id + 1)]
     }

@@ -7,8 +7,8 @@ mod tests;
 mod word;
 
 pub use self::word::{
-    BLENDED, FLIPPED, FRONT, MIRRORED, ONE_SIDED, SCATTERS_WHERE_BLACK, SELF_LIT, SHADOWED, SHEET, SQUARED, STAGE_SHIFT, is_set,
-    material, stage, transmits,
+    BLENDED, FLIPPED, FRONT, MIRRORED, ON_BOTH_SIDES, ONE_SIDED, SCATTERS_WHERE_BLACK, SELF_LIT, SHADOWED, SHEET, SQUARED,
+    STAGE_SHIFT, is_set, material, stage, transmits,
 };
 use self::{
     applied::AppliedMaterial,
@@ -124,7 +124,9 @@ impl Surfaces {
             let (heights, height) = applied.bump.map_or((None, 0.0), |(id, height)| (Some(id), height));
             let shadows = applied.normal_shadowing && applied.has_normals();
             self.normal_shadowing |= shadows;
-            let of_normals = flag(shadows, SHADOWED) | flag(applied.mirrored_normals, MIRRORED);
+            let of_normals = flag(shadows, SHADOWED)
+                | flag(applied.mirrored_normals, MIRRORED)
+                | flag(applied.two_sided_relief, ON_BOTH_SIDES);
             self.relief.push([texture_bits(heights), height, texture_bits(applied.normal_map), f32::from_bits(of_normals)]);
         }
         if columns.transmittance {

@@ -27,6 +27,8 @@ pub const BLENDED: u32 = 1 << 26;
 pub const SHADOWED: u32 = 1;
 /// Flag of [`super::Surfaces::relief`]: normals that face away from the viewer are mirrored.
 pub const MIRRORED: u32 = 2;
+/// Flag of [`super::Surfaces::relief`]: the back shows it as the front does.
+pub const ON_BOTH_SIDES: u32 = 4;
 /// Flag, set while rendering: the path hit the front.
 pub const FRONT: u32 = 1 << 31;
 

@@ -58,6 +58,9 @@ impl Export<'_> {
         if material.normal_shadowing == Some(true) {
             self.remark("`normal_shadowing`", "no shadowing", "light that grazes the relief is brighter");
         }
+        if material.two_sided_relief == Some(true) {
+            self.remark("`two_sided_relief`", "the normal map as it is", "bumps of the front are dents of the back");
+        }
         if material.mirrored_normals == Some(true) {
             self.remark("`mirrored_normals`", "the normal map as it is", "steep relief may be darker");
         }

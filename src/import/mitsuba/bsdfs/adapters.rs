@@ -87,12 +87,12 @@ pub fn bump_map(import: &mut Import, element: Element, two_sided: bool) -> Resul
     }
     let texture = import.texture(heights, TextureValue::Number)?;
     let height = element.number("scale", 1.0)?.clamp(-1e6, 1e6);
-    let relief = relief(import, element)?;
+    let relief = relief(import, element, two_sided)?;
     Ok(MaterialDescription { bump: Some(Bump { texture, height }), ..relief.over(inner) })
 }
 
 pub fn normal_map(import: &mut Import, element: Element, two_sided: bool) -> Result<MaterialDescription, SceneError> {
-    let relief = relief(import, element)?;
+    let relief = relief(import, element, two_sided)?;
     let inner = import.material(only(element)?, two_sided)?;
     let normals = match element.property("normalmap")? {
         Some(normals) => normals,
@@ -128,6 +128,8 @@ struct Relief {
     shadows: bool,
     /// Whether those that face away from the viewer are mirrored.
     mirrored: bool,
+    /// Whether the back, which a `twosided` around it shows as it shows the front, has bumps too.
+    two_sided: bool,
 }
 
 impl Relief {
@@ -135,16 +137,17 @@ impl Relief {
         MaterialDescription {
             normal_shadowing: inner.normal_shadowing.or(self.shadows.then_some(true)),
             mirrored_normals: inner.mirrored_normals.or(self.mirrored.then_some(true)),
+            two_sided_relief: inner.two_sided_relief.or(self.two_sided.then_some(true)),
             ..inner
         }
     }
 }
 
-fn relief(import: &mut Import, element: Element) -> Result<Relief, SceneError> {
+fn relief(import: &mut Import, element: Element, two_sided: bool) -> Result<Relief, SceneError> {
     let mirrored = element.flag("flip_invalid_normals", true)?;
     if !mirrored {
         let used = "the normal of the surface for those that face away";
         import.remark_value(element, "flip_invalid_normals", used, "steep relief is brighter")?;
     }
-    Ok(Relief { shadows: element.flag("use_shadowing_function", true)?, mirrored })
+    Ok(Relief { shadows: element.flag("use_shadowing_function", true)?, mirrored, two_sided })
 }

@@ -94,6 +94,7 @@ fn unwelded(model: &Model, face_normals: bool) -> Model {
         normals: normals.map(|normals| corners().map(|corner| normals[corner]).collect()),
         uvs: model.uvs.as_ref().map(|uvs| corners().map(|corner| uvs[corner]).collect()),
         colours: None,
+        tangents: None,
     }
 }
 

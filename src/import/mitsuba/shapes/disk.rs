@@ -22,7 +22,8 @@ pub fn disk(import: &mut Import, element: Element, placed: Placed) -> Result<Geo
     Ok(Geometry { shape: meshes::in_memory(path, false), map: placed.map, flip: placed.flip })
 }
 
-/// A fan. u is the distance from the centre, and v the angle, in turns.
+/// A fan. u is the distance from the centre, and v the angle, in turns. Green of a normal map tilts along n × ∂p/∂u as everywhere in
+/// Mitsuba, and so against the image, whose v runs around clockwise.
 fn sectors() -> Model {
     let mut model = Model { uvs: Some(Vec::new()), ..Model::default() };
     let mut corner = |radius: f32, turns: f32| {
@@ -30,6 +31,7 @@ fn sectors() -> Model {
         model.vertices.push([radius * cos, radius * sin, 0.0]);
         // v of a model runs upwards.
         model.uvs.get_or_insert_default().push([radius, 1.0 - turns]);
+        model.tangents.get_or_insert_default().push([cos, sin, 0.0, 1.0]);
     };
     for sector in 0..SECTORS {
         let turns = |part: f32| (sector as f32 + part) / SECTORS as f32;
