@@ -25,7 +25,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-pub use normals::{smooth_normals, smooth_normals_watched};
+pub use normals::{smooth_normals, smooth_normals_watched, turn_normals, turn_triangles};
 pub use ply::encode as encode_ply;
 
 use crate::{

@@ -62,6 +62,32 @@ pub(super) fn complete(normals: &mut [[f32; 3]], vertices: &[[f32; 3]], triangle
     }
 }
 
+/// Turns triangles round whose normals point to the other side than their vertices run counter-clockwise. The normals decide in pbrt and
+/// in Mitsuba, and OBJ and PLY files leave it open.
+pub fn turn_triangles(vertices: &[[f32; 3]], normals: &[[f32; 3]], triangles: &mut [[u32; 3]]) {
+    triangles
+        .par_iter_mut()
+        .filter(|triangle| are_opposite(vertices, normals, triangle))
+        .for_each(|triangle| triangle.swap(1, 2));
+}
+
+/// Turns normals round that point away from the fronts of all triangles around them, for formats in which the order of vertices decides.
+pub fn turn_normals(vertices: &[[f32; 3]], normals: &mut [[f32; 3]], triangles: &[[u32; 3]]) {
+    let mut sides = vec![[false; 2]; normals.len()];
+    for triangle in triangles {
+        let side = usize::from(are_opposite(vertices, normals, triangle));
+        triangle.iter().for_each(|vertex| sides[*vertex as usize][side] = true);
+    }
+    let turned = normals.iter_mut().zip(sides).filter(|(_, sides)| *sides == [false, true]);
+    turned.for_each(|(normal, _)| *normal = normal.map(|x| -x));
+}
+
+fn are_opposite(vertices: &[[f32; 3]], normals: &[[f32; 3]], triangle: &[u32; 3]) -> bool {
+    let [a, b, c] = triangle.map(|vertex| Vec3::from(vertices[vertex as usize]).as_dvec3());
+    let side: DVec3 = triangle.iter().map(|vertex| Vec3::from(normals[*vertex as usize]).as_dvec3()).sum();
+    (b - a).cross(c - a).dot(side) < 0.0
+}
+
 /// Calls a function for each corner of the triangles that are not degenerate, with its vertex, the triangle's unit normal and the
 /// angle. The order is that of the triangles.
 fn for_each_corner(

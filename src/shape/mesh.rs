@@ -13,7 +13,7 @@ use crate::{
         mesh::generate::{heightfield, torus_knot},
     },
     memory,
-    model::{Model, is_flat, read_watched, smooth_normals, smooth_normals_watched},
+    model::{Model, is_flat, read_watched, smooth_normals, smooth_normals_watched, turn_triangles},
     quote,
 };
 
@@ -230,7 +230,7 @@ fn from_file(resources: &Resources, file: &NamedFile, smooth: bool) -> Result<Me
         (None, None) => read_watched(file.path(), progress).map_err(|error| error.to_string()),
     };
     let model = model.map_err(|message| Problem::at("path", message, "this mesh cannot be used"))?;
-    let Model { vertices, triangles, normals, uvs, colours, tangents } = model;
+    let Model { vertices, mut triangles, normals, uvs, colours, tangents } = model;
     let fours = u64::from(colours.is_some()) + u64::from(tangents.is_some());
     let bytes = (VERTEX + FOUR * fours) * vertices.len() as u64 + TRIANGLE * triangles.len() as u64;
     resources.reserve("path", format_args!("{} vertices and {} triangles", vertices.len(), triangles.len()), bytes)?;
@@ -242,6 +242,9 @@ fn from_file(resources: &Resources, file: &NamedFile, smooth: bool) -> Result<Me
         }
         normals => normals,
     };
+    if let Some(normals) = &normals {
+        turn_triangles(&vertices, normals, &mut triangles);
+    }
     let mut colours = colours.unwrap_or_default();
     // Textures of vertex colours count on their range. NaN becomes 0.
     colours.as_flattened_mut().iter_mut().for_each(|x| *x = if *x > 0.0 { x.min(1.0) } else { 0.0 });
@@ -288,6 +291,22 @@ mod tests {
         };
         let found: Vec<bool> = MeshSource::alternatives()[1..].iter().map(&mut are_same).collect();
         assert_eq!(found, [false, true, true], "lists, a knot, and hills");
+    }
+
+    #[test]
+    fn normals_of_files_decide_which_side_of_a_smooth_mesh_is_the_front() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("a.obj");
+        let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 -1\nvn 0 0 1\nf 1//1 2//1 3//1\nf 1//2 2//2 3//2\n";
+        std::fs::write(&path, text).expect("it is written");
+        let resources = Resources::new("");
+        let triangles = |smooth| {
+            let data = from_file(&resources, &resources.file(&path.display().to_string()), smooth).expect("it is a mesh");
+            let corners = data.triangles.iter().map(|triangle| triangle.map(|vertex| data.vertices[vertex as usize]));
+            corners.map(|[_, b, _]| b[0] == 1.0).collect::<Vec<_>>()
+        };
+        assert_eq!(triangles(true), [false, true], "the first triangle is turned round");
+        assert_eq!(triangles(false), [true, true], "flat meshes do not read the normals");
     }
 
     #[test]

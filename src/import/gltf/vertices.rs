@@ -12,7 +12,7 @@ use super::{
     refusal::Found,
     triangles::{Mode, compact},
 };
-use crate::model::Model;
+use crate::model::{Model, turn_normals};
 
 /// What moves the vertices of a mesh.
 #[derive(Clone, Debug, Default)]
@@ -58,6 +58,7 @@ impl<'a> Vertices<'a> {
         if let Some(normals) = &mut model.normals {
             // A normal without direction is left out: the surface has the one of the triangle there.
             normals.par_iter_mut().for_each(|n| *n = Vec3::from(*n).try_normalize().unwrap_or(Vec3::ZERO).to_array());
+            turn_normals(&model.vertices, normals, &model.triangles);
         }
         Ok(Some(model))
     }

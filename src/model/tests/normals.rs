@@ -1,7 +1,7 @@
 //! Smooth normals.
 use glam::Vec3;
 
-use super::super::smooth_normals;
+use super::super::{smooth_normals, turn_normals};
 
 fn assert_near(normals: &[[f32; 3]], expected: &[[f32; 3]]) {
     let is_near = |(a, b): (&[f32; 3], &[f32; 3])| Vec3::from(*a).distance(Vec3::from(*b)) < 1e-6;
@@ -22,6 +22,14 @@ const FACES: [[u32; 4]; 6] = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7
 
 fn cube_normals() -> [[f32; 3]; 8] {
     CUBE.map(|vertex| Vec3::from(vertex).normalize().to_array())
+}
+
+#[test]
+fn only_normals_that_contradict_all_their_triangles_are_turned() {
+    let vertices = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0]];
+    let mut normals = [[0.0, 0.0, -1.0]; 4];
+    turn_normals(&vertices, &mut normals, &[[0, 1, 2], [3, 1, 2]]);
+    assert_eq!(normals.map(|n| n[2]), [1.0, -1.0, -1.0, -1.0], "the second triangle agrees with its normals");
 }
 
 #[test]

@@ -5,7 +5,7 @@ use super::{Areas, Built};
 use crate::{
     import::pbrt::{import::Import, parameters::Entity},
     memory::reserve,
-    model::Model,
+    model::{Model, turn_triangles},
     scene::SceneError,
 };
 
@@ -70,13 +70,8 @@ impl Import {
 
 /// Turns triangles so that their fronts are on the side of their normals, which decide in pbrt.
 pub fn face_normals(model: &mut Model) {
-    let Some(normals) = &model.normals else { return };
-    for triangle in &mut model.triangles {
-        let [a, b, c] = triangle.map(|i| Vec3::from(model.vertices[i as usize]));
-        let side: Vec3 = triangle.iter().map(|i| Vec3::from(normals[*i as usize])).sum();
-        if (b - a).cross(c - a).dot(side) < 0.0 {
-            triangle.swap(1, 2);
-        }
+    if let Some(normals) = &model.normals {
+        turn_triangles(&model.vertices, normals, &mut model.triangles);
     }
 }
 
