@@ -65,6 +65,34 @@ pub(super) fn visible_smooth_normal<L: Lanes>(smooth: V<L>, n: V<L>, wo: V<L>) -
     smooth.dot(wo).above(GRAZING).pick(smooth, n)
 }
 
+/// A shading normal `n` that leans so far from the viewer in the direction `wo` that a mirror would reflect below the surface is turned
+/// back towards the normal `surface` until the reflection leaves at a grazing angle. Both are on the side of the viewer. Also returns the
+/// lanes where it is turned.
+///
+/// In the plane of both normals, with the angle θ between the turned one and that of the surface, the reflection has the height
+/// x sin 2θ + z cos 2θ, where x and z are the parts of `wo`.
+#[inline(always)]
+pub(super) fn reflecting_normal<L: Lanes>(l: L, n: V<L>, surface: V<L>, wo: V<L>) -> (V<L>, M<L>) {
+    /// Height of the reflection of a normal that is turned.
+    const LOW: f32 = 1e-2;
+    let reflected = n * (n.dot(wo) * 2.0) - wo;
+    let dives = !reflected.dot(surface).above(0.0);
+    if !dives.any() {
+        return (n, dives);
+    }
+    let flat = n - surface * n.dot(surface);
+    let axis = flat * (1.0 / flat.length_squared().sqrt());
+    let (x, z) = (axis.dot(wo), surface.dot(wo));
+    let square = x * x + z * z;
+    let height = (z * 0.5).min(l.f(LOW));
+    let rest = (square - height * height).max(l.f(0.0)).sqrt();
+    let [cos, sin] = [z * height - x * rest, x * height + z * rest].map(|value| value / square);
+    let half = ((1.0 + cos) * 0.5).max(l.f(0.0)).sqrt();
+    let turned = surface * half + axis * (sin / (half * 2.0));
+    let is_turned = dives & half.above(0.0);
+    (is_turned.pick(turned.normalized(), n), is_turned)
+}
+
 /// A tilted normal that the viewer in the direction `wo` can see, and the number of the case. One that faces away is mirrored in the
 /// normal `n` of the surface if its `flags` in [`crate::scene::surface::Surfaces::relief`] say so (V. Schüßler et al.,
 /// "Microfacet-based Normal Mapping for Robust Monte Carlo Path Tracing", SIGGRAPH Asia 2017), and is replaced by it otherwise.

@@ -5,6 +5,7 @@ use super::{
     batch::{Batch, add},
     interaction::{SurfaceInteraction, emitted, interact},
     media::transmittance,
+    normal_mapping::reflecting_normal,
     normal_shadowing::shadowing_of_normals,
     queue::Register,
     queues::{HitQueues, PathQueues},
@@ -213,7 +214,11 @@ fn sort<L: Lanes>(
             Hit { colour, ..plain }.push(here, &mut queues.hits);
         } else {
             Hit { colour, ..hit }.push(here, &mut queues.hits);
-            detail.push(here, &mut queues.details);
+            if stage.has_highlights() && incident.bends_normals(work.scene) && here.any() {
+                Detail { n: reflecting_normal(l, detail.n, hit.n, detail.wo).0, ..detail }.push(here, &mut queues.details);
+            } else {
+                detail.push(here, &mut queues.details);
+            }
             if work.scene.surfaces.charted && stage.reads_chart() && here.any() {
                 chart(l, work.scene, incident).push(here, &mut queues.charts);
             }

@@ -34,6 +34,11 @@ impl<L: Lanes> IncidentPaths<L> {
         (front, front | !is_set(self.word, ONE_SIDED))
     }
 
+    /// Whether highlights need normals whose reflections leave the surface; from either end, each viewer gets its own.
+    pub fn bends_normals(&self, scene: &Scene) -> bool {
+        !self.keeps_hidden_normals && (scene.shapes.have_elements() || !scene.surfaces.relief.is_empty())
+    }
+
     /// The normal `n` on the side of the paths, tilted by the textures of the surface in the lanes of `mask`.
     #[inline(always)]
     fn tilted(&self, l: L, scene: &Scene, mask: M<L>, n: V<L>, at: &TextureCoordinates<L>) -> V<L> {

@@ -138,6 +138,11 @@ impl Stage {
         in_stage!(self, K => K::DIFFUSE)
     }
 
+    /// Whether it has highlights: whether it reflects light in some directions more than in others.
+    pub fn has_highlights(self) -> bool {
+        in_stage!(self, K => K::HIGHLIGHTS)
+    }
+
     /// Whether it has a diffuse transmittance besides its colour.
     pub fn has_transmittance(self) -> bool {
         in_stage!(self, K => K::HAS_TRANSMITTANCE)

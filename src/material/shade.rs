@@ -18,6 +18,8 @@ pub trait Shade {
     const SEES_LIGHTS: bool = true;
     /// Whether it reflects the same radiance in all directions.
     const DIFFUSE: bool = false;
+    /// Whether it reflects more light in some directions than in others: normals that mirror the viewer below the surface would make it dark.
+    const HIGHLIGHTS: bool = !Self::DIFFUSE;
     /// Whether it has several lobes to choose from.
     const LOBES: bool = true;
     /// Whether light passes through the surface.

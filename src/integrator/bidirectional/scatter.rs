@@ -148,7 +148,7 @@ fn scatter_kind<L: Lanes, K: Shade>(
     if let Some(normal) = &normal {
         let (there, here) = (sample.wi.z.abs(), wo.z.abs());
         of_delta = of_delta * (here * cosines / there);
-        reversible = normal.equals(&surface.normals.towards(l, d));
+        reversible = normal.equals(&surface.normals.towards(l, d, K::HIGHLIGHTS));
         let shadowing = |wi: V<L>| surface.normals.shadowing(l, normal, wi);
         if let Some((of_d, of_back)) = shadowing(d).zip(shadowing(back)) {
             (weight, of_delta) = (weight * of_d, of_delta * of_back);
@@ -222,7 +222,7 @@ impl<'a, 'q, L: Lanes, K: Shade> SurfaceHits<'a, 'q, L, K> {
         if !self.has_shading_normals() {
             return View { frame: self.vertex.frame, normal: None };
         }
-        let normal = self.normals.towards(l, d);
+        let normal = self.normals.towards(l, d, K::HIGHLIGHTS);
         View { frame: self.vertex.frame_about::<K>(l, self.work, normal.n, self.chart.as_ref()), normal: Some(normal) }
     }
 
