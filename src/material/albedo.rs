@@ -40,6 +40,12 @@ impl<'a, L: Lanes> Albedo<'a, L> {
         Albedo { table, cells, average: first + line + (DOWN * ACROSS) as u32, alpha, t }
     }
 
+    /// Its α.
+    #[inline(always)]
+    pub fn width(&self) -> F<L> {
+        self.alpha
+    }
+
     /// The function at cosine μ in [0, 1].
     #[inline(always)]
     pub fn value(&self, l: L, mu: F<L>) -> F<L> {

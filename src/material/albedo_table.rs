@@ -31,7 +31,7 @@ type Line = [f32; ACROSS + 1];
 
 /// Builds a table: rows with the corners of the cells, then a row for the average over each line of cells.
 pub fn build(level: SimdLevel, of: Tabulated) -> Vec<[f32; 4]> {
-    let points = lattice();
+    let points = lattice(1597, 987);
     let lines: Vec<Line> = (0..=DOWN)
         .map(|j| {
             let mut values = [0.0; ACROSS + 1];
@@ -51,16 +51,15 @@ fn width(y: f64) -> f64 {
 }
 
 /// Points of the unit square with weights: a Fibonacci lattice, denser towards u.0 = 1, where the microfacets are steepest.
-fn lattice() -> Vec<[f32; 3]> {
-    const POINTS: u32 = 1597;
-    const STEP: u32 = 987;
-    let points = f64::from(POINTS);
+/// `count` and `step` are consecutive Fibonacci numbers.
+pub fn lattice(count: u32, step: u32) -> Vec<[f32; 3]> {
+    let points = f64::from(count);
     let point = |i: u32| {
         let rest = 1.0 - (f64::from(i) + 0.5) / points;
-        let turn = (f64::from(i * STEP % POINTS) + 0.5) / points;
+        let turn = (f64::from(i * step % count) + 0.5) / points;
         [1.0 - rest.powi(4), turn, 4.0 * rest.powi(3) / points].map(|x| x as f32)
     };
-    (0..POINTS).map(point).collect()
+    (0..count).map(point).collect()
 }
 
 /// Expectation over visible normals, at the ends of the cells of one α.

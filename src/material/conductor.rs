@@ -13,7 +13,7 @@ use super::{
     anisotropic_conductor::TangentRow,
     conductor_fresnel::{ConductorFresnel, ConductorRow, Reflectance},
     ggx, grazing,
-    microfacets::{self, DISTRIBUTION, Distribution},
+    microfacets::{self, DISTRIBUTION, Distribution, Microfacets},
 };
 use crate::{
     declare::{Declare, Kind, Parameter, Parameters, Problem, Range},
@@ -91,7 +91,7 @@ impl Compile for Conductor {
         let is_beckmann = self.distribution == Distribution::Beckmann;
         let compensated = self.energy_compensation && !is_beckmann;
         if compensated {
-            compiler.tables.need_loss();
+            compiler.tables.need_loss(self.anisotropy > 0.0);
         }
         let row = ConductorRow::new(&self.fresnel, compensated)?;
         let colour = self.fresnel.colour(compiler)?;
@@ -115,42 +115,69 @@ impl Compile for Conductor {
 }
 
 impl Shade for Conductor {
-    type Bsdf<'a, L: Lanes> = ConductorBsdf<L>;
+    type Bsdf<'a, L: Lanes> = ConductorBsdf<L, F<L>, Albedo<'a, L>>;
     const STAGE: Stage = Stage::Conductor;
     const GLOSSY: bool = true;
 
     #[inline(always)]
-    fn at<L: Lanes>(l: L, materials: &Materials, _: Directions, at: &Local<L>) -> ConductorBsdf<L> {
-        ConductorBsdf::at(l, materials, at)
+    fn at<'a, L: Lanes>(l: L, materials: &'a Materials, _: Directions, at: &Local<L>) -> Self::Bsdf<'a, L> {
+        let alpha = at.alpha.max(l.f(ggx::SMOOTH));
+        ConductorBsdf::new(l, materials, at, alpha, alpha, Albedo::at(materials.tables.loss, l.u(0), alpha))
     }
 
     #[inline(always)]
-    fn alpha<L: Lanes>(_l: L, bsdf: &ConductorBsdf<L>) -> F<L> {
+    fn alpha<L: Lanes>(_l: L, bsdf: &Self::Bsdf<'_, L>) -> F<L> {
         bsdf.alpha
     }
 }
 
-/// The BSDF of a conductor at a point.
+/// The light that single scattering between perfectly reflecting facets loses.
+pub trait FacetLoss<L: Lanes>: Copy {
+    /// 1 − E seen from a direction above the surface.
+    fn at(&self, l: L, w: V<L>) -> F<L>;
+    /// Its average over diffuse light.
+    fn average(&self, l: L) -> F<L>;
+    /// The width at which directions of further scattering are sampled.
+    fn width(&self) -> F<L>;
+}
+
+impl<L: Lanes> FacetLoss<L> for Albedo<'_, L> {
+    #[inline(always)]
+    fn at(&self, l: L, w: V<L>) -> F<L> {
+        self.value(l, w.z)
+    }
+
+    #[inline(always)]
+    fn average(&self, l: L) -> F<L> {
+        self.average(l)
+    }
+
+    #[inline(always)]
+    fn width(&self) -> F<L> {
+        self.width()
+    }
+}
+
+/// The BSDF of a conductor at a point: facets of any kind, with the light that they lose.
 #[derive(Clone, Copy)]
-pub struct ConductorBsdf<L: Lanes> {
+pub struct ConductorBsdf<L: Lanes, D, T> {
     l: L,
     fresnel: ConductorFresnel<L>,
-    /// The width α of the GGX distribution.
+    facets: D,
+    /// The width α of a round distribution that is as wide.
     pub alpha: F<L>,
     /// Lanes with energy compensation.
     compensated: M<L>,
-    loss: Albedo<'static, L>,
+    loss: T,
     /// The restored fraction of the light that single scattering loses, divided by π times the average loss.
     returned: V<L>,
 }
 
-impl<L: Lanes> ConductorBsdf<L> {
+impl<L: Lanes, D: Microfacets<L>, T: FacetLoss<L>> ConductorBsdf<L, D, T> {
     #[inline(always)]
-    fn at(l: L, materials: &Materials, at: &Local<L>) -> Self {
+    pub(super) fn new(l: L, materials: &Materials, at: &Local<L>, facets: D, alpha: F<L>, loss: T) -> Self {
         let fresnel = ConductorFresnel::read(l, materials, at.material, at.colour);
         let compensated = ConductorRow::read_compensated(l, materials, at.material);
-        let alpha = at.alpha.max(l.f(ggx::SMOOTH));
-        let loss = Albedo::at(materials.tables.loss, l.u(0), alpha);
         let mut returned = V::splat(l, [0.0; 3]);
         if compensated.any() {
             let lost = loss.average(l);
@@ -162,14 +189,14 @@ impl<L: Lanes> ConductorBsdf<L> {
                 z: f.z * f.z * scale / (1.0 - f.z * lost),
             };
         }
-        ConductorBsdf { l, fresnel, alpha, compensated, loss, returned }
+        ConductorBsdf { l, fresnel, facets, alpha, compensated, loss, returned }
     }
 
-    /// 1 − E(μ); 0 in lanes without compensation.
+    /// 1 − E; 0 in lanes without compensation.
     #[inline(always)]
-    fn loss(&self, mu: F<L>) -> F<L> {
-        let none = mu.splat(0.0);
-        if self.compensated.any() { self.compensated.pick(self.loss.value(self.l, mu), none) } else { none }
+    fn loss(&self, w: V<L>) -> F<L> {
+        let none = w.z.splat(0.0);
+        if self.compensated.any() { self.compensated.pick(self.loss.at(self.l, w), none) } else { none }
     }
 
     /// [`Bsdf::eval`] for a known 1 − E(ω_o). The lobe of multiple scattering is chosen with that probability, and sampled where
@@ -179,39 +206,39 @@ impl<L: Lanes> ConductorBsdf<L> {
         let zero = wo.z.splat(0.0);
         let cos = wi.z.max(zero);
         let h = (wo + wi).normalized();
-        let density = microfacets::reflection_pdf(self.alpha, wo, h);
-        let single = self.fresnel.reflectance(wo.dot(h)) * (density * microfacets::g1(self.alpha, wi));
-        let further = self.returned * (loss * self.loss(cos) * cos);
+        let density = microfacets::reflection_pdf(self.facets, wo, h);
+        let single = self.fresnel.reflectance(wo.dot(h)) * (density * microfacets::g1(self.facets, wi));
+        let further = self.returned * (loss * self.loss(V { z: cos, ..wi }) * cos);
         let mut pdf = (1.0 - loss) * density;
         if self.compensated.any() {
-            pdf = pdf + loss * grazing::pdf(self.alpha, cos);
+            pdf = pdf + loss * grazing::pdf(self.loss.width(), cos);
         }
         let above = wi.z.above(0.0);
         (above.pick(single + further, V { x: zero, y: zero, z: zero }), above.pick(pdf, zero))
     }
 }
 
-impl<L: Lanes> Bsdf<L> for ConductorBsdf<L> {
+impl<L: Lanes, D: Microfacets<L>, T: FacetLoss<L>> Bsdf<L> for ConductorBsdf<L, D, T> {
     #[inline(always)]
     fn eval(&self, wo: V<L>, wi: V<L>) -> (V<L>, F<L>) {
-        self.eval_with(wo, wi, self.loss(wo.z))
+        self.eval_with(wo, wi, self.loss(wo))
     }
 
     #[inline(always)]
     fn sample(&self, wo: V<L>, u: (F<L>, F<L>), lobe: F<L>) -> BsdfSample<L> {
-        let loss = self.loss(wo.z);
+        let loss = self.loss(wo);
         let further = lobe.lt(loss);
-        let mut wi = microfacets::sample_reflection(self.alpha, wo, u);
+        let mut wi = microfacets::sample_reflection(self.facets, wo, u);
         if further.any() {
-            wi = further.pick(grazing::sample(self.alpha, u, lobe / loss), wi);
+            wi = further.pick(grazing::sample(self.loss.width(), u, lobe / loss), wi);
         }
         let (f, pdf) = self.eval_with(wo, wi, loss);
         BsdfSample::of(wi, f, pdf)
     }
 }
 
-impl Lobes for ConductorBsdf<One> {
+impl<D: Microfacets<One>, T: FacetLoss<One>> Lobes for ConductorBsdf<One, D, T> {
     fn chosen(&self, wo: V<One>, _: (F<One>, F<One>), lobe: F<One>) -> ChosenLobe {
-        ChosenLobe::of_two(["further scattering between microfacets", "microfacet reflection"], self.loss(wo.z).0, lobe)
+        ChosenLobe::of_two(["further scattering between microfacets", "microfacet reflection"], self.loss(wo).0, lobe)
     }
 }

@@ -6,8 +6,8 @@ use super::{
     conductor::{ANISOTROPY, ENERGY_COMPENSATION, TANGENT_ROTATION},
     fresnel, ggx, ior,
     microfacets::{DISTRIBUTION, Distribution},
-    principled::Principled,
     refraction::{FAINT, uncompressed},
+    tables::Interface,
 };
 pub use super::{rough_dielectric::RoughDielectric, tinted_dielectric::TintedDielectric};
 use crate::{
@@ -59,26 +59,12 @@ impl Default for Dielectric {
 }
 
 impl Dielectric {
-    /// Rough anisotropic glass: the clear base of a principled material. The light that scatters more than once is lost.
-    fn anisotropic(&self, compiler: &mut MaterialCompiler, eta: f32, alpha: AlphaSource) -> Result<CompiledMaterial, Problem> {
-        let glass = Principled {
-            base_color: Textured::grey(1.0),
-            specular_ior: f64::from(eta),
-            specular_roughness_anisotropy: Textured::Constant(self.anisotropy),
-            transmission_weight: Textured::Constant(1.0),
-            tangent_rotation: self.tangent_rotation,
-            ..Principled::default()
-        };
-        let inside = Some(self.transmittance.map(|x| x as f32));
-        Ok(CompiledMaterial { alpha, inside, ..glass.compile(compiler)? })
-    }
-
     fn is_tinted(&self) -> bool {
         let white = Textured::grey(1.0);
         self.specular_reflectance != white || self.specular_transmittance != white
     }
 
-    /// Glass with tints or Beckmann facets. The light that scatters more than once is lost if it is anisotropic or has such facets.
+    /// Glass with tints, Beckmann or anisotropic facets. With Beckmann facets, the light that scatters more than once is lost.
     fn tinted(
         &self,
         compiler: &mut MaterialCompiler,
@@ -86,8 +72,9 @@ impl Dielectric {
         (alpha, most): (AlphaSource, f32),
     ) -> Result<CompiledMaterial, Problem> {
         let beckmann = self.distribution == Distribution::Beckmann;
-        let compensated = self.energy_compensation && !beckmann && self.anisotropy == 0.0 && most >= ggx::SMOOTH;
-        let row = DielectricRow { beckmann, ..DielectricRow::rough(compiler, indices, (alpha, most), compensated) };
+        let compensated = self.energy_compensation && !beckmann && most >= ggx::SMOOTH;
+        let row =
+            DielectricRow { beckmann, ..DielectricRow::rough(compiler, indices, (alpha, most), self.anisotropy, compensated) };
         let colour = compiler.colour(&SPECULAR_REFLECTANCE, &self.specular_reflectance, &Range::UNIT)?;
         let transmittance = compiler.colour(&SPECULAR_TRANSMITTANCE, &self.specular_transmittance, &Range::UNIT)?;
         Ok(CompiledMaterial {
@@ -151,16 +138,14 @@ impl Compile for Dielectric {
         let outside = self.ior_outside as f32;
         let eta = self.ior as f32 / outside;
         let is_beckmann = most >= ggx::SMOOTH && self.distribution == Distribution::Beckmann;
-        if is_beckmann || self.is_tinted() {
+        let is_anisotropic = most >= ggx::SMOOTH && self.anisotropy > 0.0;
+        if is_beckmann || is_anisotropic || self.is_tinted() {
             return self.tinted(compiler, [eta, outside], (alpha, most));
         }
-        if most >= ggx::SMOOTH && self.anisotropy > 0.0 {
-            return self.anisotropic(compiler, eta, alpha);
-        }
-        let mut row = DielectricRow { eta, outside, table: 0, varies: false, beckmann: false };
+        let mut row = DielectricRow { eta, outside, table: 0, varies: false, turned: false, beckmann: false };
         let mut stage = Stage::Dielectric;
         if most >= ggx::SMOOTH {
-            row = DielectricRow::rough(compiler, [eta, outside], (alpha, most), self.energy_compensation);
+            row = DielectricRow::rough(compiler, [eta, outside], (alpha, most), 0.0, self.energy_compensation);
             stage = Stage::RoughDielectric;
         }
         let inside = Some(self.transmittance.map(|x| x as f32));
@@ -178,6 +163,8 @@ pub(super) struct DielectricRow {
     table: u32,
     /// The table has rows for every roughness.
     varies: bool,
+    /// The table has rows for every azimuth.
+    turned: bool,
     /// Its facets have the Beckmann distribution.
     beckmann: bool,
 }
@@ -185,23 +172,28 @@ pub(super) struct DielectricRow {
 impl DielectricRow {
     const VARIES: u32 = 1;
     const BECKMANN: u32 = 2;
+    const TURNED: u32 = 4;
 
     /// A rough interface with GGX facets and its table.
     fn rough(
         compiler: &mut MaterialCompiler,
         [eta, outside]: [f32; 2],
         (alpha, most): (AlphaSource, f32),
+        anisotropy: f64,
         compensated: bool,
     ) -> DielectricRow {
         let varies = matches!(alpha, AlphaSource::Texture { .. });
         let compensated = compensated && (eta - 1.0).abs() >= FAINT;
-        let table = compiler.tables.interface(compensated.then_some((eta, if varies { None } else { Some(most) })));
-        DielectricRow { eta, outside, table, varies: varies && compensated, beckmann: false }
+        let anisotropy = anisotropy as f32;
+        let interface = Interface { eta, alpha: if varies { None } else { Some(most) }, anisotropy };
+        let table = compiler.tables.interface(compensated.then_some(interface));
+        let turned = compensated && anisotropy > 0.0;
+        DielectricRow { eta, outside, table, varies: varies && compensated, turned, beckmann: false }
     }
 
     fn pack(&self) -> [[f32; 4]; 3] {
         let flag = |set: bool, flag: u32| if set { flag } else { 0 };
-        let flags = flag(self.varies, Self::VARIES) | flag(self.beckmann, Self::BECKMANN);
+        let flags = flag(self.varies, Self::VARIES) | flag(self.beckmann, Self::BECKMANN) | flag(self.turned, Self::TURNED);
         let outside = self.outside * self.outside;
         [[self.eta, f32::from_bits(self.table), f32::from_bits(flags), outside], [0.0; 4], [0.0; 4]]
     }
@@ -211,6 +203,13 @@ impl DielectricRow {
     pub fn read_beckmann<L: Lanes>(l: L, materials: &Materials, at: &Local<L>) -> M<L> {
         let [_, _, flags, _] = materials.row(l, at.material, 0);
         !(flags.bits() & Self::BECKMANN).is(0)
+    }
+
+    /// Lanes whose tables have rows for every azimuth.
+    #[inline(always)]
+    pub fn read_turned<L: Lanes>(l: L, materials: &Materials, at: &Local<L>) -> M<L> {
+        let [_, _, flags, _] = materials.row(l, at.material, 0);
+        !(flags.bits() & Self::TURNED).is(0)
     }
 
     /// The squared index outside, by which radiance there is less than in empty space.

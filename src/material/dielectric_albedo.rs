@@ -45,9 +45,13 @@ pub fn textured_rows(eta: f32, precision: Precision) -> Vec<[f32; 4]> {
         Precision::Exact => Rules { thin: Lattice::new(610, 377), dense: Lattice::new(2584, 1597) },
         Precision::Interactive => Rules { thin: Lattice::new(55, 34), dense: Lattice::new(144, 89) },
     };
+    (0..LEVELS).flat_map(|level| Level::new(eta.into(), alpha_of(level), &rules).rows()).collect()
+}
+
+/// α of a level.
+pub(super) fn alpha_of(level: usize) -> f64 {
     let [first, last] = [ALPHAS.start, ALPHAS.end].map(|alpha| f64::from(alpha).sqrt().sqrt());
-    let alpha = |level: usize| (first + (last - first) * level as f64 / (LEVELS - 1) as f64).powi(4);
-    (0..LEVELS).flat_map(|level| Level::new(eta.into(), alpha(level), &rules).rows()).collect()
+    (first + (last - first) * level as f64 / (LEVELS - 1) as f64).powi(4)
 }
 
 /// Both sides of the interface at one roughness.
@@ -71,33 +75,42 @@ impl Level {
     /// The fraction of the mean loss that crosses the interface is the transmittance of a smooth interface for diffuse light,
     /// limited by the side that loses less. Times n² it is equal for both sides, so the compensation is reciprocal.
     fn rows(&self) -> Vec<[f32; 4]> {
-        let mean = [self.mean(0), self.mean(1)];
-        let crossing = mean[0].min(mean[1]) * mean_transmittance(self.eta);
-        let exchanged = [crossing, crossing / (self.eta * self.eta)];
-        let scale = 1.0 / (self.alpha * self.alpha);
-        let side = |side: usize| {
-            let row = move |ends: &[f64]| [ends[0], ends[1], mean[side] * scale, exchanged[side] * scale].map(|x| x as f32);
-            self.loss[side].windows(2).map(row)
-        };
-        side(0).chain(side(1)).collect()
+        rows_of(self.eta, self.alpha, &self.loss, [self.mean(0), self.mean(1)])
     }
 
     /// ∫ (1 − E(μ)) 2μ dμ of the interpolated loss.
     fn mean(&self, side: usize) -> f64 {
-        let cell = |(k, ends): (usize, &[f64])| {
-            let at = |t: f64| {
-                let x = (k as f64 + t) / CELLS as f64;
-                (ends[0] + (ends[1] - ends[0]) * t) * 2.0 * cosine(x, self.alpha) * stretch(x, self.alpha)
-            };
-            mean_over_unit(16, at) / CELLS as f64
-        };
-        self.loss[side].windows(2).enumerate().map(cell).sum()
+        mean_of(&self.loss[side], self.alpha)
     }
+}
+
+/// The rows of both sides for the losses at the ends of the cells, and their means.
+pub(super) fn rows_of(eta: f64, alpha: f64, loss: &[Vec<f64>; 2], mean: [f64; 2]) -> Vec<[f32; 4]> {
+    let crossing = mean[0].min(mean[1]) * mean_transmittance(eta);
+    let exchanged = [crossing, crossing / (eta * eta)];
+    let scale = 1.0 / (alpha * alpha);
+    let side = |side: usize| {
+        let row = move |ends: &[f64]| [ends[0], ends[1], mean[side] * scale, exchanged[side] * scale].map(|x| x as f32);
+        loss[side].windows(2).map(row)
+    };
+    side(0).chain(side(1)).collect()
+}
+
+/// ∫ (1 − E(μ)) 2μ dμ of the loss at the ends of the cells.
+pub(super) fn mean_of(loss: &[f64], alpha: f64) -> f64 {
+    let cell = |(k, ends): (usize, &[f64])| {
+        let at = |t: f64| {
+            let x = (k as f64 + t) / CELLS as f64;
+            (ends[0] + (ends[1] - ends[0]) * t) * 2.0 * cosine(x, alpha) * stretch(x, alpha)
+        };
+        mean_over_unit(16, at) / CELLS as f64
+    };
+    loss.windows(2).enumerate().map(cell).sum()
 }
 
 /// The cosine at position `x` in [0, 1] of a table for roughness `alpha`. The loss depends on μ/α if both are small, so half of
 /// the cells lie below a multiple of α; [`super::missing_energy`] has the inverse.
-fn cosine(x: f64, alpha: f64) -> f64 {
+pub(super) fn cosine(x: f64, alpha: f64) -> f64 {
     let half = f64::from(HALF) * alpha;
     half * x / (1.0 + half - x)
 }
@@ -132,19 +145,19 @@ struct Rules {
 
 /// A Fibonacci lattice on the square of height in the cap and azimuth, with a change of variable in the height that makes the
 /// integrand periodic (Sloan and Joe, "Lattice Methods for Multiple Integration", 1994).
-struct Lattice {
-    /// Height in [0, 1], cosine of the azimuth, weight.
-    points: Vec<[f64; 3]>,
+pub(super) struct Lattice {
+    /// Height in [0, 1], cosine and sine of the azimuth, weight.
+    pub points: Vec<[f64; 4]>,
 }
 
 impl Lattice {
     /// Builds a lattice; `count` and `step` are consecutive Fibonacci numbers.
-    fn new(count: usize, step: usize) -> Lattice {
+    pub fn new(count: usize, step: usize) -> Lattice {
         let point = |i: usize| {
             let t = (i as f64 + 0.5) / count as f64;
             let turn = (i * step % count) as f32 / count as f32;
-            let cos = sin_cos_turns(F::<One>(turn)).1.0;
-            [t * t * (3.0 - 2.0 * t), cos.into(), 6.0 * t * (1.0 - t) / count as f64]
+            let (sin, cos) = sin_cos_turns(F::<One>(turn));
+            [t * t * (3.0 - 2.0 * t), cos.0.into(), sin.0.into(), 6.0 * t * (1.0 - t) / count as f64]
         };
         Lattice { points: (0..count).map(point).collect() }
     }
@@ -167,7 +180,7 @@ impl Side<'_> {
         let (sin, alpha) = ((1.0 - mu * mu).max(0.0).sqrt(), self.alpha);
         let length = (alpha * alpha * sin * sin + mu * mu).sqrt();
         let (x, z) = (alpha * sin / length, mu / length);
-        let lost = |&[t, cos, weight]: &[f64; 3]| {
+        let lost = |&[t, cos, _, weight]: &[f64; 4]| {
             let height = t * (1.0 + z) - z;
             let radius2 = (1.0 - height * height).max(0.0);
             let (hx, hz) = (alpha * (x + radius2.sqrt() * cos), height + z);
@@ -198,7 +211,7 @@ impl Side<'_> {
 }
 
 /// Reflectance and cosine of refraction of unpolarised light (Walter et al. 2007, equation 22); the latter 0 in total reflection.
-fn fresnel(cos: f64, eta: f64) -> (f64, f64) {
+pub(super) fn fresnel(cos: f64, eta: f64) -> (f64, f64) {
     let square = (eta - 1.0) * (eta + 1.0) + cos * cos;
     if square <= 0.0 {
         return (1.0, 0.0);

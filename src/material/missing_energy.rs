@@ -10,6 +10,7 @@ use std::f32::consts::{FRAC_1_PI, PI};
 
 use super::{
     albedo::cell,
+    anisotropic_interface::AZIMUTHS,
     dielectric_albedo::{ALPHAS, CELLS, HALF, LEVEL_ROWS, LEVELS},
 };
 use crate::math::{F, Lanes, M, Pick, U, V, trig::sin_cos_turns};
@@ -43,6 +44,9 @@ pub struct MissingEnergy<'a, L: Lanes> {
     alpha: F<L>,
     /// Lanes whose viewer is outside the interface.
     outside: M<L>,
+    /// Lanes with rows for each azimuth.
+    turned: M<L>,
+    turns: bool,
 }
 
 /// The loss at one cosine.
@@ -58,24 +62,49 @@ pub struct Loss<L: Lanes> {
 impl<'a, L: Lanes> MissingEnergy<'a, L> {
     #[inline(always)]
     pub fn new(l: L, alpha: F<L>, outside: M<L>, table: LossTable<'a, L>) -> Self {
+        MissingEnergy { turns: false, ..MissingEnergy::anisotropic(l, alpha, alpha, l.first(0), outside, table) }
+    }
+
+    /// The same for facets whose larger width is `width`. In the lanes of `turned`, the table has rows for each azimuth.
+    #[inline(always)]
+    pub fn anisotropic(l: L, alpha: F<L>, width: F<L>, turned: M<L>, outside: M<L>, table: LossTable<'a, L>) -> Self {
         let (low, high) = (ALPHAS.start.sqrt().sqrt(), ALPHAS.end.sqrt().sqrt());
         let place = (alpha.sqrt().sqrt() - low) * ((LEVELS - 1) as f32 / (high - low));
         let (level, blend) = cell(place, LEVELS - 1);
         let LossTable { rows, offset, textured } = table;
-        let first = offset + textured.pick(level * LEVEL_ROWS as u32, l.u(0));
-        let step = textured.pick(l.u(LEVEL_ROWS as u32), l.u(0));
-        MissingEnergy { l, rows, first, step, blend, blends: textured.any(), alpha, outside }
+        let rows_of_level = turned.pick(l.u((AZIMUTHS * LEVEL_ROWS) as u32), l.u(LEVEL_ROWS as u32));
+        let first = offset + textured.pick(level * rows_of_level, l.u(0));
+        let step = textured.pick(rows_of_level, l.u(0));
+        let (blends, turns) = (textured.any(), turned.any());
+        MissingEnergy { l, rows, first, step, blend, blends, alpha: width, outside, turned, turns }
     }
 
-    /// Loss in a direction with cosine `cos` to the normal, on the far side of the interface in the lanes of `through`.
+    /// Loss in a direction, on the far side of the interface in the lanes of `through`.
     #[inline(always)]
-    pub fn loss(&self, cos: F<L>, through: M<L>) -> Loss<L> {
+    pub fn loss(&self, w: V<L>, through: M<L>) -> Loss<L> {
+        let cos = w.z.abs();
         let half = self.alpha * HALF;
         let (index, t) = cell(cos * (1.0 + half) / (cos + half) * CELLS as f32, CELLS);
         let outside = (self.outside & !through) | (!self.outside & through);
         let row = self.first + index + outside.pick(self.l.u(0), self.l.u(CELLS as u32));
-        let [near, far, mean, exchanged] = self.row(row);
+        let [near, far, mean, exchanged] = self.row_towards(row, w);
         Loss { here: near + (far - near) * t, mean, exchanged }
+    }
+
+    /// A row, interpolated between two azimuths where facets are anisotropic; the tangent is x.
+    #[inline(always)]
+    fn row_towards(&self, at: U<L>, w: V<L>) -> [F<L>; 4] {
+        if !self.turns {
+            return self.row(at);
+        }
+        let square = w.x * w.x + w.y * w.y;
+        let along = square.above(1e-12).pick(w.x.abs() / square.sqrt(), square.splat(1.0));
+        let (azimuth, t) = cell(along * (AZIMUTHS - 1) as f32, AZIMUTHS - 1);
+        let none = self.l.u(0);
+        let at = at + self.turned.pick(azimuth * LEVEL_ROWS as u32, none);
+        let [a, b, c, d] = self.row(at);
+        let [p, q, r, s] = self.row(at + self.turned.pick(self.l.u(LEVEL_ROWS as u32), none));
+        [a + (p - a) * t, b + (q - b) * t, c + (r - c) * t, d + (s - d) * t]
     }
 
     /// A row, interpolated between two roughnesses if they are textured.
@@ -90,12 +119,11 @@ impl<'a, L: Lanes> MissingEnergy<'a, L> {
         [a + (p - a) * w, b + (q - b) * w, c + (r - c) * w, d + (s - d) * w]
     }
 
-    /// f |cos θ_i| without the scale of radiance, and the pdf of [`MissingEnergy::sample`], for the loss towards the viewer and
-    /// the z component of ω_i.
+    /// f |cos θ_i| without the scale of radiance, and the pdf of [`MissingEnergy::sample`], for the loss towards the viewer.
     #[inline(always)]
-    pub fn eval(&self, viewer: &Loss<L>, height: F<L>) -> (F<L>, F<L>) {
-        let (through, cos) = (height.below(0.0), height.abs());
-        let there = self.loss(cos, through);
+    pub fn eval(&self, viewer: &Loss<L>, wi: V<L>) -> (F<L>, F<L>) {
+        let (through, cos) = (wi.z.below(0.0), wi.z.abs());
+        let there = self.loss(wi, through);
         let crossing = viewer.exchanged / viewer.mean;
         let share = through.pick(crossing, 1.0 - crossing);
         let mean = there.mean * (self.alpha * self.alpha);
@@ -151,7 +179,7 @@ mod tests {
             let alpha = (first + (last - first) * level as f64 / (LEVELS - 1) as f64).powi(4) as f32;
             for outside in [true, false] {
                 let table = LossTable { rows: &rows, offset: U(0), textured: M(true) };
-                let loss = MissingEnergy::new(One, F(alpha), M(outside), table).loss(F(0.5), M(false));
+                let loss = MissingEnergy::new(One, F(alpha), M(outside), table).loss(V::splat(One, [0.5, 0.7, 0.5]), M(false));
                 assert!((loss.here.0 - level as f32).abs() < 1e-3, "{level}: {}", loss.here.0);
             }
         }

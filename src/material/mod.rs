@@ -8,6 +8,8 @@
 mod albedo;
 mod albedo_table;
 mod anisotropic_conductor;
+mod anisotropic_interface;
+mod anisotropic_loss;
 mod anisotropy;
 pub mod beckmann;
 pub mod blend;

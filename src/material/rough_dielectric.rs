@@ -141,7 +141,7 @@ impl<'a, L: Lanes, D: Microfacets<L>> RoughDielectricBsdf<'a, L, D> {
         let Some(missing) = &self.missing else {
             return self.sample_single(wo, u, lobe);
         };
-        let lost = missing.loss(wo.z, wo.z.below(0.0));
+        let lost = missing.loss(wo, wo.z.below(0.0));
         let again = lobe.lt(lost.here);
         let (wi, exists) = self.sample_single(wo, u, (lobe - lost.here) / (1.0 - lost.here));
         (again.pick(missing.sample(&lost, u, lobe / lost.here), wi), again | exists)
@@ -153,8 +153,8 @@ impl<L: Lanes, D: Microfacets<L>> Bsdf<L> for RoughDielectricBsdf<'_, L, D> {
     fn eval(&self, wo: V<L>, wi: V<L>) -> (V<L>, F<L>) {
         let (mut f, mut pdf) = self.single(wo, wi);
         if let Some(missing) = &self.missing {
-            let lost = missing.loss(wo.z, wo.z.below(0.0));
-            let (f_more, pdf_more) = missing.eval(&lost, wi.z);
+            let lost = missing.loss(wo, wo.z.below(0.0));
+            let (f_more, pdf_more) = missing.eval(&lost, wi);
             f = f + f_more;
             pdf = pdf * (1.0 - lost.here) + pdf_more * lost.here;
         }
@@ -185,7 +185,7 @@ impl<D: Microfacets<One>> Lobes for RoughDielectricBsdf<'_, One, D> {
         if self.faint().0 {
             return DielectricBsdf { eta: self.eta }.chosen(wo, u, lobe);
         }
-        let lost = self.missing.as_ref().map_or(0.0, |missing| missing.loss(wo.z, wo.z.below(0.0)).here.0);
+        let lost = self.missing.as_ref().map_or(0.0, |missing| missing.loss(wo, wo.z.below(0.0)).here.0);
         if lobe.0 < lost {
             return ChosenLobe { name: "further scattering between microfacets", probability: lost };
         }

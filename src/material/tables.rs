@@ -7,14 +7,22 @@ use std::{
 use super::{
     Distribution, albedo,
     albedo_table::{self, Tabulated},
-    dielectric_albedo,
+    anisotropic_interface, anisotropic_loss, dielectric_albedo,
     ggx::SMOOTH,
     missing_energy,
 };
 use crate::{declare::Precision, math::SimdLevel};
 
-/// Index of refraction and roughness of an interface with energy compensation; the roughness is `None` if it varies.
-pub type Interface = (f32, Option<f32>);
+/// An interface with energy compensation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Interface {
+    /// Index of refraction.
+    pub eta: f32,
+    /// α; `None` if it varies.
+    pub alpha: Option<f32>,
+    /// Anisotropy of the facets.
+    pub anisotropy: f32,
+}
 
 /// Parameters of a table.
 #[derive(Clone, Copy, PartialEq)]
@@ -39,6 +47,8 @@ pub struct Tables {
     pub rows: Vec<[f32; 4]>,
     /// The table of compensated conductors; empty without any.
     pub loss: &'static [[f32; 4]],
+    /// The same for anisotropic facets.
+    anisotropic_loss: &'static [[f32; 4]],
     /// Whether some dielectric is compensated.
     pub compensates_dielectrics: bool,
     /// The tables so far, and their first rows.
@@ -63,9 +73,18 @@ impl Tables {
         self.tables.iter().all(|(table, _)| table.precision == Precision::Exact)
     }
 
-    /// Adds the table of compensated conductors.
-    pub fn need_loss(&mut self) {
+    /// Adds the tables of compensated conductors.
+    pub fn need_loss(&mut self, anisotropic: bool) {
         self.loss = &albedo::LOSS;
+        if anisotropic {
+            self.anisotropic_loss = &anisotropic_loss::PARTS;
+        }
+    }
+
+    /// The tables of compensated conductors, for round and for anisotropic facets.
+    #[inline(always)]
+    pub fn losses(&self) -> [&'static [[f32; 4]]; 2] {
+        [self.loss, self.anisotropic_loss]
     }
 
     /// The first row of the table of a coat.
@@ -114,10 +133,13 @@ impl TableOf {
         match self {
             TableOf::Coat(of) => albedo_table::build(SimdLevel::best(), of),
             TableOf::Interface(None) => missing_energy::nothing_missing(),
-            TableOf::Interface(Some((eta, Some(alpha)))) => {
+            TableOf::Interface(Some(Interface { eta, alpha, anisotropy })) if anisotropy > 0.0 => {
+                anisotropic_interface::rows(eta, alpha.map(|alpha| alpha.clamp(SMOOTH, 1.0)), anisotropy, precision)
+            }
+            TableOf::Interface(Some(Interface { eta, alpha: Some(alpha), .. })) => {
                 dielectric_albedo::uniform_rows(eta, alpha.clamp(SMOOTH, 1.0), precision)
             }
-            TableOf::Interface(Some((eta, None))) => dielectric_albedo::textured_rows(eta, precision),
+            TableOf::Interface(Some(Interface { eta, alpha: None, .. })) => dielectric_albedo::textured_rows(eta, precision),
         }
     }
 }

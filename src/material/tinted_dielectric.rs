@@ -32,10 +32,14 @@ impl Shade for TintedDielectric {
         let (eta, offset, textured) = DielectricRow::read(l, materials, at);
         let beckmann = DielectricRow::read_beckmann(l, materials, at);
         let (anisotropy, _) = TangentRow::read(l, materials, at);
-        let facets = EitherFacets { widths: Widths::new(at.alpha, anisotropy), beckmann };
+        let widths = Widths::new(at.alpha, anisotropy);
+        let facets = EitherFacets { widths, beckmann };
         let missing = if materials.tables.compensates_dielectrics {
             let table = LossTable { rows: &materials.tables.rows, offset, textured };
-            Some(MissingEnergy::new(l, at.alpha.max(l.f(ggx::SMOOTH)), at.front, table))
+            let alpha = at.alpha.max(l.f(ggx::SMOOTH));
+            let turned = DielectricRow::read_turned(l, materials, at);
+            let width = turned.pick(widths.larger(), alpha);
+            Some(MissingEnergy::anisotropic(l, alpha, width, turned, at.front, table))
         } else {
             None
         };

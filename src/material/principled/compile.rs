@@ -4,6 +4,7 @@ use super::{
         AlphaSource, Compile, CompiledMaterial, MaterialCompiler, Stage, ggx,
         lookup::{id, value},
         refraction::FAINT,
+        tables::Interface,
     },
     Principled, layout, parameters as of,
     point::{index, roughened},
@@ -65,13 +66,19 @@ impl Principled {
         let (ior, coat_ior) = (self.specular_ior as f32, self.coat_ior as f32);
         let table_ior = self.table_ior(sources);
         let coated = flags & layout::COAT != 0;
-        compiler.tables.need_loss();
+        compiler.tables.need_loss(flags & layout::ANISOTROPIC != 0);
         let base_table = compiler.tables.coat(table_ior);
         let coat_table = if coated { compiler.tables.coat(coat_ior) } else { base_table };
         let constant = self.constant_alpha(sources, alpha);
         let rough = constant.is_none_or(|alpha| alpha >= ggx::SMOOTH);
-        let solid = clear && rough && !self.thin_walled && (ior - 1.0).abs() >= FAINT && flags & layout::ANISOTROPIC == 0;
-        let interface_table = if clear { compiler.tables.interface(solid.then_some((ior, constant))) } else { base_table };
+        let solid = clear && rough && !self.thin_walled && (ior - 1.0).abs() >= FAINT;
+        let anisotropy = sources.constant(layout::BASE, 3);
+        // Of textured anisotropy, the table is that of round facets of all widths.
+        let alpha = constant.filter(|_| anisotropy.is_some());
+        let interface = Interface { eta: ior, alpha, anisotropy: anisotropy.unwrap_or(0.0) };
+        let interface_table = if clear { compiler.tables.interface(solid.then_some(interface)) } else { base_table };
+        let flag = |set: bool, flag: u32| if set { flag } else { 0 };
+        let of_table = flag(solid && alpha.is_none(), layout::VARIES) | flag(solid && interface.anisotropy > 0.0, layout::TURNED);
         let (sin, cos) = self.tangent_rotation.to_radians().sin_cos();
         layout::Constants {
             ior,
@@ -79,7 +86,7 @@ impl Principled {
             film_ior: self.thin_film_ior as f32,
             table_ior,
             turn: (cos as f32, sin as f32),
-            flags: flags | if solid && constant.is_none() { layout::VARIES } else { 0 },
+            flags: flags | of_table,
             base_table,
             coat_table,
             interface_table,

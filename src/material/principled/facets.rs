@@ -14,6 +14,8 @@ pub struct Facets<'a, L: Lanes> {
     rows: &'a [[f32; 4]],
     /// First row of the table of E/F.
     table: U<L>,
+    /// Their α, and its widths along the tangent and across.
+    pub alpha: F<L>,
     pub widths: Widths<L>,
     /// The other lanes are smooth.
     pub rough: M<L>,
@@ -29,7 +31,7 @@ impl<'a, L: Lanes> Facets<'a, L> {
         if anisotropic.any() {
             widths = Widths::new(alpha, anisotropy).or(anisotropic, widths);
         }
-        Facets { l, rows, table, widths, rough: alpha.ge(alpha.splat(ggx::SMOOTH)), anisotropic }
+        Facets { l, rows, table, alpha, widths, rough: alpha.ge(alpha.splat(ggx::SMOOTH)), anisotropic }
     }
 
     /// E(w)/F(w·n) for directions above the surface; 1 in smooth lanes.

@@ -15,6 +15,8 @@ pub const SHEET: u32 = 1 << 5;
 pub const VARIES: u32 = 1 << 6;
 /// The interface is tinted, and not the inside.
 pub const TINTED: u32 = 1 << 7;
+/// The table of lost light has rows for every azimuth.
+pub const TURNED: u32 = 1 << 8;
 
 /// Further rows with a colour and a number: the number is the weight of the colour's layer.
 pub const SPECULAR: u32 = 0;

@@ -17,7 +17,8 @@
 //!   on ω_i, and thus are not reciprocal. Neither are fuzz itself, metals and glass with α > 0 (see below). Everything else is.
 //! * Light that single scattering loses between the facets of a metal or glass is restored by a factor that depends on ω_o (E. Turquin,
 //!   "Practical multiple scattering compensation for microfacet models", 2019): white ones are lossless, but the restored light has
-//!   the directions of the other. Anisotropic metals get a part of it, and anisotropic glass none.
+//!   the directions of the other. Glass of textured anisotropy gets what
+//!   round facets of the width towards the viewer lose.
 //! * E/F of rough interfaces is tabulated for indices that are rounded to multiples of 0.05, and for textured weights at weight 1.
 //! * The coat widens the base's facets by their sum of squares, also if these are anisotropic.
 //! * The film has one Gaussian band of wavelengths per channel and sees a metal as a dielectric: see `thin_film.rs`. An opaque base

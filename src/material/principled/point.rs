@@ -3,7 +3,7 @@ use super::{
     super::{Local, Materials, lookup::Lookup, missing_energy::LossTable, refraction::FAINT},
     facets::Facets,
     interface::{Film, Interface, dip, grey, mix},
-    layout::{ANISOTROPIC, COAT, Constants, FILM, FUZZ, METAL, SHEET, TINTED, VARIES},
+    layout::{ANISOTROPIC, COAT, Constants, FILM, FUZZ, METAL, SHEET, TINTED, TURNED, VARIES},
     thin_film::ThinFilm,
     values::{Values, values},
 };
@@ -13,9 +13,11 @@ use crate::math::{F, Lanes, M, Pick, V};
 #[derive(Clone, Copy)]
 pub struct Point<'a, L: Lanes, const CLEAR: bool> {
     pub l: L,
-    /// Table of the light that microfacets lose.
-    pub loss: &'static [[f32; 4]],
+    /// Tables of the light that microfacets lose, for round and for anisotropic ones.
+    pub loss: [&'static [[f32; 4]]; 2],
     pub losses: LossTable<'a, L>,
+    /// Lanes where the latter have rows for every azimuth.
+    pub turned: M<L>,
     pub values: Values<L>,
     pub interface: Interface<L>,
     /// Microfacets of the base and of the coat.
@@ -66,7 +68,8 @@ impl<'a, L: Lanes, const CLEAR: bool> Point<'a, L, CLEAR> {
         let opaque = (1.0 - metalness) * (1.0 - transmission);
         let mut point = Point {
             l,
-            loss: materials.tables.loss,
+            loss: materials.tables.losses(),
+            turned: constants.has(TURNED),
             losses: LossTable { rows, offset: constants.interface_table, textured: constants.has(VARIES) },
             interface,
             base,

@@ -2,7 +2,8 @@
 use fearless_simd_macros::simd;
 
 use super::{
-    super::{albedo::Albedo, anisotropy::loss, fresnel::dielectric, missing_energy::MissingEnergy},
+    super::{anisotropic_loss::AnisotropicLoss, fresnel::dielectric, ggx, missing_energy::MissingEnergy},
+    facets::Facets,
     fuzz::Fuzz,
     interface::{Reflectances, grey, mix},
     point::Point,
@@ -93,10 +94,11 @@ impl<L: Lanes, const CLEAR: bool> Point<'_, L, CLEAR> {
         let (l, one) = (self.l, self.l.f(1.0));
         let sheets = self.interface.sheet;
         if (self.base.rough & (self.has_metal | sheets)).any() {
-            let lost = self.base.rough.pick(loss(l, self.loss, self.base.widths, self.base.anisotropic, wo), l.f(0.0));
+            let loss = AnisotropicLoss::new(l, self.loss, self.base.widths, self.base.anisotropic);
+            let lost = self.base.rough.pick(loss.at(wo), l.f(0.0));
             let further = lost / (1.0 - lost);
             let average = self.interface.metal_average();
-            let mean = Albedo::at(self.loss, l.u(0), self.base.widths.mean()).average(l);
+            let mean = loss.average();
             let kept = 1.0 - mean;
             view.metal_gain = V {
                 x: 1.0 + further * average.x * kept / (1.0 - average.x * mean),
@@ -106,13 +108,24 @@ impl<L: Lanes, const CLEAR: bool> Point<'_, L, CLEAR> {
             view.clear_gain = sheets.pick(1.0 + further, one);
         }
         if CLEAR {
-            let solid = self.base.rough & !self.base.anisotropic & !sheets & !self.faint;
+            let solid = self.base.rough & !sheets & !self.faint;
             if solid.any() {
-                let missing = MissingEnergy::new(l, self.base.widths.mean(), self.front, self.losses);
-                let lost = missing.loss(wo.z, wo.z.below(0.0)).here;
+                let lost = self.missing(wo).loss(wo, wo.z.below(0.0)).here;
                 view.clear_gain = solid.pick(1.0 / (1.0 - lost), view.clear_gain);
             }
         }
+    }
+
+    /// The light that the interface of a clear base loses. Of textured anisotropy, it is that of round facets with the width towards the viewer.
+    #[inline(always)]
+    fn missing(&self, wo: V<L>) -> MissingEnergy<'_, L> {
+        let Point { l, base: Facets { alpha, widths, anisotropic, .. }, turned, .. } = *self;
+        if !anisotropic.any() {
+            return MissingEnergy::new(l, widths.mean(), self.front, self.losses);
+        }
+        let round = anisotropic.pick(widths.towards(wo), widths.mean());
+        let alpha = turned.pick(alpha.max(l.f(ggx::SMOOTH)), round);
+        MissingEnergy::anisotropic(l, alpha, turned.pick(widths.larger(), round), turned, self.front, self.losses)
     }
 
     /// The probabilities of the lobes: their shares of the reflected and transmitted light, by the largest channel.

@@ -2,7 +2,8 @@
 use super::super::{
     Bsdf, BsdfSample, Conductor, Dielectric, Distribution, Lambertian, LambertianBsdf, Local, Material, Materials, Mirror,
     Plastic, Reflectance, RoughPlastic, Roughness, Shade, Stage,
-    anisotropic_conductor::AnisotropicConductorBsdf,
+    albedo::Albedo,
+    anisotropic_loss::AnisotropicLoss,
     anisotropy::Widths,
     beckmann::Beckmann,
     conductor::{AnisotropicConductor, BeckmannConductor, ConductorBsdf},
@@ -98,7 +99,7 @@ pub fn cases() -> Vec<Case> {
     for anisotropy in [0.3, 0.8] {
         for alpha in [0.05, 0.3] {
             let material = Conductor { anisotropy, ..Conductor::new(fresnels()[1].clone(), alpha, true) };
-            all.push(Case { reciprocal: false, ..Case::new(material, alpha, cosine, false) });
+            all.push(Case::new(material, alpha, cosine, false));
         }
     }
     all.extend(beckmann_metals());
@@ -212,11 +213,11 @@ fn principled() -> Vec<Case> {
 pub enum Any<'a> {
     Lambertian(LambertianBsdf<One>),
     Mirror(MirrorBsdf<One>),
-    Conductor(ConductorBsdf<One>),
+    Conductor(ConductorBsdf<One, F<One>, Albedo<'a, One>>),
     Plastic(PlasticBsdf<'a, One>),
     Principled(PrincipledBsdf<'a, One, false>),
-    AnisotropicConductor(AnisotropicConductorBsdf<'a, One>),
-    BeckmannConductor(AnisotropicConductorBsdf<'a, One, Beckmann<Widths<One>>>),
+    AnisotropicConductor(ConductorBsdf<One, Widths<One>, AnisotropicLoss<'a, One>>),
+    BeckmannConductor(ConductorBsdf<One, Beckmann<Widths<One>>, AnisotropicLoss<'a, One>>),
     RoughPlastic(RoughPlasticBsdf<'a, One>),
     Disney(DisneyBsdf<One, false>),
 }

@@ -1,4 +1,5 @@
 //! Every BSDF against the properties of all BSDFs: samples against pdfs, weights, reciprocity, energy, lanes.
+mod anisotropy;
 mod cases;
 mod dielectric;
 mod dielectric_fixtures;
