@@ -17,6 +17,7 @@ mod inside_outside;
 mod lamp;
 mod lens;
 mod limits;
+mod mirror_images;
 mod mirrors;
 mod noise;
 mod opacity;
