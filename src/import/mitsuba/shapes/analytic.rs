@@ -13,7 +13,7 @@ use crate::{
 pub fn sphere(_: &mut Import, element: Element, placed: Placed) -> Result<Geometry, SceneError> {
     let center = element.vector("center")?.unwrap_or(DVec3::ZERO);
     let radius = length(element, element.number("radius", 1.0)?)?;
-    let mirrors = placed.map.matrix3.determinant() < 0.0;
+    let mirrors = placed.is_mirrored();
     let flip = placed.flip ^ mirrors ^ (element.number("radius", 1.0)? < 0.0);
     if !placed.uses.coordinates {
         return Ok(Geometry { shape: Sphere { center, radius }.into(), map: placed.map, flip });

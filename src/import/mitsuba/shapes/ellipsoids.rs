@@ -18,7 +18,7 @@ pub fn ellipsoids(import: &mut Import, element: Element, placed: Placed) -> Resu
     let size = element.number("scale_factor", 1.0)? * element.number("extent", 3.0)?;
     let path = import.file(element, "filename")?;
     let bytes = read_file(element, &path)?;
-    let flip = placed.flip ^ (placed.map.matrix3.determinant() < 0.0);
+    let flip = placed.flip ^ placed.is_mirrored();
     let (mut found, mut count, mut wrong) = (Vec::new(), 0, None);
     let channel = |name: &str| PROPERTIES.iter().position(|property| *property == name);
     let read = read_values(&bytes, "vertex", channel, |channels, _| {

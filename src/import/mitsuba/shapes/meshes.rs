@@ -34,7 +34,7 @@ fn file(import: &mut Import, element: Element, placed: Placed, flips_by_default:
     let face_normals = element.flag("face_normals", false)?;
     // Mitsuba's v runs downwards, and that of a model upwards.
     let flip_v = !element.flag("flip_tex_coords", flips_by_default)? && placed.uses.coordinates;
-    let mirrors = placed.map.matrix3.determinant() < 0.0;
+    let mirrors = placed.is_mirrored();
     let flip = placed.flip ^ (mirrors && (face_normals || !has_normals(import, element, &path)?));
     let shape = if flip_v || !placed.uses.attributes.is_empty() {
         let wanted: Vec<&String> = placed.uses.attributes.iter().collect();

@@ -41,6 +41,13 @@ pub struct Placed<'a> {
     pub uses: &'a Uses,
 }
 
+impl Placed<'_> {
+    /// Whether `to_world` of the shape itself mirrors. That of an instance moves the sides of a shape with it.
+    pub fn is_mirrored(&self) -> bool {
+        self.map.matrix3.determinant() * self.around.matrix3.determinant() < 0.0
+    }
+}
+
 /// A shape in the description.
 pub struct Geometry {
     pub shape: ShapeKind,

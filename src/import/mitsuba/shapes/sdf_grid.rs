@@ -31,7 +31,7 @@ pub fn sdf_grid(import: &mut Import, element: Element, placed: Placed) -> Result
         import.remark(element, &format!("{} triangles", model.triangles.len()), "its surface and its normals are interpolated");
         Ok(model)
     })?;
-    let flip = placed.flip ^ (!smooth && placed.map.matrix3.determinant() < 0.0);
+    let flip = placed.flip ^ (!smooth && placed.is_mirrored());
     Ok(Geometry { shape: meshes::in_memory(file, smooth), map: placed.map, flip })
 }
 

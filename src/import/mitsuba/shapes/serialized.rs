@@ -24,7 +24,7 @@ pub fn serialized(import: &mut Import, element: Element, placed: Placed) -> Resu
         let model = packed.mesh(number).map_err(|reason| error(&reason))?;
         Ok(Variant { flip_v, face_normals }.of(model))
     })?;
-    let mirrors = placed.map.matrix3.determinant() < 0.0;
+    let mirrors = placed.is_mirrored();
     let has_normals = import.new_files.assets.get::<Model>(&file).is_some_and(|model| model.normals.is_some());
     let flip = placed.flip ^ (mirrors && !has_normals);
     Ok(Geometry { shape: meshes::in_memory(file, !face_normals), map: placed.map, flip })

@@ -143,6 +143,14 @@ fn instances_place_the_shapes_of_their_group() {
     assert!(objects.len() == 4 && imported.remarks.is_empty());
     assert_eq!([0, 2].map(|i| map(&objects[i]).translation), [DVec3::X, 2.0 * DVec3::X]);
     assert!(objects.iter().all(|object| object.material.as_deref() == Some("default")));
+    // A mirror of the instance moves the outside of a ball with it, and one of the ball turns it inside out.
+    let mirror = "<transform name=\"to_world\"><scale x=\"-1\"/></transform>";
+    let flips = [("", mirror), (mirror, ""), (mirror, mirror)].map(|(own, around)| {
+        let group = format!("<shape type=\"shapegroup\" id=\"g\"><shape type=\"sphere\">{own}</shape></shape>");
+        let text = format!("{SENSOR}{group}<shape type=\"instance\"><ref id=\"g\"/>{around}</shape>");
+        scene(&text).description.objects[0].flip
+    });
+    assert_eq!(flips, [false, true, true]);
     let lone = scene(&format!("{SENSOR}<shape type=\"shapegroup\" id=\"g\"><shape type=\"sphere\"/></shape>"));
     assert!(lone.description.objects.is_empty());
 }
