@@ -100,7 +100,13 @@ impl SplitImage<'_> {
             return ", no light found".to_owned();
         }
         // Variances of samples are exact for independent ones only.
-        let bound = if Sampler::is_independent(self.header.settings.sampler) { "" } else { "at most " };
+        let bound = if frame.error_is_lower_bound {
+            "≥ "
+        } else if Sampler::is_independent(self.header.settings.sampler) {
+            ""
+        } else {
+            "at most "
+        };
         frame.rel_mse_estimate.map_or_else(String::new, |rel_mse| format!(", noise {bound}{:.2} %", 100.0 * rel_mse.sqrt()))
     }
 
@@ -118,6 +124,7 @@ impl SplitImage<'_> {
             ("seconds", json!(counters.seconds)),
             ("rays", json!(counters.rays)),
             ("rel_mse_estimate", json!(frame.and_then(|frame| frame.rel_mse_estimate))),
+            ("rel_mse_is_lower_bound", json!(frame.is_some_and(|frame| frame.error_is_lower_bound))),
             ("biased", json!(bias)),
             ("cut_paths", json!(counters.cut_paths)),
             ("program", json!(self.header.program)),

@@ -8,6 +8,7 @@ use super::{
     estimate::{Estimate, single},
     film::Film,
     halves::Halves,
+    heavy_tail::has_heavy_tail,
     sample_counts::SampleCounts,
     scatter::VarianceParts,
     series::Series,
@@ -51,6 +52,8 @@ pub struct Frame {
     pub series: Option<Series>,
     /// Estimated relMSE of the image: see `render/error_estimator.rs`; `None` before the second sample, and until light is found.
     pub rel_mse_estimate: Option<f64>,
+    /// Whether few pixels carry the estimated error, so that the true one may be much larger: see `render/heavy_tail.rs`.
+    pub error_is_lower_bound: bool,
     /// The same estimate with each of its blocks left out; `None` where that is.
     pub block_errors: Option<BlockErrors>,
     /// Two halves of the samples, if requested.
@@ -84,6 +87,7 @@ impl Frame {
             }
         });
         let block_errors = block_errors(film);
+        let error_is_lower_bound = block_errors.is_some() && has_heavy_tail(&radiance, &variance);
         Frame {
             generation,
             width,
@@ -98,6 +102,7 @@ impl Frame {
             series: Series::of_film(film),
             halves: None,
             rel_mse_estimate: block_errors.as_ref().map(|errors| errors.whole),
+            error_is_lower_bound,
             block_errors,
             noise: noise(film, variance),
         }

@@ -21,6 +21,7 @@ mod exact_sum;
 pub mod film;
 pub mod frame;
 pub mod halves;
+mod heavy_tail;
 pub mod image_file;
 pub mod layers;
 mod light_trial;

@@ -117,6 +117,8 @@ pub struct Status {
     pub elapsed: Duration,
     /// Estimated relMSE; `None` before the second sample.
     pub rel_mse_estimate: Option<f64>,
+    /// Whether few pixels carry that error, so that the true one may be much larger.
+    pub error_is_lower_bound: bool,
     /// What pixels share.
     pub sharing: Sharing,
     /// Whether sampling is adaptive.

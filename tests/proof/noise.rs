@@ -82,10 +82,17 @@ fn the_noise_figure_is_the_error() {
         let [reference] = picture(SEEDS, 4 * SPP);
         let (estimate, truth) = estimate_and_truth(&pictures.iter().flatten().collect::<Vec<_>>(), &reference.radiance);
         let ratio = if truth > 0.0 { (estimate / truth).sqrt() } else { 1.0 + estimate };
-        println!("{name:24} error {:.3} %, figure over error {ratio:.2}", 100.0 * truth.sqrt());
+        let marked = pictures.iter().flatten().filter(|frame| frame.error_is_lower_bound).count();
+        println!("{name:24} error {:.3} %, figure over error {ratio:.2}, {marked} of {SEEDS} marked", 100.0 * truth.sqrt());
         let factor = WORSE.iter().find(|(worse, _)| *worse == name).map_or(FACTOR, |(_, factor)| *factor);
         if !(1.0 / factor..factor).contains(&ratio) {
             wrong.push(format!("{name}: {ratio:.2}"));
+        }
+        if ratio < 0.5 && marked < pictures.len() {
+            wrong.push(format!("{name}: {ratio:.2}, not marked as a lower bound in {} images", pictures.len() - marked));
+        }
+        if ratio > 0.8 && 2 * marked > pictures.len() {
+            wrong.push(format!("{name}: {ratio:.2}, marked as a lower bound"));
         }
     }
     assert!(wrong.is_empty(), "figure over error: {}", wrong.join(", "));

@@ -46,6 +46,13 @@ impl Done<'_> {
         if self.frame.is_black() {
             notes.push(format!("note: the image is entirely black: {}", self.scene.why_black(camera, self.settings)));
         }
+        if self.status.error_is_lower_bound && !self.is_denoised && !self.frame.is_black() {
+            notes.push(
+                "warning: few pixels carry the estimated error, so it is a lower bound: light that paths rarely find may be missing from most of \
+                 the image. More samples help; `--estimator bidirectional` and `--merging on` find caustics"
+                    .to_owned(),
+            );
+        }
         if *cut_paths > 0 {
             let longest = self.settings.last_bounce();
             notes.push(format!("warning: {cut_paths} paths were cut after {longest} bounces: the image is biased; use roulette"));
@@ -117,6 +124,7 @@ impl Done<'_> {
             ("rays", json!(status.rays)),
             ("mean", json!(mean(&frame.radiance))),
             ("rel_mse_estimate", json!(status.rel_mse_estimate.filter(|_| !self.is_denoised))),
+            ("rel_mse_is_lower_bound", json!(status.error_is_lower_bound)),
             ("biased", json!(self.bias())),
             ("cut_paths", json!(status.cut_paths)),
             ("dropped_triangles", json!(self.scene.shapes.dropped_triangles())),
@@ -134,9 +142,10 @@ fn mean(radiance: &[[f32; 3]]) -> [f64; 3] {
     [0, 1, 2].map(|c| radiance.iter().map(|rgb| f64::from(rgb[c])).sum::<f64>() / count)
 }
 
-/// The estimated noise as in ", noise 2.50 %"; empty if it is unknown.
+/// The estimated noise as in ", noise 2.50 %"; empty if it is unknown. An estimate that few pixels carry is a lower bound.
 pub fn noise_text(status: &Status) -> String {
-    status.relative_noise().map_or_else(String::new, |noise| format!(", noise {:.2} %", 100.0 * noise))
+    let bound = if status.error_is_lower_bound { "≥ " } else { "" };
+    status.relative_noise().map_or_else(String::new, |noise| format!(", noise {bound}{:.2} %", 100.0 * noise))
 }
 
 #[cfg(test)]

@@ -20,6 +20,7 @@ fn status(state: State) -> Status {
         rays: 77,
         elapsed: Duration::from_secs(1),
         rel_mse_estimate: Some(0.0009),
+        error_is_lower_bound: false,
         sharing: Sharing::Suffixes,
         adapts: false,
         invalid_samples: 4,
@@ -78,7 +79,7 @@ fn every_figure_stands_under_its_name() {
         "estimator": "mis", "directions": "bsdf", "sampler": "sobol", "roulette": "throughput", "roulette_start": 4,
         "max_bounces": 5, "reuse": "auto", "shares": true, "adaptive": "off", "adapts": false, "seed": 8,
         "build_seconds": 0.25, "seconds": 0.5, "paths": 10, "paths_per_second": 20.0, "rays": 77, "mean": [1.0, 2.0, 4.0],
-        "rel_mse_estimate": 0.0009, "biased": "cap at 5", "cut_paths": 6, "dropped_triangles": 0, "invalid_samples": 4,
+        "rel_mse_estimate": 0.0009, "rel_mse_is_lower_bound": false, "biased": "cap at 5", "cut_paths": 6, "dropped_triangles": 0, "invalid_samples": 4,
         "rmse": 0.125, "rel_mse": 0.0004, "bias": -2.0, "bias_standard_error": null, "bias_in_standard_errors": null,
         "exact_samples": false, "heavy_tails": false, "replay": "noisefall render a.toml --pixel 1,0",
     });
@@ -120,6 +121,9 @@ fn notes_report_problems_and_nothing_else() {
     assert!(all[1].starts_with("note: the image is entirely black: "), "{}", all[1]);
     assert!(all[2].starts_with(&format!("warning: 6 paths were cut after {}", RenderSettings::LONGEST_PATH)), "{}", all[2]);
     assert_eq!(notes(&Status { cut_paths: 0, ..status(State::Paused) }, &frame(1.0)).len(), 1);
+    let heavy = Status { cut_paths: 0, error_is_lower_bound: true, ..status(State::Paused) };
+    assert!(notes(&heavy, &frame(1.0))[1].starts_with("warning: few pixels carry the estimated error"));
+    assert_eq!(noise_text(&heavy), ", noise ≥ 3.00 %");
 }
 
 #[test]

@@ -44,6 +44,7 @@ pub(super) struct Session {
     rate: Option<f64>,
     steps_done: u64,
     rel_mse_estimate: Option<f64>,
+    error_is_lower_bound: bool,
     /// The same for the region that is rendered before the rest.
     region_estimate: Option<(Region, f64)>,
     /// What pixels share.
@@ -79,6 +80,7 @@ impl Session {
             rate,
             steps_done: budget.steps,
             rel_mse_estimate: None,
+            error_is_lower_bound: false,
             region_estimate: None,
             sharing: Sharing::Nothing,
             is_mixed: false,

@@ -44,6 +44,7 @@ impl Session {
         let halves = self.halves.as_ref().and_then(|_| Halves::of_film(&self.film));
         let frame = Frame { elapsed: self.elapsed, halves, ..Frame::of_film(&self.film, self.generation, full, full) };
         self.rel_mse_estimate = frame.rel_mse_estimate;
+        self.error_is_lower_bound = frame.error_is_lower_bound;
         // A region that has been left keeps the estimate for which it was.
         if let Some(region) = self.film.focus {
             self.region_estimate = rel_mse_estimate_in(&self.film, &region).map(|rel_mse| (region, rel_mse));
@@ -61,6 +62,7 @@ impl Session {
             rays: self.count.rays,
             elapsed: self.elapsed,
             rel_mse_estimate: self.rel_mse_estimate,
+            error_is_lower_bound: self.error_is_lower_bound,
             sharing: self.sharing,
             adapts: self.film.is_adaptive(),
             invalid_samples: self.film.invalid_samples(),

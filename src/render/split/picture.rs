@@ -9,6 +9,7 @@ use crate::{
         estimate::{Doubling, Estimate, SquaredRadiance, single},
         exact_sum::RESOLUTION,
         frame::Frame,
+        heavy_tail::has_heavy_tail,
         splats::SplatEstimate,
     },
     scene::Sharing,
@@ -128,6 +129,7 @@ impl SplitPicture {
         let spp = self.samples.total();
         let least = self.counts.iter().copied().min().unwrap_or(0);
         let rel_mse_estimate = (least > 1).then(|| self.rel_mse());
+        let error_is_lower_bound = least > 1 && has_heavy_tail(&self.radiance, &self.variance);
         let [sum, squares] = self.variances;
         let SplitPicture { resolution: [width, height], sharing, radiance, variance, counts, tiles, .. } = self;
         let noise = (least > 1).then(|| SampleNoise {
@@ -139,7 +141,19 @@ impl SplitPicture {
         });
         let counts = if counts.iter().all(|count| *count == spp) { Vec::new() } else { counts };
         let full_resolution = [width, height];
-        Frame { width, height, full_resolution, radiance, spp, counts, sharing, rel_mse_estimate, noise, ..Frame::default() }
+        Frame {
+            width,
+            height,
+            full_resolution,
+            radiance,
+            spp,
+            counts,
+            sharing,
+            rel_mse_estimate,
+            error_is_lower_bound,
+            noise,
+            ..Frame::default()
+        }
     }
 
     /// The mean over pixels and channels of the variance relative to the squared radiance, smoothed over blocks.

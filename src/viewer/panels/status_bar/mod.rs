@@ -152,10 +152,16 @@ impl StatusBar<'_> {
             return;
         }
         let text = self.status.relative_noise().map_or_else(|| "–".to_owned(), percent);
-        ui.label(format!("noise {text}")).on_hover_text(
+        let bound = if self.status.error_is_lower_bound { "≥ " } else { "" };
+        let tail = if self.status.error_is_lower_bound {
+            " Few pixels carry this error (≥): paths rarely find the light that causes it, and the true error may be several times larger."
+        } else {
+            ""
+        };
+        ui.label(format!("noise {bound}{text}")).on_hover_text(format!(
             "Estimated relative error: the root of relMSE, the mean of (x − r)²/(r² + 0.01 · mean r²) over pixels x with true radiance r. It is \
-             estimated from the change of the image as the sample count doubles. It is not known before enough samples have found light.",
-        );
+             estimated from the change of the image as the sample count doubles. It is not known before enough samples have found light.{tail}",
+        ));
     }
 
     fn truth_label(&self, ui: &mut egui::Ui) {
