@@ -47,7 +47,9 @@ impl Tables {
             pdf = here.pick(1.0 / rows[3][3], pdf);
         }
         if let Some((here, quadric)) = self.quadric(l, tag) {
-            let steepness = quadric.gradient(quadric.place(p)).length_squared().sqrt();
+            // A rounded point may lie beside a tiny shape.
+            let place = quadric.across(quadric.place(p));
+            let steepness = (quadric.gradient(place).length_squared() / place.length_squared()).sqrt();
             let of_unit_shape = quadric.is_cylinder.pick(l.f(1.0 / TAU), l.f(0.5 / TAU));
             pdf = here.pick(of_unit_shape * quadric.determinant() / steepness, pdf);
         }

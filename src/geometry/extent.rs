@@ -177,7 +177,7 @@ fn around(boxes: &[Bounds], map: &DAffine3) -> (DVec3, f64) {
 }
 
 /// The largest singular value, the length of the longest image of a unit vector; never too small, and too large by at most 10⁻⁶.
-fn longest(axes: &DMat3) -> f64 {
+pub(super) fn longest(axes: &DMat3) -> f64 {
     // The greatest eigenvalue λ of G = AᵀA is below the n-th root of the trace of Gⁿ, which is below 3 λⁿ; n is 2²⁰.
     const SQUARINGS: i32 = 20;
     let mut power = axes.transpose() * *axes;

@@ -119,10 +119,13 @@ pub(super) fn within_outline<L: Lanes>(
     let margin_u = (grad_u.length_squared().sqrt() * error + of_u) * 2.0;
     let margin_v = (grad_v.length_squared().sqrt() * error + of_v) * 2.0;
     let in_square = (u.max(margin_u).min(1.0 - margin_u), v.max(margin_v).min(1.0 - margin_v));
+    let is_triangle = a[3].above(Outline::Parallelogram as u32 as f32) & !is_ellipse(a[3]);
+    let in_triangle = ((1.0 - margin_u - margin_v) / (in_square.0 + in_square.1)).min(u.splat(1.0));
+    let beside = is_triangle.pick(in_triangle, u.splat(1.0));
     let radius = (u * u + v * v).sqrt();
     let shrink = ((1.0 - margin_u.max(margin_v)) / radius).min(u.splat(1.0));
     let round = is_ellipse(a[3]);
-    let (to_u, to_v) = (round.pick(u * shrink, in_square.0), round.pick(v * shrink, in_square.1));
+    let (to_u, to_v) = (round.pick(u * shrink, in_square.0 * beside), round.pick(v * shrink, in_square.1 * beside));
     let way = V { x: a[0], y: a[1], z: a[2] } * (to_u - u) + V { x: b[0], y: b[1], z: b[2] } * (to_v - v);
     SurfacePoint { p: point.p + way, n_geometric: point.n_geometric, error }
 }

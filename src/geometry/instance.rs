@@ -69,7 +69,7 @@ impl Instance {
     }
 
     #[inline(always)]
-    fn transform<L: Lanes>(&self, l: L, time: F<L>) -> LaneTransform<L> {
+    pub(super) fn transform<L: Lanes>(&self, l: L, time: F<L>) -> LaneTransform<L> {
         LaneTransform::new(l, &self.at_rest, &self.motion, time)
     }
 
@@ -276,7 +276,7 @@ impl Instance {
     }
 
     #[inline(always)]
-    fn piece<L: Lanes>(&self, place: &PrimitiveRef<L>) -> U<L> {
+    pub(super) fn piece<L: Lanes>(&self, place: &PrimitiveRef<L>) -> U<L> {
         place.primitive + self.first.wrapping_neg()
     }
 }

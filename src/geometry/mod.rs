@@ -18,6 +18,7 @@
 //! `tables.rs`. Meshes, isosurfaces and moving shapes have a local space (`instance.rs`). [`Shapes`] holds all of them. The compile of
 //! a changed scene compares shapes bit for bit (`identity.rs`) and reuses the trees of meshes (`mesh_trees.rs`).
 mod area_sample;
+mod borders;
 mod bounding_sphere;
 mod bounds;
 mod bvh;
@@ -31,6 +32,7 @@ mod holds;
 mod identity;
 mod instance;
 mod isosurface;
+mod least_width;
 mod lists;
 pub mod mesh;
 mod mesh_trees;
@@ -39,6 +41,7 @@ mod nearest;
 mod object;
 mod objects;
 pub mod oracle;
+mod pass_distance;
 mod quadric;
 mod rectangle;
 mod shape;

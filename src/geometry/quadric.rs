@@ -123,7 +123,7 @@ impl<L: Lanes> Local<L> {
 
     /// Drops the third component of cylinders.
     #[inline(always)]
-    fn across(&self, v: V<L>) -> V<L> {
+    pub(super) fn across(&self, v: V<L>) -> V<L> {
         V { z: v.z * self.weight, ..v }
     }
 

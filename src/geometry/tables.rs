@@ -5,7 +5,7 @@ use glam::{DMat3, DVec3};
 use super::{
     flat::{Flat, is_ellipse, within_outline},
     quadric::{Local, Quadric},
-    shape::Shape,
+    shape::{Outline, Shape},
     sphere::{self, Sphere, sphere_tangents, sphere_uv},
     surface_point::{Coordinates, SurfacePoint},
 };
@@ -30,13 +30,20 @@ pub(super) struct Tables {
     quadric_rows: Vec<[f32; 4]>,
     /// Where the turns of spheres take the axes, four rows each, of which the last is empty. The first is that of no sphere.
     turns: Vec<[f32; 4]>,
-    /// For flat pieces, see [`Flat::roundings`]; 0 if they do not belong to a closed shape.
+    /// For flat pieces, see [`Flat::roundings`]; 0 if they border on nothing.
     roundings: Vec<[f32; 4]>,
+    /// Whether flat shapes border on each other.
+    have_borders: bool,
     /// Whether any shape has several pieces that enclose a volume.
     have_closed: bool,
 }
 
 impl Tables {
+    /// Empty tables of shapes of which flat ones border on each other, or not.
+    pub fn new(have_borders: bool) -> Tables {
+        Tables { have_borders, ..Tables::default() }
+    }
+
     /// Number of primitives.
     pub fn len(&self) -> usize {
         self.anchors.len()
@@ -78,7 +85,8 @@ impl Tables {
                     self.anchors.push([x, y, z, 0.0]);
                     self.normals.push([nx, ny, nz, tag(FLAT, self.flat_rows.len() / 4)]);
                     self.flat_rows.extend(flat.rows(*edges, near));
-                    self.roundings.push(if closed { flat.roundings(shape.size()) } else { [0.0; 4] });
+                    let has_borders = closed || self.have_borders && *outline != Outline::Ellipse;
+                    self.roundings.push(if has_borders { flat.roundings(shape.size()) } else { [0.0; 4] });
                 }
                 _ => {
                     self.anchors.push([0.0; 4]);
@@ -102,7 +110,9 @@ impl Tables {
     /// [`Tables::surface_point`] if all surfaces are [simple](Tables::are_simple).
     #[inline(always)]
     pub fn simple_point<L: Lanes>(&self, l: L, primitive: U<L>, p: V<L>) -> SurfacePoint<L> {
-        sphere::surface_point(l.rows(&self.anchors, primitive), l.rows(&self.normals, primitive), p)
+        let normal = l.rows(&self.normals, primitive);
+        let point = sphere::surface_point(l.rows(&self.anchors, primitive), normal, p);
+        if self.have_borders { self.within_borders(l, normal[3].bits(), primitive, point) } else { point }
     }
 
     /// The surface at a point `p` of the given primitives, none of which may be [`MISS`].
@@ -111,17 +121,22 @@ impl Tables {
         let normal = l.rows(&self.normals, primitive);
         let mut point = sphere::surface_point(l.rows(&self.anchors, primitive), normal, p);
         let tag = normal[3].bits();
-        if self.have_closed
-            && let Some(AtFlat { here, rows, from_anchor }) = self.flat(l, tag, primitive, point.p)
-        {
-            let roundings = l.rows(&self.roundings, here.pick(tag >> 2, l.u(0)));
-            let closed = here & roundings[0].above(0.0);
-            point = closed.pick(within_outline(&rows, roundings, from_anchor, &point), point);
+        if self.have_closed || self.have_borders {
+            point = self.within_borders(l, tag, primitive, point);
         }
         if let Some((here, quadric)) = self.quadric(l, tag) {
             point = here.pick(quadric.surface_point(p), point);
         }
         point
+    }
+
+    /// Moves points on flat primitives away from their borders.
+    #[inline(always)]
+    fn within_borders<L: Lanes>(&self, l: L, tag: U<L>, primitive: U<L>, point: SurfacePoint<L>) -> SurfacePoint<L> {
+        let Some(AtFlat { here, rows, from_anchor }) = self.flat(l, tag, primitive, point.p) else { return point };
+        let roundings = l.rows(&self.roundings, here.pick(tag >> 2, l.u(0)));
+        let bordered = here & roundings[0].above(0.0);
+        bordered.pick(within_outline(&rows, roundings, from_anchor, &point), point)
     }
 
     /// Surface coordinates of a point of the given primitives.

@@ -52,7 +52,7 @@ impl Tables {
             pdf = here.pick(SeenFlat::new(here, rows, from_anchor, l.rows(&self.normals, primitive)).pdf(l, wi), pdf);
         }
         if let Some((here, quadric)) = self.quadric(l, tag) {
-            let (of_cylinder, _) = cylinder_pdf(l, &quadric, x, wi);
+            let of_cylinder = cylinder_pdf(l, &quadric, x, wi);
             let of_ellipsoid = seen_from(l, &quadric, x).pdf() * stretch(&quadric, wi);
             pdf = here.pick(quadric.is_cylinder.pick(of_cylinder, of_ellipsoid), pdf);
         }
@@ -137,12 +137,12 @@ pub(super) fn uniform_on_flat<L: Lanes>([to_u, to_v, a, b]: &[[F<L>; 4]; 4], u: 
 fn toward_quadric<L: Lanes>(l: L, quadric: &Local<L>, x: V<L>, u: (F<L>, F<L>)) -> DirectionSample<L> {
     let [a, b, c] = quadric.axes();
     let cone = seen_from(l, quadric, x);
-    let local = cone.sample(u);
     let (sin, cos) = sin_cos_turns(u.0);
-    let on_side = V { x: cos, y: sin, z: u.1 } - quadric.place(x);
-    let way = quadric.is_cylinder.pick(on_side, local);
-    let wi = (a * way.x + (b * way.y + c * way.z)).normalized();
-    let (of_cylinder, front) = cylinder_pdf(l, quadric, x, wi);
+    let side = V { x: cos, y: sin, z: u.1 };
+    let way = quadric.is_cylinder.pick(side - quadric.place(x), cone.sample(u));
+    let world = a * way.x + (b * way.y + c * way.z);
+    let wi = world.normalized();
+    let (of_cylinder, front) = sampled_cylinder_pdf(l, quadric, side, way, world.length_squared().sqrt());
     let of_ellipsoid = cone.pdf() * stretch(quadric, wi);
     DirectionSample {
         wi,
@@ -165,22 +165,35 @@ fn stretch<L: Lanes>(quadric: &Local<L>, wi: V<L>) -> F<L> {
     quadric.determinant() / (square * square.sqrt())
 }
 
-/// The pdf of points that are uniform in angle and height: t²/(2π |∂x/∂φ × ∂x/∂z · ω|), summed over both intersections with the
-/// direction, because either may have been sampled; and whether the front is hit first.
+/// [`cylinder_pdf`] for the sampled point `side` in local coordinates, `distance` metres away in the local direction `way`, and whether the
+/// front is hit first. The rounded direction would not tell where it meets a cylinder that is tiny in the view.
 #[inline(always)]
-fn cylinder_pdf<L: Lanes>(l: L, quadric: &Local<L>, x: V<L>, wi: V<L>) -> (F<L>, M<L>) {
-    let [near, far] = quadric.intersections(x, wi);
-    let (of_near, met_near, front_near) = density_of_place(l, quadric, x, wi, near.value());
-    let (of_far, _, front_far) = density_of_place(l, quadric, x, wi, far.value());
-    (of_near + of_far, (met_near & front_near) | (!met_near & front_far))
+fn sampled_cylinder_pdf<L: Lanes>(l: L, quadric: &Local<L>, side: V<L>, way: V<L>, distance: F<L>) -> (F<L>, M<L>) {
+    // A line leaves a circle at the angle at which it enters it.
+    let nearing = side.x * way.x + side.y * way.y;
+    let to_other = -2.0 * nearing / (way.x * way.x + way.y * way.y).max(l.f(1e-30));
+    let other_height = side.z + way.z * to_other;
+    let other_distance = distance * (1.0 + to_other);
+    let has_other = other_distance.above(0.0) & other_height.ge(l.f(0.0)) & l.f(1.0).ge(other_height);
+    let squares = distance * distance + has_other.pick(other_distance * other_distance, l.f(0.0));
+    let density = squares * distance * quadric.determinant() / nearing.abs().max(l.f(1e-20)) * (1.0 / TAU);
+    let enters = nearing.below(0.0);
+    (density, enters | has_other)
 }
 
-/// For the intersection at distance `t`: its pdf, whether it exists, and whether its front is visible.
+/// The pdf of points that are uniform in angle and height: t²/(2π |∂x/∂φ × ∂x/∂z · ω|), summed over both intersections with the
+/// direction, because either may have been sampled.
 #[inline(always)]
-fn density_of_place<L: Lanes>(l: L, quadric: &Local<L>, x: V<L>, wi: V<L>, t: F<L>) -> (F<L>, M<L>, M<L>) {
+fn cylinder_pdf<L: Lanes>(l: L, quadric: &Local<L>, x: V<L>, wi: V<L>) -> F<L> {
+    let [near, far] = quadric.intersections(x, wi);
+    density_of_place(l, quadric, x, wi, near.value()) + density_of_place(l, quadric, x, wi, far.value())
+}
+
+/// For the intersection at distance `t`: its pdf, 0 if it does not exist.
+#[inline(always)]
+fn density_of_place<L: Lanes>(l: L, quadric: &Local<L>, x: V<L>, wi: V<L>, t: F<L>) -> F<L> {
     let nearing = quadric.gradient(quadric.place(x + wi * t)).dot(wi);
-    let met = t.above(0.0);
     // Infinite only at the very edge that is seen.
     let density = t * t * quadric.determinant() / nearing.abs().max(l.f(1e-20)) * (1.0 / TAU);
-    (met.pick(density, l.f(0.0)), met, nearing.below(0.0))
+    t.above(0.0).pick(density, l.f(0.0))
 }

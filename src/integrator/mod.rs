@@ -21,6 +21,7 @@ mod light_paths;
 mod light_sample;
 mod media;
 mod meet;
+mod missed_light;
 mod normal_mapping;
 mod normal_shadowing;
 mod passage;

@@ -65,6 +65,16 @@ impl<L: Lanes> Passage<L> {
         Nearest { t: self.next.t + self.passed, primitive: self.next.primitive, element: self.next.element }
     }
 
+    /// Puts another surface ahead in the lanes of `mask`, at its distance from the origin.
+    #[inline(always)]
+    pub fn meet(&mut self, mask: M<L>, surface: &Nearest<L>) {
+        self.next = Nearest {
+            t: mask.pick(surface.t - self.passed, self.next.t),
+            primitive: mask.pick(surface.primitive, self.next.primitive),
+            element: mask.pick(surface.element, self.next.element),
+        };
+    }
+
     /// The lanes of `mask` with a surface ahead.
     #[inline(always)]
     pub fn hits(&self, mask: M<L>) -> M<L> {

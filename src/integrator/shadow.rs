@@ -10,6 +10,7 @@ use super::{
     crossings::Crossings,
     interaction::emission_texture,
     media::transmittance,
+    missed_light::passes_light,
     passage::{Crossing, MOST_CROSSINGS, Passage},
     records::Shadow,
     work::Work,
@@ -100,12 +101,20 @@ fn directly<L: Lanes>(l: L, work: &Work, live: M<L>, shadow: &Shadow<L>, media: 
     if !scene.shapes.are_listed() {
         let (mut open, mut enough) = (live, l.f(0.0));
         if ends_at_any {
-            let at_light = scene.lights.light_at(l, nearest.primitive, nearest.element).equals(shadow.target);
+            let mut at_light = scene.lights.light_at(l, nearest.primitive, nearest.element).equals(shadow.target);
+            if scene.lights_are_missed {
+                at_light = at_light | passes_light(l, work, live & !at_light, shadow, time, &nearest).0;
+            }
             (open, enough) = (live & at_light, l.f(f32::INFINITY));
         }
         nearest = scene.shapes.nearer(l, (open, enough), (shadow.o, shadow.d), time, nearest);
     }
-    let (arrives, Nearest { t, primitive, element }) = scene.lights.arrives(l, shadow.target, shadow.o, nearest);
+    let (mut arrives, mut nearest) = scene.lights.arrives(l, shadow.target, shadow.o, nearest);
+    if scene.lights_are_missed {
+        let (passes, light) = passes_light(l, work, live & !arrives, shadow, time, &nearest);
+        (arrives, nearest) = (arrives | passes, light);
+    }
+    let Nearest { t, primitive, element } = nearest;
     let seen = live & arrives;
     let mut light = shadow.radiance;
     if work.has_media() {
@@ -142,6 +151,12 @@ fn through_surfaces<L: Lanes>(
     // A light that is one crossing further away than allowed is hidden.
     let (mut open, mut passed, mut left) = (live & !left.below(0.0), l.f(1.0), left);
     for crossed in 0..=MOST_CROSSINGS {
+        if scene.lights_are_missed {
+            let at_light = scene.lights.light_at(l, passage.nearest().primitive, passage.nearest().element).equals(shadow.target);
+            let missed = open & !arriving.seen & !at_light;
+            let (passes, light) = passes_light(l, work, missed, shadow, time, &passage.nearest());
+            passage.meet(passes, &light);
+        }
         let hit = passage.hits(open);
         let (arrives, nearest) = scene.lights.arrives(l, shadow.target, shadow.o, passage.nearest());
         let reached = open & arrives & nearest.primitive.is(MISS);

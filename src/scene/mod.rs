@@ -143,6 +143,8 @@ pub struct Scene {
     pub truth: Option<Truth>,
     /// Largest number of media around the middle of a dielectric.
     pub deepest_media: usize,
+    /// Whether rays miss part of a light that they were sampled towards: see [`Lights::are_missed_over`].
+    pub lights_are_missed: bool,
     /// Shared by scenes that have the same image: see [`Scene::has_same_image`].
     pub identity: Arc<()>,
     /// Shared by a scene and those that were rebuilt from it: see [`Scene::is_of_same_file`].

@@ -33,6 +33,10 @@ impl Mesh {
         const ROUNDINGS_OF_R: f32 = 15.0 * f32::EPSILON;
         const ROUNDINGS_OF_N: f32 = 6.5 * f32::EPSILON;
         const ROUNDINGS_OF_P: f32 = 2.0 * f32::EPSILON;
+        /// Distance from edges, in errors.
+        const MARGIN: f32 = 2.0;
+        /// The same in thin triangles, as a part of the height.
+        const WIDEST: f32 = 0.125;
         let [a, b, c] = self.positions(l, triangle);
         let edges = Edges::of(a, b, c);
         let (unit_b, unit_c, normal) = edges.scaled();
@@ -40,19 +44,29 @@ impl Mesh {
         let length = normal_squared.sqrt();
 
         let w = (p - a) * (1.0 / edges.size);
+        let [b_squared, c_squared] = [unit_b.length_squared(), unit_c.length_squared()];
+        let kappa = (b_squared * c_squared).sqrt() / length;
+        let of_triangle = edges.size * (kappa * ROUNDINGS_OF_N + ROUNDINGS_OF_R);
+
         let beta = (w.cross(unit_c).dot(normal) / normal_squared).max(l.f(0.0));
         let gamma = (unit_b.cross(w).dot(normal) / normal_squared).max(l.f(0.0));
         let excess = (beta + gamma).max(l.f(1.0));
-        let (beta, gamma) = (beta / excess, gamma / excess);
-        let p = a + (edges.b * beta + edges.c * gamma);
+        let barycentrics = [beta / excess, gamma / excess];
 
-        let kappa = (unit_b.length_squared() * unit_c.length_squared()).sqrt() / length;
-        let error = edges.size * (kappa * ROUNDINGS_OF_N + ROUNDINGS_OF_R) + p.max_abs() * ROUNDINGS_OF_P;
-        MeshPoint { p, n_geometric: normal * (1.0 / length), error, barycentrics: [beta, gamma] }
+        // At an edge, rounding could put the point behind the next triangle: it keeps away from edges, by a part of the height over each.
+        let margin = (of_triangle + p.max_abs() * ROUNDINGS_OF_P) * (MARGIN / edges.size) / length;
+        let least = |edge_squared: F<L>| (margin * edge_squared.sqrt()).min(l.f(WIDEST));
+        let [beta, gamma] = [barycentrics[0].max(least(c_squared)), barycentrics[1].max(least(b_squared))];
+        let most = 1.0 - least((unit_c - unit_b).length_squared());
+        let shrink = (most / (beta + gamma)).min(l.f(1.0));
+        let p = a + (edges.b * (beta * shrink) + edges.c * (gamma * shrink));
+
+        let error = of_triangle + p.max_abs() * ROUNDINGS_OF_P;
+        MeshPoint { p, n_geometric: normal * (1.0 / length), error, barycentrics }
     }
 
     #[inline(always)]
-    pub(super) fn positions<L: Lanes>(&self, l: L, triangle: U<L>) -> [V<L>; 3] {
+    pub(in crate::geometry) fn positions<L: Lanes>(&self, l: L, triangle: U<L>) -> [V<L>; 3] {
         let [a, b, c] = self.rows(l, triangle, self.vertices.positions());
         [vector(a), vector(b), vector(c)]
     }

@@ -110,6 +110,18 @@ impl Shapes {
         pdf
     }
 
+    /// Distance along o + td to where it passes the given primitives: to the plane of flat ones and triangles, to the front of round ones
+    /// that are many radii away, otherwise NaN.
+    #[inline(always)]
+    pub fn pass_distance<L: Lanes>(&self, l: L, place: &PrimitiveRef<L>, o: V<L>, d: V<L>) -> F<L> {
+        let mut t = self.tables.pass_distance(l, place.primitive, o, d);
+        let mut rest = self.at_instance(l, place);
+        while let Some((here, instance)) = rest.next(self) {
+            t = here.pick(instance.pass_distance(l, &rest.within(here, place), o, d), t);
+        }
+        t
+    }
+
     /// Samples a point of the given primitives, with the point `u` of the unit square. It is off the surface by rounding.
     #[inline(always)]
     pub fn sample_area<L: Lanes>(&self, l: L, place: &PrimitiveRef<L>, u: (F<L>, F<L>)) -> V<L> {

@@ -8,6 +8,7 @@ use glam::{DAffine3, DVec3};
 
 use super::{
     MISS, Motion, Nearest, SurfacePoint,
+    borders::any_borders,
     bvh::{Search, Stacks, Visits},
     clusters::take_clusters,
     identity::same_map,
@@ -73,7 +74,8 @@ impl Shapes {
         progress: &Progress,
     ) -> Result<(Shapes, Vec<Option<Duration>>), Cancelled> {
         let mut meshes = MeshBuilder::new(shapes.clone(), before.map(|before| &before.meshes), precision, progress);
-        let mut all = Shapes { near, first_unlisted: MISS, ..Shapes::default() };
+        let have_borders = any_borders(shapes.clone().filter(|(_, motion)| motion.0.is_empty()).map(|(shape, _)| shape));
+        let mut all = Shapes { tables: Tables::new(have_borders), near, first_unlisted: MISS, ..Shapes::default() };
         let mut objects = Vec::new();
         for (shape, motion) in shapes {
             let kind = all.push(shape, motion, &mut meshes, near)?;

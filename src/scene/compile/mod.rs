@@ -16,6 +16,8 @@ use std::{
     time::{Duration, Instant},
 };
 
+use glam::DVec3;
+
 use self::{blend::blends, camera::camera, lamp::lamps, material::materials, object::objects, problems::Problems};
 pub use self::{
     blend::check_blend,
@@ -158,6 +160,7 @@ impl CompiledParts {
         surfaces.check().map_err(|message| Problem::at("", message, "in this scene"))?;
         resources.note("surfaces", Some(start.elapsed()));
         let Leftovers { memory, memo, report } = resources.into_leftovers();
+        let lights_are_missed = lights.are_missed_over(longest_way(&objects, camera.look_at));
         let mut scene = Scene {
             title: quote::message(&description.title),
             notes: description.notes.clone(),
@@ -181,6 +184,7 @@ impl CompiledParts {
             exposure,
             truth,
             deepest_media: 0,
+            lights_are_missed,
             identity: Arc::new(()),
             lineage: before.map(|before| before.scene.lineage.clone()).unwrap_or_default(),
             warned: OnceLock::new(),
@@ -234,6 +238,15 @@ fn reserve_tables(resources: &Resources, objects: &[Object], lamps: usize) -> Re
         lights += if object.emission.is_some() { count } else { 0 };
     }
     resources.reserve("", format_args!("{lights} lights"), LIGHT * lights)
+}
+
+/// An upper bound of the distance between two points of objects.
+fn longest_way(objects: &[Object], near: DVec3) -> f64 {
+    let reach = objects.iter().map(|object| {
+        let (center, radius) = object.shape.swept_sphere(&object.motion);
+        center.distance(near) + radius
+    });
+    2.0 * reach.fold(0.0, f64::max)
 }
 
 /// The extent that a person would call the size of the scene: of the objects that are not themselves far larger than the
