@@ -183,6 +183,8 @@ class Projector:
     """Width of the image divided by its height; 0 takes that of the file."""
     encoding: Literal['srgb', 'linear'] | None = None
     """Encoding of the file's numbers; EXR and HDR are always linear."""
+    filter: Literal['bilinear', 'nearest'] | None = None
+    """Interpolation between texels."""
     flat: bool | None = None
     """Whether a screen that faces the projector is lit evenly. Otherwise the intensity is the same in all directions."""
     fov: float | None = None
@@ -201,6 +203,8 @@ class Projector:
     """Factor that multiplies the colours of the image."""
     up: Sequence[float] | None = None
     """Direction that points up in the image."""
+    wrap: Literal['repeat', 'mirror', 'clamp', 'black'] | None = None
+    """What continues the image at its edges, where texels blend over half their width."""
 
 @dataclass(kw_only=True)
 class Spot:

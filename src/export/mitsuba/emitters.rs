@@ -9,7 +9,6 @@ use super::{
     markup::{Element, FILE, words},
 };
 use crate::{
-    image::Encoding,
     light::{
         background::{image::Image, sky::SkyModel},
         lamp::{
@@ -20,6 +19,7 @@ use crate::{
     },
     scene::description::{BackgroundDescription, LampDescription},
     shape::product,
+    texture::image as texture,
 };
 
 /// Adds all lamps and the background.
@@ -89,9 +89,9 @@ impl Export<'_> {
         if lamp.image.is_empty() {
             return element.with(Element::color("irradiance", [1.0; 3]));
         }
-        let path = self.new.name(&lamp.image);
-        let image = Element::plugin("texture", "bitmap").attribute("name", "irradiance");
-        element.with(image.text(FILE, &path).flag("raw", lamp.encoding == Encoding::Linear))
+        let (path, encoding, filter) = (lamp.image.clone(), lamp.encoding, lamp.filter);
+        let image = texture::Image { path, encoding, filter, wrap_u: lamp.wrap, wrap_v: lamp.wrap, ..texture::Image::default() };
+        element.with(self.bitmap(&image).attribute("name", "irradiance"))
     }
 
     fn background(&mut self, background: &BackgroundDescription) -> Element {

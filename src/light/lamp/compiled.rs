@@ -1,13 +1,14 @@
 //! A compiled lamp.
-use std::{f64::consts::TAU, sync::Arc};
+use std::f64::consts::TAU;
 
 use glam::DVec3;
 
 use super::{
     falloff::Falloff,
     row::{BY_ANGLE, BY_COSINE, EVEN, LampRow, LampRows, PICTURE},
+    slide::Slide,
 };
-use crate::{declare::Problem, math::colour::luminance, texture::ImageTexture};
+use crate::{declare::Problem, math::colour::luminance};
 
 /// A lamp as the renderer needs it.
 pub struct Lamp {
@@ -46,7 +47,7 @@ pub struct Picture {
     /// Whether the intensity rises by 1/cos³ of the angle to the axis, so that a screen is lit evenly.
     pub flat: bool,
     /// `None` for white.
-    pub image: Option<Arc<ImageTexture>>,
+    pub image: Option<Slide>,
     /// Angles to the axis, radians: where the light begins to fall, linearly, and where it ends.
     pub cone: Option<[f64; 2]>,
 }
@@ -123,7 +124,7 @@ impl Lamp {
     }
 
     /// The image that it casts.
-    pub(super) fn image(&self) -> Option<&Arc<ImageTexture>> {
+    pub(super) fn image(&self) -> Option<&Slide> {
         match &self.shape {
             Shape::Picture(Picture { image, .. }) => image.as_ref(),
             _ => None,

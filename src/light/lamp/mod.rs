@@ -21,6 +21,7 @@ mod plain;
 pub mod point;
 pub mod projector;
 mod row;
+mod slide;
 pub mod spot;
 mod table;
 #[cfg(test)]

@@ -1,11 +1,11 @@
 //! An image that is cast from a point.
 use glam::{DAffine3, DVec3};
 
-use super::{Lamp, LampKind, Picture, Shine, intensity, spot::axis};
+use super::{Lamp, LampKind, Picture, Shine, intensity, slide::Slide, spot::axis};
 use crate::{
     declare::{Declare, Kind, Parameter, Parameters, Problem, Range, Resources, Value},
     image::Encoding,
-    texture::ImageTexture,
+    texture::image::{TexelFilter, Wrap},
 };
 
 /// An image that is cast from a point.
@@ -21,6 +21,10 @@ pub struct Projector {
     pub image: String,
     /// Encoding of the file's numbers; EXR and HDR are always linear.
     pub encoding: Encoding,
+    /// What continues the image at its edges.
+    pub wrap: Wrap,
+    /// Interpolation between its texels.
+    pub filter: TexelFilter,
     /// Angle across the width of the image.
     pub fov: f64,
     /// Width of the image divided by its height; 0 takes that of the file.
@@ -45,6 +49,8 @@ impl Default for Projector {
             up: DVec3::Y,
             image: String::new(),
             encoding: Encoding::Srgb,
+            wrap: Wrap::Clamp,
+            filter: TexelFilter::Bilinear,
             fov: 40.0,
             aspect: 0.0,
             scale: 1.0,
@@ -67,6 +73,9 @@ impl Declare for Projector {
         const UP: Parameter = Parameter::new("up", "Direction that points up in the image.");
         const IMAGE: Parameter = Parameter::new("image", "The image file, relative to the scene; a white square if it is empty.");
         const ENCODING: Parameter = Parameter::new("encoding", "Encoding of the file's numbers; EXR and HDR are always linear.");
+        const WRAP: Parameter =
+            Parameter::new("wrap", "What continues the image at its edges, where texels blend over half their width.");
+        const FILTER: Parameter = Parameter::new("filter", "Interpolation between texels.");
         const FOV: Parameter = Parameter::new("fov", "Angle across the width of the image.").unit("°");
         const ASPECT: Parameter = Parameter::new("aspect", "Width of the image divided by its height; 0 takes that of the file.");
         const TINT: Parameter = Parameter::new("tint", "Factor that multiplies the colours of the image.");
@@ -88,6 +97,8 @@ impl Declare for Projector {
         p.value(&UP, Value::Vector(&mut self.up));
         p.value(&IMAGE, Value::File(&mut self.image));
         p.word(&ENCODING, &mut self.encoding);
+        p.word(&WRAP, &mut self.wrap);
+        p.word(&FILTER, &mut self.filter);
         p.number(&FOV, &mut self.fov, Range::linear(0.01, 179.0));
         p.number(&ASPECT, &mut self.aspect, Range::linear(0.0, 1e3));
         p.number(&SCALE, &mut self.scale, Range::log(0.0, 1e12));
@@ -104,9 +115,9 @@ impl Shine for Projector {
         let right = forward.cross(self.up).try_normalize().unwrap_or_else(|| forward.any_orthonormal_vector());
         let image = match self.image.as_str() {
             "" => None,
-            file => Some(ImageTexture::read(resources, "image", file, self.encoding)?),
+            file => Some(Slide::read(resources, file, self.encoding, (self.wrap, self.filter))?),
         };
-        let own = image.as_ref().map_or(1.0, |image| f64::from(image.step_v() / image.step_u()));
+        let own = image.as_ref().map_or(1.0, Slide::aspect);
         let aspect = if self.aspect > 0.0 { self.aspect } else { own };
         let half_width = (0.5 * self.fov).to_radians().tan();
         let forms = [right / half_width, right.cross(forward) * aspect / half_width, forward];

@@ -1,13 +1,8 @@
 //! All lamps of a scene, as the renderer looks them up.
-use std::sync::Arc;
-
 use fearless_simd_macros::simd;
 
-use super::{Beam, Lamp};
-use crate::{
-    math::{F, Lanes, M, Pick, U, V},
-    texture::{Edge, ImageTexture},
-};
+use super::{Beam, Lamp, slide::Slide};
+use crate::math::{F, Lanes, M, Pick, U, V};
 
 /// The lamps of a scene.
 #[derive(Default)]
@@ -17,7 +12,7 @@ pub struct Lamps {
     /// Number of lamps.
     count: usize,
     /// The images that lamps cast.
-    images: Vec<Arc<ImageTexture>>,
+    images: Vec<Slide>,
     powers: Vec<f32>,
 }
 
@@ -46,10 +41,10 @@ pub struct LampRay<L: Lanes> {
 impl Lamps {
     /// Makes the table.
     pub fn new(lamps: &[Lamp]) -> Lamps {
-        let mut images: Vec<Arc<ImageTexture>> = Vec::new();
+        let mut images: Vec<Slide> = Vec::new();
         let mut number = |lamp: &Lamp| {
             let Some(image) = lamp.image() else { return 0 };
-            let known = images.iter().position(|known| Arc::ptr_eq(known, image));
+            let known = images.iter().position(|known| known.is_same(image));
             let place = known.unwrap_or_else(|| {
                 images.push(image.clone());
                 images.len() - 1
@@ -82,7 +77,7 @@ impl Lamps {
         let bits = |lamps: &Lamps| lamps.rows.iter().flatten().map(|x| x.to_bits()).collect::<Vec<_>>();
         bits(self) == bits(other)
             && self.images.len() == other.images.len()
-            && self.images.iter().zip(&other.images).all(|(a, b)| Arc::ptr_eq(a, b))
+            && self.images.iter().zip(&other.images).all(|(a, b)| a.is_same(b))
     }
 
     /// The light of lamps at the points `p`.
@@ -101,10 +96,7 @@ impl Lamps {
             let casts = beam.casts(number as u32 + 1);
             if casts.any() {
                 let (u, v, _) = beam.picture_place(l, d);
-                // An image repeats in u: half a texel from its edges is the last place that does not blend with the other edge.
-                let rim = image.step_u();
-                let u = u.max(l.f(rim)).min(l.f(1.0 - rim));
-                light = casts.pick(light * image.colour(l, u, v, Edge::Clamp), light);
+                light = casts.pick(light * image.colour(l, u, v), light);
             }
         }
         light

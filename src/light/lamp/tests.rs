@@ -8,6 +8,7 @@ use super::{
     directional::Directional,
     point::Point,
     projector::Projector,
+    slide::Slide,
     spot::{Falloff, Spot},
 };
 use crate::{
@@ -15,7 +16,10 @@ use crate::{
     image::Picture,
     math::{F, Lanes, One, SimdLevel, U, V, in_lanes},
     sampling::hash::hash_one,
-    texture::ImageTexture,
+    texture::{
+        ImageTexture,
+        image::{TexelFilter, Wrap},
+    },
 };
 
 fn compiled(kind: &dyn Shine, map: &DAffine3) -> Lamp {
@@ -153,10 +157,50 @@ fn red_and_green() -> Arc<ImageTexture> {
 }
 
 #[test]
+fn the_image_of_a_projector_continues_as_its_wrap_says() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let bytes = crate::import::pictures::png(2, 1, &[[255u8, 0, 0], [0, 255, 0]]).expect("it is encoded");
+    std::fs::write(folder.path().join("a.png"), bytes).expect("it is written");
+    let resources = Resources::new(folder.path());
+    let red = |wrap, filter, x: f32| {
+        let lamp = Projector {
+            image: "a.png".to_owned(),
+            wrap,
+            filter,
+            aspect: 1.0,
+            fov: 90.0,
+            up: DVec3::NEG_Z,
+            flat: true,
+            ..Projector::default()
+        };
+        let lamp = lamp.compile(&DAffine3::IDENTITY, &resources).unwrap_or_else(|problem| panic!("{problem}"));
+        // A metre below the lamp, at a part of the width from the middle. The image is red on one side and green on the other.
+        let p = V { x: F(x), y: F(1.0), z: F(0.0) };
+        let light = Lamps::new(&[lamp]).sample(One, U(0), p).irradiance.lane(0);
+        light[0] / (light[0] + light[1])
+    };
+    let edges = |wrap, filter| [-0.98, -0.75, 0.75, 0.98].map(|x| red(wrap, filter, x)).map(|red| (100.0 * red).round());
+    let [held, repeated, nearest] = [
+        edges(Wrap::Clamp, TexelFilter::Bilinear),
+        edges(Wrap::Repeat, TexelFilter::Bilinear),
+        edges(Wrap::Repeat, TexelFilter::Nearest),
+    ];
+    let sorted = |mut values: [f32; 4]| {
+        values.sort_by(f32::total_cmp);
+        values
+    };
+    assert_eq!(sorted(held), [0.0, 0.0, 100.0, 100.0]);
+    assert_eq!(edges(Wrap::Mirror, TexelFilter::Bilinear), held);
+    assert_eq!((sorted(nearest), nearest), (sorted(held), held));
+    // At ±0.98, 0.01 of the image from its edge, 48 % come from the other side.
+    assert_eq!(sorted(repeated), [25.0, 48.0, 52.0, 75.0]);
+}
+
+#[test]
 fn the_image_of_a_projector_is_the_right_way_round_and_does_not_wrap() {
     let axes = [DVec3::X, DVec3::Y * 2.0, DVec3::NEG_Z];
     let cast = |image| Lamp::projector(DVec3::ZERO, [1.0; 3], Cast { axes, flat: false, image, cone: None });
-    let lamps = Lamps::new(&[cast(Some(red_and_green())), cast(None)]);
+    let lamps = Lamps::new(&[cast(Some(Slide::Held(red_and_green()))), cast(None)]);
     // Seen from the projector, x is to the right. Beyond the middles of the texels there is only their colour, up to the edge.
     for (x, y, expected) in
         [(-0.7, 0.3, [1.0, 0.0]), (-0.999, 0.0, [1.0, 0.0]), (0.7, -0.3, [0.0, 1.0]), (0.999, 0.49, [0.0, 1.0])]
@@ -213,7 +257,7 @@ fn every_width_gives_the_same_bits() {
         [Point::default().into(), Spot::default().into(), Directional::default().into(), Projector::default().into()];
     let mut all: Vec<Lamp> = kinds.iter().map(|kind| compiled(kind.kind(), &DAffine3::IDENTITY)).collect();
     let axes = [DVec3::X, DVec3::Z, DVec3::NEG_Y];
-    let cast = Cast { axes, flat: false, image: Some(red_and_green()), cone: Some([0.2, 0.7]) };
+    let cast = Cast { axes, flat: false, image: Some(Slide::Held(red_and_green())), cone: Some([0.2, 0.7]) };
     all.push(Lamp::projector(DVec3::Y, [1.0; 3], cast));
     let lamps = Lamps::new(&all);
     for round in 0..100 {
