@@ -93,7 +93,7 @@ impl Compile for Conductor {
         if compensated {
             compiler.tables.need_loss(self.anisotropy > 0.0);
         }
-        let row = ConductorRow::new(&self.fresnel, compensated)?;
+        let row = ConductorRow::new(&self.fresnel, compensated);
         let colour = self.fresnel.colour(compiler)?;
         let mut stage = if most < ggx::SMOOTH { Stage::Mirror } else { Stage::Conductor };
         let mut further = Vec::new();

@@ -147,18 +147,17 @@ pub(super) struct ConductorRow {
 }
 
 impl ConductorRow {
-    pub fn new(reflectance: &Reflectance, compensated: bool) -> Result<ConductorRow, Problem> {
+    pub fn new(reflectance: &Reflectance, compensated: bool) -> ConductorRow {
         let none = ConductorRow { average: [0.0; 3], mode: 0.0, eta: [0.0; 3], k: [0.0; 3], compensated };
         match reflectance {
-            Reflectance::Constant(_) => Ok(none),
-            Reflectance::Schlick(_) => Ok(ConductorRow { mode: SCHLICK, ..none }),
+            Reflectance::Constant(_) => none,
+            Reflectance::Schlick(_) => ConductorRow { mode: SCHLICK, ..none },
             Reflectance::Index { eta, k, .. } => {
-                if eta.iter().zip(k).any(|(eta, k)| *eta == 0.0 && *k == 0.0) {
-                    return Err(Problem::at("eta", "`eta` and `k` are both 0", "no metal has such an index"));
-                }
                 let (eta, k) = (eta.map(|x| x as f32), k.map(|x| x as f32));
+                // Where η is 0, every k reflects all light; the formula has no value where both are.
+                let k = [0, 1, 2].map(|c| if eta[c] == 0.0 && k[c] == 0.0 { 1.0 } else { k[c] });
                 let channel = |c: usize| average(|cos| conductor(F::<One>(cos), F(eta[c]), F(k[c])).0);
-                Ok(ConductorRow { average: [0, 1, 2].map(channel), mode: INDEX, eta, k, compensated })
+                ConductorRow { average: [0, 1, 2].map(channel), mode: INDEX, eta, k, compensated }
             }
         }
     }
@@ -238,4 +237,20 @@ fn schlick_rise<L: Lanes>(cos: F<L>) -> F<L> {
     let x = 1.0 - cos;
     let x2 = x * x;
     x2 * x2 * x
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_channel_without_an_index_reflects_all_light() {
+        let metal = Reflectance::index([1.0, 0.0, 0.0], [2.0, 0.0, 3.0]);
+        let ConductorRow { average, eta, k, .. } = ConductorRow::new(&metal, false);
+        assert!(average[0] < 0.6 && average[1] == 1.0 && average[2] == 1.0, "{average:?}");
+        for cos in [0.0, 0.3, 1.0] {
+            assert_eq!(conductor(F::<One>(cos), F(eta[1]), F(k[1])).0, 1.0);
+        }
+        assert_eq!(metal.head_on(), Some(1.0));
+    }
 }

@@ -94,7 +94,7 @@ const RANGES: &[Range] = &[
     range("materials.dielectric.transmittance", "VIEW\nmaterials.m.dielectric = { ior = 1.5, transmittance = X }", PART, NO_PART, "transmittance"),
     range("materials.conductor.eta", "VIEW\nmaterials.m.conductor = { eta = X, k = 1.0 }", &["0.0", "1000.0"], &["-1e-9", "1000.001", "nan"], "every channel of `eta` and `k` must be a number from 0 to 1000"),
     range("materials.conductor.k", "VIEW\nmaterials.m.conductor = { eta = 1.0, k = X }", &["0.0", "1000.0"], &["-1e-9", "1000.001", "nan"], "every channel of `eta` and `k` must be a number from 0 to 1000"),
-    range("materials.conductor.k", "VIEW\nmaterials.m.conductor = { eta = [1.0, 0.0, 1.0], k = [1.0, X, 1.0] }", &["1e-6"], &["0.0"], "`eta` and `k` are both 0"),
+    range("materials.conductor.k", "VIEW\nmaterials.m.conductor = { eta = [1.0, 0.0, 1.0], k = [1.0, X, 1.0] }", &["0.0", "1e-6"], &["-1e-9"], "every channel of `eta` and `k` must be a number from 0 to 1000"),
     range("materials.conductor.f0", "VIEW\nmaterials.m.conductor = { f0 = X }", PART, NO_PART, "f0"),
     range("materials.conductor.reflectance", "VIEW\nmaterials.m.conductor = { reflectance = X }", PART, NO_PART, "reflectance"),
     range("materials.conductor.roughness", "VIEW\nmaterials.m.conductor = { f0 = 0.5, roughness = X }", NARROW, NOT_NARROW, "roughness"),

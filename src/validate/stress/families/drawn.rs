@@ -4,7 +4,7 @@ use glam::DVec3;
 use crate::{
     declare::{self, Choice, Declare, OneOf, Parameter, Parameters, Range, Resources, Textured, Value, write},
     geometry::Shape,
-    material::{Conductor, Material, Reflectance},
+    material::Material,
     scene::RenderSettings,
     shape::{ShapeBuilder, ShapeKind},
     validate::stress::{dice::Dice, trial_scene::v},
@@ -35,12 +35,6 @@ pub fn materials(dice: &mut Dice, parts: [&str; 2]) -> Vec<String> {
                     if let Textured::Constant(rgb) = fraction {
                         *rgb = rgb.map(|x| 0.5 * x);
                     }
-                }
-            }
-            // Both parts of an index may be 0, but not together.
-            Material::Conductor(Conductor { fresnel: Reflectance::Index { eta, k, .. }, .. }) => {
-                for (eta, k) in eta.iter_mut().zip(k) {
-                    *eta = if *k == 0.0 { eta.max(1.0) } else { *eta };
                 }
             }
             _ => {}
