@@ -2,9 +2,11 @@
 //!
 //! A reader translates a file into a [`SceneDescription`], as if it had been written by hand: everything else, the window and the
 //! command line included, works with the description. What cannot be translated exactly is listed as a [`Remark`].
+pub mod absorbing;
 pub mod gltf;
 mod memory;
 pub mod mesh;
+mod missing;
 pub mod mitsuba;
 pub mod names;
 mod new_files;
@@ -21,6 +23,7 @@ mod tube;
 use std::path::Path;
 
 pub use self::{
+    missing::{Missing, Unresolved},
     names::Names,
     new_files::NewFiles,
     open::{Opened, load, open},
@@ -71,7 +74,7 @@ pub fn read(path: &Path, options: &ImportOptions) -> Result<Imported, SceneError
     match reader(path) {
         Some(read) => {
             let folder = Folder::new(path, options);
-            let mut imported = read(path, options, &folder)?;
+            let mut imported = folder.missing.finish(read(path, options, &folder))?;
             imported.assets.set_sources(folder.found());
             memory::reserve_assets(&mut imported.assets)
                 .map_err(|error| SceneError::of_file(path, error.to_string(), "raise the memory limit"))?;

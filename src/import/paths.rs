@@ -6,7 +6,10 @@ use std::{
     sync::{Arc, Mutex, PoisonError},
 };
 
-use super::ImportOptions;
+use super::{
+    ImportOptions,
+    missing::{Missing, Unresolved},
+};
 use crate::{progress::Progress, quote};
 
 /// The folder of a scene. Files outside it are refused unless the user allows them: a scene from elsewhere must not read what it
@@ -20,6 +23,8 @@ pub struct Folder {
     allow_outside: bool,
     /// The files that were found, as [`Folder::described`]. Clones share it.
     found: Arc<Mutex<BTreeSet<String>>>,
+    /// The files that were not found, and that the scene needs.
+    pub missing: Missing,
     /// The progress of the reader.
     pub progress: Progress,
 }
@@ -31,35 +36,35 @@ impl Folder {
         let typed = parent.unwrap_or(Path::new(".")).to_owned();
         let root = typed.canonicalize().unwrap_or_else(|_| typed.clone());
         let (allow_outside, progress) = (options.allow_outside, options.progress.clone());
-        Folder { typed, root, allow_outside, found: Arc::default(), progress }
+        Folder { typed, root, allow_outside, found: Arc::default(), missing: Missing::default(), progress }
     }
 
     /// The file at a path that the scene names. It exists, and lies within the folder, links followed. The message of an error does
     /// not begin with the path of the scene.
-    pub fn resolve(&self, named: &str) -> Result<PathBuf, String> {
+    pub fn resolve(&self, named: &str) -> Result<PathBuf, Unresolved> {
         self.resolve_beside(&self.typed, named)
     }
 
     /// The same for a path that a file in `folder` names, such as a material library.
-    pub fn resolve_beside(&self, folder: &Path, named: &str) -> Result<PathBuf, String> {
+    pub fn resolve_beside(&self, folder: &Path, named: &str) -> Result<PathBuf, Unresolved> {
         let shown = quote::path(Path::new(named));
         let path = Path::new(named);
         if named.is_empty() {
-            return Err("the path is empty".to_owned());
+            return Err(Unresolved::refused("the path is empty".to_owned()));
         }
         // Before the disk is touched: some absolute paths lead to other machines.
         if is_absolute(path) && !self.allow_outside {
-            return Err(format!("`{shown}` is an absolute path; {ADVICE}"));
+            return Err(Unresolved::refused(format!("`{shown}` is an absolute path; {ADVICE}")));
         }
         let full = folder.join(path).canonicalize().map_err(|error| match error.kind() {
-            ErrorKind::NotFound => format!("`{shown}`: there is no such file"),
-            _ => format!("`{shown}` cannot be found: {error}"),
+            ErrorKind::NotFound => Unresolved { message: format!("`{shown}`: there is no such file"), is_missing: true },
+            _ => Unresolved::refused(format!("`{shown}` cannot be found: {error}")),
         })?;
         if full.starts_with(&self.root) || self.allow_outside {
             self.note(&full);
             return Ok(full);
         }
-        Err(format!("`{shown}` lies outside the folder of the scene; {ADVICE}"))
+        Err(Unresolved::refused(format!("`{shown}` lies outside the folder of the scene; {ADVICE}")))
     }
 
     /// Notes a file that was found elsewhere.
@@ -127,12 +132,12 @@ mod tests {
         let lax = Folder::new(&path, &ImportOptions { allow_outside: true, ..ImportOptions::default() });
         let secret = path.parent().and_then(Path::parent).expect("a folder").join("secret.png");
         for named in ["../secret.png", "textures/../../secret.png", secret.to_str().expect("text")] {
-            assert!(strict.resolve(named).is_err_and(|error| error.contains("--allow-outside")), "{named}");
+            assert!(strict.resolve(named).is_err_and(|error| error.message.contains("--allow-outside")), "{named}");
             let found = lax.resolve(named).expect("it is allowed");
             assert_eq!(Path::new(&lax.described(&found)), found);
         }
         for named in ["C:\\secret.png", "\\\\machine\\secret.png", "/secret.png"] {
-            assert!(strict.resolve(named).is_err_and(|error| error.contains("absolute")), "{named}");
+            assert!(strict.resolve(named).is_err_and(|error| error.message.contains("absolute")), "{named}");
         }
     }
 
@@ -143,14 +148,14 @@ mod tests {
         let folder = Folder::new(&path, &ImportOptions::default());
         let link = path.with_file_name("link.png");
         std::os::unix::fs::symlink("../secret.png", link).expect("it is made");
-        assert!(folder.resolve("link.png").is_err_and(|error| error.contains("outside")));
+        assert!(folder.resolve("link.png").is_err_and(|error| error.message.contains("outside")));
     }
 
     #[test]
     fn missing_and_impossible_files_have_messages() {
         let (_folder, path) = scene();
         let folder = Folder::new(&path, &ImportOptions::default());
-        let message = |named: &str| folder.resolve(named).expect_err("it is refused");
+        let message = |named: &str| folder.resolve(named).expect_err("it is refused").message;
         assert_eq!((message(""), message("a.png")), ("the path is empty".into(), "`a.png`: there is no such file".into()));
         assert!(message("a\0b").contains("cannot be found"));
     }

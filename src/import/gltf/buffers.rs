@@ -8,7 +8,12 @@ use super::{
     document::{Buffer, BufferView, Document, Index, element},
     refusal::{Found, Refusal},
 };
-use crate::{file::open_regular, import::Folder, memory::Reservation, progress::Progress};
+use crate::{
+    file::open_regular,
+    import::{Folder, Unresolved},
+    memory::Reservation,
+    progress::Progress,
+};
 
 /// Bytes that decoded data may take beyond a factor of the files.
 const FACTOR: u64 = 3;
@@ -99,7 +104,7 @@ impl BufferFiles<'_> {
             return bytes.map(|bytes| Rc::new(Bytes::Memory(bytes)));
         }
         let help = "a glTF file needs the files that it names, in its own folder";
-        let path = resolve(self.folder, uri).map_err(|message| Refusal::new(message, help))?;
+        let path = resolve(self.folder, uri).map_err(|why| Refusal::new(why.message, help))?;
         if let Some(known) = self.known.get(&path) {
             return Ok(known.clone());
         }
@@ -114,7 +119,7 @@ impl BufferFiles<'_> {
 }
 
 /// The file that a URI names. Names with `%20` are also tried as they stand.
-pub fn resolve(folder: &Folder, uri: &str) -> Result<PathBuf, String> {
+pub fn resolve(folder: &Folder, uri: &str) -> Result<PathBuf, Unresolved> {
     let decoded = String::from_utf8(percent_decoded(uri)).unwrap_or_else(|_| uri.to_owned());
     folder.resolve(&decoded).or_else(|error| if decoded == uri { Err(error) } else { folder.resolve(uri).map_err(|_| error) })
 }

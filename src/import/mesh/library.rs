@@ -4,7 +4,7 @@ use std::{collections::HashMap, io::Read, path::Path};
 use super::mtl::{self, Mtl};
 use crate::{
     file::open_regular,
-    import::{Folder, Remarks},
+    import::{Folder, Remarks, Unresolved},
     quote,
 };
 
@@ -62,7 +62,7 @@ impl Library {
 
 /// The file at a path as exporters write it: with the separators of any system, perhaps in quotes. Where an absolute path leads nowhere,
 /// the file of the same name beside the scene is meant.
-pub fn locate(named: &str, folder: &Folder) -> Result<std::path::PathBuf, String> {
+pub fn locate(named: &str, folder: &Folder) -> Result<std::path::PathBuf, Unresolved> {
     let named = named.trim().trim_matches('"');
     let slashed = named.replace('\\', "/");
     let beside = || slashed.rsplit('/').next().filter(|name| *name != slashed).and_then(|name| folder.resolve(name).ok());

@@ -89,7 +89,7 @@ impl Textures {
     fn image(&self, to: &mut Imported, place: &str, map: &Map, encoding: Encoding) -> Option<Image> {
         let extension = map.path.rsplit('.').next().unwrap_or_default().to_ascii_lowercase();
         let located = match READABLE.contains(&extension.as_str()) {
-            true => locate(&map.path, &self.folder),
+            true => locate(&map.path, &self.folder).map_err(String::from),
             false => Err(format!("`{}` is not of a supported format", quote::path(Path::new(&map.path)))),
         };
         let path = match located {

@@ -46,7 +46,7 @@ impl Import {
     pub fn constant(&mut self, element: Element, role: Role) -> Result<Option<[f64; 3]>, SceneError> {
         match (element.tag(), element.kind()) {
             ("float" | "integer", _) => element.parse_number(element.value()?).map(|number| Some([number; 3])),
-            ("rgb" | "srgb" | "color", _) => rgb(element).map(Some),
+            ("rgb" | "srgb" | "color" | "string", "") => rgb(element).map(Some),
             ("spectrum" | "texture", "") => self.spectrum(element, role).map(Some),
             (_, kind) => self.spectrum_plugin(element, kind, role),
         }
@@ -71,7 +71,7 @@ impl Import {
     fn spectrum_file(&mut self, element: Element, role: Role) -> Result<[f64; 3], SceneError> {
         const HELP: &str = "a spectrum file has a wavelength in nm and a value per line";
         let named = element.attribute("filename").unwrap_or_default();
-        let path = self.files.resolve(named).map_err(|message| element.error(message, HELP))?;
+        let path = self.files.folder.missing.require(self.files.resolve(named), |message| element.error(message, HELP))?;
         let key = format!("{role:?} {}", path.display());
         if let Some(known) = self.known_spectra.get(&key) {
             return Ok(*known);

@@ -1,12 +1,12 @@
 //! The state of a translation: what it has made so far.
 use std::{
-    collections::{BTreeSet, HashMap},
+    collections::{BTreeSet, HashMap, HashSet},
     path::PathBuf,
 };
 
 use super::{load::FileSearch, packed::Packed, tree::Element};
 use crate::{
-    import::{Names, NewFiles, Remarks},
+    import::{Names, NewFiles, Remark, Remarks},
     scene::{SceneError, description::SceneDescription},
 };
 
@@ -16,7 +16,9 @@ const DEEPEST: usize = 64;
 /// What a texture is looked up for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum TextureValue {
-    /// A colour: reflectance, radiance or transmittance.
+    /// A radiance.
+    Light,
+    /// Another colour: reflectance or transmittance.
     Colour,
     /// A number, such as roughness or opacity.
     Number,
@@ -35,6 +37,8 @@ pub struct Import {
     pub uses: Uses,
     /// Textures by their element and what is looked up.
     pub known_textures: HashMap<(usize, TextureValue), (String, Uses)>,
+    /// Textures within 0 and 1 by the texture that may not be.
+    pub known_limited: HashMap<String, String>,
     /// Materials by their element and whether both sides reflect.
     pub known_surfaces: HashMap<(usize, bool), Surface>,
     /// Image files by the path that the description gives them.
@@ -43,10 +47,11 @@ pub struct Import {
     pub known_models: HashMap<String, String>,
     /// Colours of spectrum files by what they stand for and by path.
     pub known_spectra: HashMap<String, [f64; 3]>,
-    /// Whether mesh files have normals.
-    pub known_normals: HashMap<PathBuf, bool>,
+    /// What files of meshes have.
+    pub known_lists: HashMap<PathBuf, Lists>,
     /// Files of serialized meshes.
     pub packed: HashMap<PathBuf, Packed>,
+    pub media: Media,
     /// Shapes that were followed, those of groups once for each instance.
     pub shapes: usize,
     /// The objects that are being translated, the innermost last.
@@ -60,6 +65,26 @@ pub struct Uses {
     pub coordinates: bool,
     /// Attributes of meshes.
     pub attributes: BTreeSet<String>,
+}
+
+/// What the file of a mesh has besides triangles.
+#[derive(Clone, Copy)]
+pub struct Lists {
+    pub normals: bool,
+    pub uvs: bool,
+}
+
+/// Media so far.
+#[derive(Default)]
+pub struct Media {
+    /// Whether the integrator does not render them.
+    pub are_unseen: bool,
+    /// Those that fill a shape.
+    pub inside: HashSet<usize>,
+    /// Those outside of a shape, with what to say if they fill no shape around it.
+    pub outside: Vec<(usize, Remark)>,
+    /// Materials by the material without the medium, and its absorption.
+    pub fillings: HashMap<(String, [u64; 3]), String>,
 }
 
 /// A material in the description.
@@ -90,12 +115,14 @@ impl Import {
             materials: Names::default(),
             uses: Uses::default(),
             known_textures: HashMap::new(),
+            known_limited: HashMap::new(),
             known_surfaces: HashMap::new(),
             images: HashMap::new(),
             known_models: HashMap::new(),
             known_spectra: HashMap::new(),
-            known_normals: HashMap::new(),
+            known_lists: HashMap::new(),
             packed: HashMap::new(),
+            media: Media::default(),
             shapes: 0,
             within: Vec::new(),
         }
@@ -141,11 +168,19 @@ impl Import {
         Ok((result?, uses))
     }
 
+    /// Translates a part that the rest can be translated without, if only to find all missing files: [`Missing::part`].
+    ///
+    /// [`Missing::part`]: crate::import::Missing::part
+    pub fn part<T>(&mut self, translate: impl FnOnce(&mut Import) -> Result<T, SceneError>) -> Result<Option<T>, SceneError> {
+        let missing = self.files.folder.missing.clone();
+        missing.part(|| translate(self))
+    }
+
     /// The path of a file that a value of an element names.
     pub fn file(&mut self, element: Element, name: &str) -> Result<PathBuf, SceneError> {
-        let named = element.required_text(name)?;
-        self.files
-            .resolve(named)
-            .map_err(|message| element.error(message, "paths are relative to the scene file, or to the folder of a `<path>`"))
+        const HELP: &str = "paths are relative to the scene file, or to the folder of a `<path>`";
+        let found = self.files.resolve(element.required_text(name)?);
+        let place = element.property(name)?.unwrap_or(element);
+        self.files.folder.missing.require(found, |message| place.error(message, HELP))
     }
 }

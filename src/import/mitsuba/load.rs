@@ -11,7 +11,7 @@ use super::{
     upgrade,
 };
 use crate::{
-    import::{Folder, ImportOptions},
+    import::{Folder, ImportOptions, Unresolved},
     scene::SceneError,
 };
 
@@ -33,16 +33,23 @@ const HIGHEST: usize = 3;
 pub struct FileSearch {
     /// The folder of the scene.
     pub folder: Folder,
+    /// Its path, as the compile finds files in it.
+    parent: PathBuf,
     /// Folders of `<path>` elements, the last one first.
     search: Vec<PathBuf>,
 }
 
 impl FileSearch {
+    /// The path at which the compile looks for a resolved file.
+    pub fn compiled(&self, resolved: &Path) -> PathBuf {
+        self.parent.join(self.folder.described(resolved))
+    }
+
     /// The file at a path that the scene names, in the search folders and then in the folder of the scene.
     ///
     /// A relative `<path>` may leave the folder of the scene: it is how Mitsuba's scenes name a folder that they share. A file must
     /// lie in that folder then.
-    pub fn resolve(&self, named: &str) -> Result<PathBuf, String> {
+    pub fn resolve(&self, named: &str) -> Result<PathBuf, Unresolved> {
         let shared = self.search.iter().find_map(|folder| {
             let inside = Path::new(named).is_relative().then(|| folder.join(named).canonicalize().ok())??;
             inside.starts_with(folder).then_some(inside)
@@ -75,7 +82,11 @@ struct LoadedFile {
 pub fn load(path: &Path, options: &ImportOptions, folder: &Folder) -> Result<(Tree, FileSearch), SceneError> {
     let mut loader = Loader {
         tree: Tree::default(),
-        files: FileSearch { folder: folder.clone(), search: Vec::new() },
+        files: FileSearch {
+            folder: folder.clone(),
+            parent: path.parent().unwrap_or(Path::new("")).to_owned(),
+            search: Vec::new(),
+        },
         allow_outside: options.allow_outside,
         parameters: Substitutions::new(&options.defines),
         includes: 0,
@@ -98,7 +109,7 @@ impl Loader<'_> {
     fn read(&mut self, path: &Path, parent: Option<(usize, usize)>, depth: usize, is_old: bool) -> Result<(), SceneError> {
         let source = markup::read(path)?;
         // The tree keeps the text; the parser borrows its own.
-        let text = source.clone();
+        let text = markup::plain(&source);
         let number = self.tree.add_file(source);
         let document = markup::parse(&text)?;
         let root = document.root_element();
@@ -137,8 +148,14 @@ impl Loader<'_> {
             let value = self.parameters.apply(attribute.value()).map_err(|why| self.unsubstituted(&place, why))?;
             attributes.push((attribute.name().to_owned(), value));
         }
-        let mut element =
-            Node { tag: node.tag_name().name().to_owned(), attributes, children: Vec::new(), place, seen: Cell::new(false) };
+        let mut element = Node {
+            tag: node.tag_name().name().to_owned(),
+            attributes,
+            children: Vec::new(),
+            place,
+            is_old: source.is_old,
+            seen: Cell::new(false),
+        };
         if source.is_old {
             upgrade::names(&mut element);
         }
@@ -183,7 +200,9 @@ impl Loader<'_> {
         if source.depth >= DEEPEST_INCLUDE || self.includes >= MOST_INCLUDES {
             return Err(error("files include each other in a circle, or too often".to_owned()));
         }
-        let path = self.files.resolve(attribute(element, "filename")).map_err(error)?;
+        let missing = self.files.folder.missing.clone();
+        let found = self.files.resolve(attribute(element, "filename"));
+        let Some(path) = missing.part(|| missing.require(found, error))? else { return Ok(()) };
         self.includes += 1;
         self.read(&path, parent, source.depth + 1, source.is_old)
     }

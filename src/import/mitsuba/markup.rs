@@ -35,6 +35,21 @@ pub fn read(path: &Path) -> Result<SourceText, SceneError> {
     Ok(SourceText { name: path.display().to_string(), text })
 }
 
+/// The text without the hyphens of its comments: Mitsuba reads comments with `--` in them, which XML forbids. All places stay.
+pub fn plain(source: &SourceText) -> SourceText {
+    let mut plain = source.clone();
+    let mut at = 0;
+    while let Some(start) = plain.text[at..].find("<!--").map(|start| at + start + 4) {
+        let Some(end) = plain.text[start..].find("-->").map(|end| start + end) else { break };
+        let comment = &plain.text[start..end];
+        if comment.contains("--") || comment.ends_with('-') {
+            plain.text.replace_range(start..end, &comment.replace('-', " "));
+        }
+        at = end + 3;
+    }
+    plain
+}
+
 /// Parses a text.
 pub fn parse(source: &SourceText) -> Result<Document<'_>, SceneError> {
     let text = &source.text;
@@ -69,4 +84,18 @@ fn crowded_element(text: &str) -> Option<usize> {
         rest = end;
     }
     None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn hyphens_of_comments_are_read_over() {
+        let text = "<scene><!-- é -- a --- b - c ---><!----><x a=\"--\"/><!-- -- open";
+        let source = SourceText { name: "a.xml".to_owned(), text: text.to_owned() };
+        let plain = plain(&source).text;
+        assert_eq!(plain, "<scene><!-- é    a     b   c  --><!----><x a=\"--\"/><!-- -- open");
+        assert_eq!(plain.len(), text.len());
+    }
 }

@@ -5,16 +5,20 @@
 //! reported.
 //!
 //! W. Jakob et al., "Mitsuba 3 renderer", 2022, and its manual.
+mod bitmaps;
 mod bsdfs;
 mod colours;
 mod context;
 mod emitters;
 mod fov;
 mod integrator;
+mod limits;
 mod load;
 mod markup;
+mod media;
 mod packed;
 mod parameters;
+mod picture;
 mod sensor;
 mod shapes;
 #[cfg(test)]
@@ -43,6 +47,7 @@ pub fn read(path: &Path, options: &ImportOptions, folder: &Folder) -> Result<Imp
     let title = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
     import.description.title = title;
     scene(&mut import, root)?;
+    import.remark_open_media();
     unread::report(&mut import, root);
     let Import { description, new_files, remarks, .. } = import;
     Ok(Imported { description, assets: new_files.assets, remarks })
@@ -62,10 +67,15 @@ fn scene(import: &mut Import, root: Element) -> Result<(), SceneError> {
         unread::skip(*sensor);
     }
     for (_, shape) in root.objects(&["shape"])? {
-        import.shape(shape, &DAffine3::IDENTITY)?;
+        import.part(|import| import.shape(shape, &DAffine3::IDENTITY))?;
     }
-    for (_, emitter) in root.objects(&["emitter"])? {
-        import.emitter(emitter)?;
+    let unused = |child: &Element| child.tag() == "emitter" && emitters::is_of_shapes(*child) && !child.is_seen();
+    for emitter in root.children().filter(unused) {
+        import.remark(emitter, "nothing", "no shape refers to it");
+        unread::skip(emitter);
+    }
+    for (_, emitter) in root.objects(&["emitter"])?.into_iter().filter(|(_, emitter)| !emitters::is_of_shapes(*emitter)) {
+        import.part(|import| import.emitter(emitter))?;
     }
     Ok(())
 }

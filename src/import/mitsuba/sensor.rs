@@ -1,7 +1,7 @@
 //! The camera: sensor, film and pixel filter.
 use glam::{DAffine3, DVec3};
 
-use super::{context::Import, fov, shapes::refuse_media, tree::Element};
+use super::{context::Import, fov, tree::Element};
 use crate::{
     sampling::{Filter, Sampler},
     scene::{Lens, Projection, SceneError, description::CameraDescription},
@@ -37,7 +37,7 @@ impl Film {
 impl Import {
     /// Makes a sensor the camera.
     pub fn sensor(&mut self, element: Element) -> Result<(), SceneError> {
-        refuse_media(element)?;
+        self.refuse_media(element)?;
         element.ignore(&["shutter_open", "shutter_close", "srf"]);
         let film = self.film(element)?;
         self.sampler(element)?;

@@ -1,6 +1,4 @@
-//! Textures: images, checkers and attributes of meshes. The coordinates of Mitsuba's images run downwards, as ours do.
-use glam::{DMat4, DVec2};
-
+//! Textures: images, checkers and attributes of meshes.
 use super::{
     colours::Role,
     context::{Import, TextureValue},
@@ -15,7 +13,7 @@ use crate::{
     },
     texture::{
         checker::Checker,
-        image::{Image, TexelFilter, Wrap},
+        image::{Image, TexelFilter},
         mix::Mix,
         product::Product,
         vertex_color::VertexColor,
@@ -26,7 +24,7 @@ impl Import {
     /// The colour with a name, constant or textured.
     pub fn colour(&mut self, element: Element, name: &str, default: f64, role: Role) -> Result<Textured, SceneError> {
         match element.property(name)? {
-            Some(value) => self.colour_of(value, role),
+            Some(value) => Ok(self.part(|import| import.colour_of(value, role))?.unwrap_or(Textured::grey(default))),
             None => Ok(Textured::grey(default)),
         }
     }
@@ -34,13 +32,23 @@ impl Import {
     fn colour_of(&mut self, value: Element, role: Role) -> Result<Textured, SceneError> {
         match self.constant(value, role)? {
             Some(colour) => Ok(Textured::Constant(self.in_range(value, colour, role))),
-            None => self.texture(value, TextureValue::Colour).map(Textured::Texture),
+            None => {
+                if role == Role::Emission {
+                    return self.texture(value, TextureValue::Light).map(Textured::Texture);
+                }
+                let name = self.texture(value, TextureValue::Colour)?;
+                Ok(Textured::Texture(if role == Role::Reflectance { self.within_unit(value, name) } else { name }))
+            }
         }
     }
 
     /// The number with a name, constant or textured.
     pub fn textured_number(&mut self, element: Element, name: &str, default: f64) -> Result<Textured<f64>, SceneError> {
         let Some(value) = element.property(name)? else { return Ok(Textured::Constant(default)) };
+        Ok(self.part(|import| import.number_of(value))?.unwrap_or(Textured::Constant(default)))
+    }
+
+    fn number_of(&mut self, value: Element) -> Result<Textured<f64>, SceneError> {
         match self.constant(value, Role::Index)? {
             Some([r, g, b]) if r == g && g == b => Ok(Textured::Constant(r)),
             // Mitsuba takes the mean of a colour, and the luminance of an image.
@@ -50,13 +58,17 @@ impl Import {
     }
 
     /// The same from 0 to 1.
-    pub fn fraction(&mut self, element: Element, name: &str, default: f64) -> Result<Textured<f64>, SceneError> {
-        let number = self.textured_number(element, name, default)?;
+    pub fn fraction(&mut self, element: Element, of: &str, default: f64) -> Result<Textured<f64>, SceneError> {
+        let number = self.textured_number(element, of, default)?;
         Ok(match number {
             Textured::Constant(x) if !(0.0..=1.0).contains(&x) => {
-                self.remark_value(element, name, "the nearest number from 0 to 1", "the material is less extreme")?;
+                self.remark_value(element, of, "the nearest number from 0 to 1", "the material is less extreme")?;
                 Textured::Constant(x.clamp(0.0, 1.0))
             }
+            Textured::Texture(name) => Textured::Texture(match element.property(of)? {
+                Some(value) => self.within_unit(value, name),
+                None => name,
+            }),
             number => number,
         })
     }
@@ -106,7 +118,11 @@ impl Import {
         match element.kind() {
             "bitmap" => self.bitmap(element).map(Into::into),
             "checkerboard" => self.checkerboard(element, value),
-            "mesh_attribute" => self.mesh_attribute(element),
+            "mesh_attribute" => self.mesh_attribute(element, element.required_text("name")?),
+            // Those of version 0.6.
+            "vertexcolors" => self.mesh_attribute(element, "vertex_color"),
+            "scale" => self.scaled_texture(element, value),
+            "gridtexture" => self.grid(element),
             "volume" => Err(element.error("a `volume` texture, which Noisefall does not read", "use an image texture")),
             kind => Err(element.error(
                 format!("`{kind}` is not a texture that Noisefall knows"),
@@ -115,51 +131,13 @@ impl Import {
         }
     }
 
-    /// An image file.
-    pub fn bitmap(&mut self, element: Element) -> Result<Image, SceneError> {
-        element.ignore(&["format", "accel", "filter_min", "mipmap", "max_anisotropy", "cache", "gamma"]);
-        self.uses.coordinates = true;
-        let path = self.file(element, "filename")?;
-        let raw = element.flag("raw", false)? || element.optional_number("gamma")? == Some(1.0);
-        let wrap = match element.text("wrap_mode")?.unwrap_or("repeat") {
-            "repeat" => Wrap::Repeat,
-            "mirror" => Wrap::Mirror,
-            "clamp" => Wrap::Clamp,
-            other => return Err(element.error(format!("`{other}` is not a wrap mode"), "repeat, mirror or clamp")),
-        };
-        let filter = match element.text("filter_type")?.unwrap_or("bilinear") {
-            "nearest" => TexelFilter::Nearest,
-            _ => TexelFilter::Bilinear,
-        };
-        let placed = self.placement(element)?;
-        let described = self.files.folder.described(&path);
-        self.images.insert(described.clone(), path);
-        Ok(Image {
-            path: described,
-            encoding: if raw { Encoding::Linear } else { Encoding::Srgb },
-            wrap_u: wrap,
-            wrap_v: wrap,
-            filter,
-            ..placed
-        })
-    }
-
-    /// The placement by `to_uv`.
-    fn placement(&mut self, element: Element) -> Result<Image, SceneError> {
-        let map = element.transform("to_uv")?;
-        let number = |name: &str, default: f64| element.number(name, default);
-        let old = DMat4::from_scale(DVec2::new(number("uscale", 1.0)?, number("vscale", 1.0)?).extend(1.0))
-            * DMat4::from_translation(DVec2::new(number("uoffset", 0.0)?, number("voffset", 0.0)?).extend(0.0));
-        decomposed(map * old).ok_or_else(|| element.error("`to_uv` flattens the texture", "check its numbers"))
-    }
-
     /// Squares of two colours. Where Mitsuba looks up a number, it exchanges the two (`Checkerboard::eval_1` in version 3.9).
     fn checkerboard(&mut self, element: Element, value: TextureValue) -> Result<TextureKind, SceneError> {
         self.uses.coordinates = true;
+        let mut colours = |role| Ok((self.colour(element, "color0", 0.4, role)?, self.colour(element, "color1", 0.2, role)?));
         let (even, odd) = match value {
-            TextureValue::Colour => {
-                (self.colour(element, "color0", 0.4, Role::Reflectance)?, self.colour(element, "color1", 0.2, Role::Reflectance)?)
-            }
+            TextureValue::Light => colours(Role::Emission)?,
+            TextureValue::Colour => colours(Role::Reflectance)?,
             TextureValue::Number => {
                 let mut grey = |name, default| self.textured_number(element, name, default).map(|number| number.map(|x| [x; 3]));
                 (grey("color1", 0.2)?, grey("color0", 0.4)?)
@@ -181,8 +159,25 @@ impl Import {
         Ok(Mix { a: even, b: odd, weight: Textured::Texture(weight) }.into())
     }
 
-    fn mesh_attribute(&mut self, element: Element) -> Result<TextureKind, SceneError> {
-        let name = element.required_text("name")?;
+    /// A texture or a colour times another colour.
+    fn scaled_texture(&mut self, element: Element, value: TextureValue) -> Result<TextureKind, SceneError> {
+        let a = match element.objects(&["texture"])?.into_iter().find(|(name, _)| *name != "scale") {
+            Some((_, texture)) => Textured::Texture(self.texture(texture, value)?),
+            None => self.colour(element, "value", 1.0, Role::Index)?,
+        };
+        Ok(Product { a, b: self.colour(element, "scale", 1.0, Role::Index)? }.into())
+    }
+
+    /// Lines of a width on squares, as the mixture of both colours.
+    fn grid(&mut self, element: Element) -> Result<TextureKind, SceneError> {
+        self.remark(element, "the mean colour", "the lines are missing");
+        element.ignore(&["uscale", "vscale", "uoffset", "voffset"]);
+        let width = element.number("line_width", 0.01)?.clamp(0.0, 0.5);
+        let [a, b] = [("color0", 0.2), ("color1", 0.4)].map(|(name, default)| self.colour(element, name, default, Role::Index));
+        Ok(Mix { a: a?, b: b?, weight: Textured::Constant(1.0 - (1.0 - 2.0 * width).powi(2)) }.into())
+    }
+
+    fn mesh_attribute(&mut self, element: Element, name: &str) -> Result<TextureKind, SceneError> {
         self.uses.attributes.insert(name.to_owned());
         let colour = TextureKind::from(VertexColor::default());
         let scale = element.number("scale", 1.0)?;
@@ -192,26 +187,4 @@ impl Import {
         let unscaled = self.add_texture(&format!("{name} unscaled"), colour);
         Ok(Product { a: Textured::Texture(unscaled), b: Textured::grey(scale) }.into())
     }
-}
-
-/// Whether an image lies elsewhere than over the unit square.
-pub fn is_placed(image: &Image) -> bool {
-    image.scale != [1.0; 2] || image.shear != 0.0 || image.rotate != 0.0 || image.offset != [0.0; 2]
-}
-
-/// Scale, shear, rotation and offset of a map of the plane; `None` if it flattens the plane.
-fn decomposed(map: DMat4) -> Option<Image> {
-    let column = |i: usize| map.col(i).truncate().truncate();
-    let (u, v, offset) = (column(0), column(1), column(3));
-    let rotate = u.y.atan2(u.x);
-    let (along, across) = (DVec2::from_angle(rotate), DVec2::from_angle(rotate).perp());
-    let scale = [u.length(), v.dot(across)];
-    if scale[0] == 0.0 || scale[1].abs() <= 1e-12 * v.length() {
-        return None;
-    }
-    let degrees = if u.y == 0.0 && u.x > 0.0 { 0.0 } else { rotate.to_degrees() };
-    // Rotations and scales of the file round.
-    let shear = v.dot(along) / scale[1];
-    let shear = if shear.abs() <= 1e-9 { 0.0 } else { shear };
-    Some(Image { scale, shear, rotate: degrees, offset: offset.to_array(), ..Image::default() })
 }

@@ -23,6 +23,8 @@ pub struct Node {
     pub attributes: Vec<(String, String)>,
     pub children: Vec<usize>,
     pub place: FileSpan,
+    /// Whether its file is of version 0.6.
+    pub is_old: bool,
     /// Whether the translation has read it.
     pub seen: Cell<bool>,
 }
@@ -95,6 +97,11 @@ impl<'t> Element<'t> {
     /// Its type, such as `dielectric`.
     pub fn kind(self) -> &'t str {
         self.attribute("type").unwrap_or_default()
+    }
+
+    /// Whether its file is of Mitsuba 0.6, whose defaults are others.
+    pub fn is_old(self) -> bool {
+        self.node().is_old
     }
 
     /// Its `id`, or else its type.

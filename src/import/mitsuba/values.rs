@@ -45,7 +45,9 @@ impl<'t> Element<'t> {
     pub fn optional_number(self, name: &str) -> Result<Option<f64>, SceneError> {
         let Some(property) = self.property(name)? else { return Ok(None) };
         match property.tag() {
-            "float" | "integer" | "string" => property.parse_number(property.value()?).map(Some),
+            // Other words for a number that are as clear.
+            "float" | "integer" | "string" | "spectrum" | "rgb" => property.parse_number(property.value()?).map(Some),
+            "boolean" => Ok(Some(f64::from(u8::from(property.parse_flag()?)))),
             tag => Err(property.error(format!("`{name}` is a {tag}, not a number"), "write `<float name=\"…\" value=\"…\"/>`")),
         }
     }
@@ -63,10 +65,16 @@ impl<'t> Element<'t> {
     /// The flag with this name.
     pub fn flag(self, name: &str, default: bool) -> Result<bool, SceneError> {
         let Some(property) = self.property(name)? else { return Ok(default) };
-        match property.value()?.trim().to_ascii_lowercase().as_str() {
-            "true" => Ok(true),
-            "false" => Ok(false),
-            other => Err(property.error(format!("\"{other}\" is neither true nor false"), "write true or false")),
+        property.parse_flag()
+    }
+
+    /// Its value as a flag, also one that is written as a number.
+    fn parse_flag(self) -> Result<bool, SceneError> {
+        let value = self.value()?.trim();
+        match (value.to_ascii_lowercase().as_str(), value.parse::<f64>()) {
+            ("true", _) | (_, Ok(1.0)) => Ok(true),
+            ("false", _) | (_, Ok(0.0)) => Ok(false),
+            (other, _) => Err(self.error(format!("\"{other}\" is neither true nor false"), "write true or false")),
         }
     }
 

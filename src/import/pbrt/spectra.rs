@@ -105,7 +105,7 @@ impl Import {
         let wrong = |message: String| {
             parameter.place.error(message, "expected the name of a spectrum of pbrt, or a file in the folder of the scene")
         };
-        let path = self.files.folder.resolve(name).map_err(wrong)?;
+        let path = self.files.folder.resolve(name).map_err(|why| wrong(why.message))?;
         let key = format!("{role:?} {}", path.display());
         if let Some(known) = self.known_spectra.get(&key) {
             return Ok(*known);

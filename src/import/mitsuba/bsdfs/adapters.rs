@@ -1,15 +1,15 @@
 //! BSDFs that change others: bumps, masks, sides and mixtures.
 use super::{
     super::{
+        bitmaps::is_placed,
         context::{Import, TextureValue},
-        textures::is_placed,
         tree::Element,
     },
-    transparent,
+    one_or_two_sided, transparent,
 };
 use crate::{
     image::Encoding,
-    material::{blend::Blend, null::Null},
+    material::{Lambertian, blend::Blend, null::Null},
     scene::{
         SceneError,
         description::{Bump, MaterialDescription, Textured},
@@ -24,7 +24,7 @@ fn nested<'t>(element: Element<'t>) -> Result<Vec<Element<'t>>, SceneError> {
     Ok(element.objects(&["bsdf"])?.into_iter().map(|(_, bsdf)| bsdf).collect())
 }
 
-fn only<'t>(element: Element<'t>) -> Result<Element<'t>, SceneError> {
+pub fn only<'t>(element: Element<'t>) -> Result<Element<'t>, SceneError> {
     match nested(element)?[..] {
         [bsdf] => Ok(bsdf),
         _ => Err(element.error(format!("a `{}` needs one BSDF within it", element.kind()), "nest one BSDF, or refer to one")),
@@ -66,9 +66,43 @@ pub fn blend(import: &mut Import, element: Element, two_sided: bool) -> Result<M
     };
     let weight = import.fraction(element, "weight", 0.5)?;
     let [first, second] = [import.surface(first, two_sided)?.material, import.surface(second, two_sided)?.material];
+    Ok(blended(import, first, second, weight))
+}
+
+/// A mixture of two materials. Its back is black if those of both are.
+pub fn blended(import: &Import, first: String, second: String, weight: Textured<f64>) -> MaterialDescription {
     let has_back = |name: &String| import.description.materials.get(name).is_none_or(|part| part.two_sided != Some(false));
-    let sides = if has_back(&first) || has_back(&second) { None } else { Some(false) };
-    Ok(MaterialDescription { two_sided: sides, ..transparent(Blend { first, second, weight, by_side: false }) })
+    let two_sided = if has_back(&first) || has_back(&second) { None } else { Some(false) };
+    MaterialDescription { two_sided, ..transparent(Blend { first, second, weight, by_side: false }) }
+}
+
+/// Any number of BSDFs with a weight each. What the weights lack of 1 is black.
+pub fn mixture(import: &mut Import, element: Element, two_sided: bool) -> Result<MaterialDescription, SceneError> {
+    let parts = nested(element)?;
+    let Some(weights) = element.property("weights")? else { return blend(import, element, two_sided) };
+    let weights = weights.parse_numbers(weights.value()?)?;
+    if weights.len() != parts.len() || weights.iter().any(|weight| *weight < 0.0) {
+        return Err(
+            element.error("a mixture needs a weight of 0 or more for each BSDF within it", "such as \"0.7, 0.3\" for two")
+        );
+    }
+    let sum: f64 = weights.iter().sum();
+    if sum > 1.0 {
+        import.remark_value(element, "weights", "weights that add up to 1", "the surface is darker, and creates no light")?;
+    }
+    let mut mixed = one_or_two_sided(Lambertian { albedo: Textured::grey(0.0) }, two_sided);
+    let mut total = (1.0 - sum).max(0.0);
+    for (part, weight) in parts.into_iter().zip(weights).filter(|(_, weight)| *weight > 0.0) {
+        let second = import.surface(part, two_sided)?.material;
+        total += weight;
+        if total == weight {
+            mixed = import.description.materials.get(&second).cloned().unwrap_or_default();
+            continue;
+        }
+        let first = import.part_of(element, "part", mixed);
+        mixed = blended(import, first, second, Textured::Constant(weight / total));
+    }
+    Ok(mixed)
 }
 
 pub fn null(_: &mut Import, _: Element, _: bool) -> Result<MaterialDescription, SceneError> {

@@ -20,19 +20,20 @@ pub fn dielectric(import: &mut Import, element: Element, _: bool) -> Result<Mate
 pub fn rough_dielectric(import: &mut Import, element: Element, _: bool) -> Result<MaterialDescription, SceneError> {
     let [ior, ior_outside] = indices::interface(import, element, "bk7")?;
     let [specular_reflectance, specular_transmittance] = tints(import, element)?;
-    let facets = roughness::facets(import, element)?;
-    Ok(transparent(Dielectric {
-        ior,
-        ior_outside,
-        roughness: facets.roughness,
-        distribution: facets.distribution,
-        specular_reflectance,
-        specular_transmittance,
-        anisotropy: facets.anisotropy,
-        tangent_rotation: facets.tangent_rotation,
-        energy_compensation: false,
-        ..Dielectric::default()
-    }))
+    roughness::rough(import, element, |facets| {
+        transparent(Dielectric {
+            ior,
+            ior_outside,
+            roughness: facets.roughness,
+            distribution: facets.distribution,
+            specular_reflectance: specular_reflectance.clone(),
+            specular_transmittance: specular_transmittance.clone(),
+            anisotropy: facets.anisotropy,
+            tangent_rotation: facets.tangent_rotation,
+            energy_compensation: false,
+            ..Dielectric::default()
+        })
+    })
 }
 
 pub fn thin_dielectric(import: &mut Import, element: Element, _: bool) -> Result<MaterialDescription, SceneError> {

@@ -16,9 +16,11 @@ pub fn conductor(import: &mut Import, element: Element, two_sided: bool) -> Resu
 
 pub fn rough_conductor(import: &mut Import, element: Element, two_sided: bool) -> Result<MaterialDescription, SceneError> {
     let fresnel = reflectance(import, element)?;
-    let Facets { roughness, distribution, anisotropy, tangent_rotation } = roughness::facets(import, element)?;
-    let metal = Conductor { fresnel, roughness, distribution, anisotropy, tangent_rotation, energy_compensation: false };
-    Ok(one_or_two_sided(metal, two_sided))
+    roughness::rough(import, element, |Facets { roughness, distribution, anisotropy, tangent_rotation }| {
+        let fresnel = fresnel.clone();
+        let metal = Conductor { fresnel, roughness, distribution, anisotropy, tangent_rotation, energy_compensation: false };
+        one_or_two_sided(metal, two_sided)
+    })
 }
 
 /// A metal by its name or index, times `specular_reflectance`.

@@ -1,20 +1,25 @@
 //! BSDFs: one file per family.
 mod adapters;
 pub mod coat;
+mod coating;
 mod glass;
+mod highlights;
 mod indices;
+mod layer;
 mod metal;
 mod metals;
 mod opaque;
 mod principled;
 mod roughness;
+mod thin;
+mod widths;
 
 use super::{
     context::{Import, Surface},
     tree::Element,
 };
 use crate::{
-    material::{Lambertian, Material},
+    material::{Lambertian, Material, null::Null},
     scene::{
         SceneError,
         description::{MaterialDescription, Textured},
@@ -37,12 +42,19 @@ fn family(kind: &str) -> Option<Translate> {
         "conductor" => metal::conductor,
         "roughconductor" => metal::rough_conductor,
         "principled" => principled::principled,
-        "principledthin" => principled::principled_thin,
+        "principledthin" => thin::principled_thin,
         "bumpmap" | "bump" => adapters::bump_map,
         "normalmap" => adapters::normal_map,
         "mask" => adapters::mask,
         "twosided" => adapters::two_sided,
-        "blendbsdf" | "mixturebsdf" => adapters::blend,
+        "blendbsdf" => adapters::blend,
+        // Those of version 0.6.
+        "mixturebsdf" => adapters::mixture,
+        "phong" => highlights::phong,
+        "ward" => highlights::ward,
+        "coating" | "roughcoating" => coating::coating,
+        "difftrans" => layer::diffuse_transmitter,
+        "hk" => layer::scattering_layer,
         "null" => adapters::null,
         "measured" | "measured_polarized" | "neuralbsdf" | "acousticbsdf" => refused,
         _ => return None,
@@ -66,17 +78,24 @@ impl Import {
         Ok(surface)
     }
 
-    /// The material of shapes without a BSDF.
-    pub fn default_surface(&mut self) -> Surface {
-        const ELEMENT: (usize, bool) = (usize::MAX, false);
-        if let Some(known) = self.known_surfaces.get(&ELEMENT) {
-            return known.clone();
+    /// The material of shapes without a BSDF: grey, or the boundary of a medium alone.
+    pub fn default_surface(&mut self, is_boundary: bool) -> String {
+        let key = (usize::MAX, is_boundary);
+        if let Some(known) = self.known_surfaces.get(&key) {
+            return known.material.clone();
         }
         let name = self.materials.unique("default", "material");
-        self.description.materials.insert(name.clone(), one_or_two_sided(Lambertian { albedo: Textured::grey(0.5) }, false));
-        let surface = Surface { material: name, uses: super::context::Uses::default() };
-        self.known_surfaces.insert(ELEMENT, surface.clone());
-        surface
+        let grey = || one_or_two_sided(Lambertian { albedo: Textured::grey(0.5) }, false);
+        self.description.materials.insert(name.clone(), if is_boundary { transparent(Null) } else { grey() });
+        self.known_surfaces.insert(key, Surface { material: name.clone(), uses: super::context::Uses::default() });
+        name
+    }
+
+    /// Adds a part of a BSDF as a material, and returns its name.
+    fn part_of(&mut self, element: Element, part: &str, material: MaterialDescription) -> String {
+        let name = self.materials.unique(&format!("{} {part}", element.label()), "material");
+        self.description.materials.insert(name.clone(), material);
+        name
     }
 
     /// The description of a BSDF.

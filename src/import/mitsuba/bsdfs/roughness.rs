@@ -1,8 +1,14 @@
 //! Microfacets: their distribution and widths.
-use super::super::{context::Import, tree::Element};
+use super::{
+    super::{context::Import, tree::Element},
+    widths,
+};
 use crate::{
     material::{Distribution, Roughness},
-    scene::{SceneError, description::Textured},
+    scene::{
+        SceneError,
+        description::{MaterialDescription, Textured},
+    },
 };
 
 /// The facets of a rough surface.
@@ -15,31 +21,36 @@ pub struct Facets {
     pub tangent_rotation: f64,
 }
 
-/// The distribution, and the width of a surface with round highlights.
-pub fn facets(import: &mut Import, element: Element) -> Result<Facets, SceneError> {
+/// The surface that `build` makes of the facets. Where widths along u and v vary apart, it is a mixture of such surfaces.
+pub fn rough(
+    import: &mut Import,
+    element: Element,
+    build: impl Fn(Facets) -> MaterialDescription,
+) -> Result<MaterialDescription, SceneError> {
     let distribution = distribution(import, element)?;
     element.ignore(&["sample_visible"]);
+    let round = |alpha| Facets { roughness: Roughness::Alpha(alpha), distribution, anisotropy: 0.0, tangent_rotation: 0.0 };
     if !element.has("alpha_u") && !element.has("alpha_v") {
-        let alpha = import.fraction(element, "alpha", 0.1)?;
-        return Ok(Facets { roughness: Roughness::Alpha(alpha), distribution, anisotropy: 0.0, tangent_rotation: 0.0 });
+        return Ok(build(round(import.fraction(element, "alpha", 0.1)?)));
     }
     let [u, v] = [import.fraction(element, "alpha_u", 0.1)?, import.fraction(element, "alpha_v", 0.1)?];
-    match (u, v) {
-        (Textured::Constant(u), Textured::Constant(v)) => {
-            if u != v {
-                import.uses.coordinates = true;
-            }
-            Ok(widths(u, v, distribution))
-        }
-        (u, _) => {
-            import.remark_value(element, "alpha_v", "`alpha_u` in all directions", "highlights are round")?;
-            Ok(Facets { roughness: Roughness::Alpha(u), distribution, anisotropy: 0.0, tangent_rotation: 0.0 })
-        }
+    if u == v {
+        return Ok(build(round(u)));
     }
+    import.uses.coordinates = true;
+    if let (Textured::Constant(u), Textured::Constant(v)) = (&u, &v) {
+        return Ok(build(facets_of(*u, *v, distribution)));
+    }
+    if let Some(mixture) = widths::mixture(import, element, [&u, &v], &|[u, v]| build(facets_of(u, v, distribution)))? {
+        import.remark(element, "a mixture of surfaces of a few widths", "widths between them are approximated");
+        return Ok(mixture);
+    }
+    import.remark_value(element, "alpha_v", "`alpha_u` in all directions", "highlights are round")?;
+    Ok(build(round(u)))
 }
 
 /// Widths along u and v as a width and an anisotropy: α_t = α √(2/(1 + (1 − a)²)) and α_b = (1 − a) α_t.
-fn widths(u: f64, v: f64, distribution: Distribution) -> Facets {
+fn facets_of(u: f64, v: f64, distribution: Distribution) -> Facets {
     let (long, short) = (u.max(v), u.min(v));
     let anisotropy = if long > 0.0 { 1.0 - short / long } else { 0.0 };
     let alpha = (0.5 * (long * long + short * short)).sqrt();

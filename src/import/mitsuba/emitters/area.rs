@@ -1,5 +1,8 @@
 //! Shapes that emit.
-use super::super::{colours::Role, context::Import, tree::Element};
+use super::{
+    super::{colours::Role, context::Import, tree::Element},
+    dark,
+};
 use crate::{
     light::emission::{radiance::Radiance, texture::Texture},
     scene::{
@@ -15,7 +18,12 @@ pub fn emission(import: &mut Import, shape: Element) -> Result<Option<EmissionDe
     emitter.ignore(&["sampling_weight"]);
     match emitter.kind() {
         "area" => {
-            let source: EmissionSource = match import.colour(*emitter, "radiance", 1.0, Role::Emission)? {
+            let radiance = import.colour(*emitter, "radiance", 1.0, Role::Emission)?;
+            if dark::is_black(import, &radiance) {
+                dark::leave_out(import, *emitter);
+                return Ok(None);
+            }
+            let source: EmissionSource = match radiance {
                 Textured::Constant(radiance) => Radiance { radiance }.into(),
                 Textured::Texture(name) => Texture { name }.into(),
             };

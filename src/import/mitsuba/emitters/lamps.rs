@@ -4,8 +4,8 @@ use std::f64::consts::PI;
 use glam::{DAffine3, DVec3};
 
 use super::{
-    super::{colours::Role, context::Import, fov, textures::is_placed, tree::Element},
-    picture,
+    super::{bitmaps::is_placed, colours::Role, context::Import, fov, picture, tree::Element},
+    dark,
 };
 use crate::{
     image::Encoding,
@@ -26,7 +26,7 @@ use crate::{
 pub fn point(import: &mut Import, element: Element) -> Result<(), SceneError> {
     let map = element.affine("to_world")?;
     let position = element.vector("position")?.unwrap_or(map.translation);
-    let intensity = constant(import, element, "intensity")?;
+    let Some(intensity) = light(import, element, "intensity")? else { return Ok(()) };
     add(import, element, Point { position, intensity })
 }
 
@@ -39,13 +39,13 @@ pub fn directional(import: &mut Import, element: Element) -> Result<(), SceneErr
     };
     let direction = direction.try_normalize();
     let direction = direction.ok_or_else(|| element.error("the direction is zero", "such as value=\"0, 0, -1\""))?;
-    let irradiance = constant(import, element, "irradiance")?;
+    let Some(irradiance) = light(import, element, "irradiance")? else { return Ok(()) };
     add(import, element, Directional { direction, irradiance })
 }
 
 pub fn spot(import: &mut Import, element: Element) -> Result<(), SceneError> {
     let map = element.affine("to_world")?;
-    let intensity = constant(import, element, "intensity")?;
+    let Some(intensity) = light(import, element, "intensity")? else { return Ok(()) };
     let angle = element.number("cutoff_angle", 20.0)?.clamp(0.01, 180.0);
     let inner = element.number("beam_width", 0.75 * angle)?.clamp(0.0, angle);
     if let Some(texture) = element.property("texture")? {
@@ -73,6 +73,8 @@ fn of_picture(map: &DAffine3, image: Image, intensity: [f64; 3], [inner, angle]:
         up: -up,
         image: image.path,
         encoding: image.encoding,
+        wrap: image.wrap_u,
+        filter: image.filter,
         fov: 2.0 * angle,
         aspect: 1.0,
         scale,
@@ -88,28 +90,50 @@ pub fn projector(import: &mut Import, element: Element) -> Result<(), SceneError
     let scale = PI * element.number("scale", 1.0)?.max(0.0);
     let missing = || element.error("a projector needs its `irradiance`", "add `<texture name=\"irradiance\" type=\"bitmap\">`");
     let irradiance = element.property("irradiance")?.ok_or_else(missing)?;
-    let (path, encoding, aspect) = match import.constant(irradiance, Role::Emission)? {
-        Some(colour) => {
+    let colour = import.constant(irradiance, Role::Emission)?;
+    let shown = match colour {
+        None if irradiance.kind() == "bitmap" => Some(import.bitmap(irradiance)?),
+        _ => None,
+    };
+    let is_black = colour == Some([0.0; 3]) || shown.as_ref().is_some_and(|image| picture::is_black(import, image));
+    if scale == 0.0 || is_black {
+        dark::leave_out(import, element);
+        return Ok(());
+    }
+    let (image, aspect) = match (colour, shown) {
+        (Some(colour), _) => {
             let bytes = picture::plain(colour).ok_or_else(|| irradiance.error("the image cannot be made", ""))?;
-            (import.new_files.add_image(element.label(), "exr", bytes), Encoding::Linear, 1.0)
+            let path = import.new_files.add_image(element.label(), "exr", bytes);
+            (Image { path, encoding: Encoding::Linear, ..Image::default() }, 1.0)
         }
-        None if irradiance.kind() == "bitmap" => {
-            let image = import.bitmap(irradiance)?;
+        (None, Some(image)) => {
             let aspect =
                 picture::aspect(import, &image).ok_or_else(|| irradiance.error("the image cannot be read", "check the file"))?;
             if is_placed(&image) {
                 import.remark(irradiance, "the image without `to_uv`", "the image lies elsewhere");
             }
-            (image.path, image.encoding, aspect)
+            (image, aspect)
         }
-        None => return Err(irradiance.error("a projector shows images only", "use a `bitmap`")),
+        (None, None) => return Err(irradiance.error("a projector shows images only", "use a `bitmap`")),
     };
     let fov = fov::across_width(element, aspect)?.clamp(0.01, 179.0);
     let [position, target, up] = axes(&map);
     add(
         import,
         element,
-        Projector { position, target, up, image: path, encoding, fov, scale, flat: true, ..Projector::default() },
+        Projector {
+            position,
+            target,
+            up,
+            image: image.path,
+            encoding: image.encoding,
+            wrap: image.wrap_u,
+            filter: image.filter,
+            fov,
+            scale,
+            flat: true,
+            ..Projector::default()
+        },
     )
 }
 
@@ -118,9 +142,14 @@ fn axes(map: &DAffine3) -> [DVec3; 3] {
     [map.translation, map.transform_point3(DVec3::Z), map.transform_vector3(DVec3::Y)]
 }
 
-fn constant(import: &mut Import, element: Element, name: &str) -> Result<[f64; 3], SceneError> {
+/// The constant light of a lamp; `None` if it is black, and the lamp is left out.
+fn light(import: &mut Import, element: Element, name: &str) -> Result<Option<[f64; 3]>, SceneError> {
     match import.colour(element, name, 1.0, Role::Emission)? {
-        Textured::Constant(colour) => Ok(colour),
+        Textured::Constant([0.0, 0.0, 0.0]) => {
+            dark::leave_out(import, element);
+            Ok(None)
+        }
+        Textured::Constant(colour) => Ok(Some(colour)),
         Textured::Texture(_) => Err(element.error(format!("`{name}` cannot be a texture"), "use `<rgb>` or `<spectrum>`")),
     }
 }

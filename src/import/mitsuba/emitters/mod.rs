@@ -1,12 +1,18 @@
 //! Emitters: one file per family.
 pub mod area;
+mod dark;
+mod distorted;
 mod environment;
 mod lamps;
-mod picture;
 mod sun;
 
 use super::{context::Import, tree::Element};
 use crate::scene::SceneError;
+
+/// Whether an emitter belongs to the shapes that hold it or refer to it.
+pub fn is_of_shapes(element: Element) -> bool {
+    matches!(element.kind(), "area" | "directionalarea")
+}
 
 impl Import {
     /// Adds an emitter that belongs to no shape.
@@ -20,7 +26,6 @@ impl Import {
             "constant" => environment::constant(self, element),
             "envmap" => environment::image(self, element),
             "sunsky" | "sun" | "sky" => environment::sky(self, element),
-            "area" | "directionalarea" => Err(element.error("an area emitter outside of a shape", "nest it in a shape")),
             _ => {
                 self.remark(element, "nothing", "its light is missing");
                 element.children().for_each(|child| {

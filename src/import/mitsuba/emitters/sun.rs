@@ -11,13 +11,15 @@ use crate::scene::SceneError;
 /// Mean radius of the Earth over its distance from the sun.
 const PARALLAX: f64 = 6371.01 / 149_597_890.0;
 
-/// The direction towards the sun in a frame with z up; the defaults are those of Mitsuba, an afternoon in Tokyo.
-pub fn direction(element: Element) -> Result<DVec3, SceneError> {
+/// The direction towards the sun in Mitsuba's frame; the defaults are those of Mitsuba, an afternoon in Tokyo.
+pub fn direction(element: Element, is_old: bool) -> Result<DVec3, SceneError> {
     let number = |name: &str, default: f64| element.number(name, default);
     let (latitude, longitude) = (number("latitude", 35.6894)?, number("longitude", 139.6917)?);
     let hour = number("hour", 15.0)? + (number("minute", 0.0)? + number("second", 0.0)? / 60.0) / 60.0;
     let date = [number("year", 2010.0)?, number("month", 7.0)?, number("day", 10.0)?].map(|x| x.clamp(-1e6, 1e6) as i64);
-    Ok(towards_sun([latitude, longitude], date, hour - number("timezone", 9.0)?))
+    let sun = towards_sun([latitude, longitude], date, hour - number("timezone", 9.0)?);
+    // In version 0.6, y points up, x east and z south.
+    Ok(if is_old { DVec3::new(-sun.y, sun.z, sun.x) } else { sun })
 }
 
 /// `place` is latitude and longitude in degrees, `date` year, month and day, and `hours` universal time.

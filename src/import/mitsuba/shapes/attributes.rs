@@ -84,7 +84,7 @@ fn colour(channels: [Option<f64>; 3]) -> [f32; 4] {
 }
 
 /// A model whose triangles share no vertices. Smooth normals stay smooth.
-fn unwelded(model: &Model, face_normals: bool) -> Model {
+pub fn unwelded(model: &Model, face_normals: bool) -> Model {
     let smooth = || smooth_normals(&model.vertices, &model.triangles);
     let normals = (!face_normals).then(|| model.normals.clone().unwrap_or_else(smooth));
     let corners = || model.triangles.iter().flatten().map(|corner| *corner as usize);

@@ -2,10 +2,15 @@
 use std::path::Path;
 
 use super::{
-    super::{context::Import, tree::Element},
+    super::{
+        context::{Import, Lists},
+        tree::Element,
+    },
     Geometry, Placed, attributes,
 };
 use crate::{
+    declare::key_of_file,
+    memory::{Size, reserve},
     model::{Model, read_watched},
     scene::SceneError,
     shape::{Mesh, ShapeKind, mesh::MeshSource},
@@ -15,6 +20,8 @@ use crate::{
 pub struct Variant {
     /// Whether v of the file runs downwards.
     pub flip_v: bool,
+    /// Whether textures lie on it. Without coordinates of the file, each triangle is half of the unit square, as in Mitsuba.
+    pub charted: bool,
     /// Whether normals are those of the triangles.
     pub face_normals: bool,
 }
@@ -34,16 +41,17 @@ fn file(import: &mut Import, element: Element, placed: Placed, flips_by_default:
     let face_normals = element.flag("face_normals", false)?;
     // Mitsuba's v runs downwards, and that of a model upwards.
     let flip_v = !element.flag("flip_tex_coords", flips_by_default)? && placed.uses.coordinates;
+    let charted = placed.uses.coordinates && !lists(import, element, &path)?.uvs;
     let mirrors = placed.is_mirrored();
-    let flip = placed.flip ^ (mirrors && (face_normals || !has_normals(import, element, &path)?));
-    let shape = if flip_v || !placed.uses.attributes.is_empty() {
+    let flip = placed.flip ^ (mirrors && (face_normals || !lists(import, element, &path)?.normals));
+    let shape = if flip_v || charted || !placed.uses.attributes.is_empty() {
         let wanted: Vec<&String> = placed.uses.attributes.iter().collect();
-        let key = format!("{} {flip_v} {face_normals} {wanted:?}", path.display());
+        let key = format!("{} {flip_v} {charted} {face_normals} {wanted:?}", path.display());
         let name = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
         let file = import.shared_model(&key, &name, |import| {
             let mut model = read(import, element, &path)?;
             attributes::apply(import, element, &path, &mut model, placed.uses, face_normals)?;
-            let variant = Variant { flip_v, face_normals };
+            let variant = Variant { flip_v, charted, face_normals };
             Ok(variant.of(model))
         })?;
         in_memory(file, !face_normals)
@@ -61,6 +69,10 @@ impl Variant {
             && let Some(uvs) = &mut model.uvs
         {
             uvs.iter_mut().for_each(|uv| uv[1] = 1.0 - uv[1]);
+        }
+        if self.charted && model.uvs.is_none() {
+            model = attributes::unwelded(&model, self.face_normals);
+            model.uvs = Some([[0.0, 1.0], [1.0, 1.0], [0.0, 0.0]].repeat(model.triangles.len()));
         }
         if self.face_normals {
             model.normals = None;
@@ -80,14 +92,20 @@ pub fn in_memory(path: String, smooth: bool) -> ShapeKind {
     Mesh { source: MeshSource::File(path), smooth: (!smooth).then_some(false) }.into()
 }
 
-/// Whether a file has normals of its own. A mirror turns those of triangles round, and not those of the file.
-fn has_normals(import: &mut Import, element: Element, path: &Path) -> Result<bool, SceneError> {
-    if let Some(known) = import.known_normals.get(path) {
+/// What a file has. A mirror turns the normals of triangles round, and not those of the file. The compile need not read it again.
+fn lists(import: &mut Import, element: Element, path: &Path) -> Result<Lists, SceneError> {
+    if let Some(known) = import.known_lists.get(path) {
         return Ok(*known);
     }
-    let has_normals = read(import, element, path)?.normals.is_some();
-    import.known_normals.insert(path.to_owned(), has_normals);
-    Ok(has_normals)
+    let key = key_of_file(&import.files.compiled(path));
+    let model = read(import, element, path)?;
+    let lists = Lists { normals: model.normals.is_some(), uvs: model.uvs.is_some() };
+    import.known_lists.insert(path.to_owned(), lists);
+    let bytes = model.bytes();
+    if let Ok(memory) = reserve(format_args!("{} of a mesh", Size(bytes)), bytes) {
+        import.new_files.assets.hand_over(key, model, memory);
+    }
+    Ok(lists)
 }
 
 impl Import {

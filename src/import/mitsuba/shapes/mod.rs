@@ -107,20 +107,26 @@ impl Import {
         Ok(())
     }
 
+    /// The material of a shape. Lamps without a BSDF reflect nothing, as in Mitsuba.
+    fn covering(&mut self, element: Element) -> Result<Option<String>, SceneError> {
+        let bare = match element.objects(&["bsdf"])?.last() {
+            Some((_, bsdf)) => self.surface(*bsdf, false)?.material,
+            None if !element.objects(&["emitter"])?.is_empty() => return Ok(None),
+            None => self.default_surface(element.is_old() && !element.objects(&["medium"])?.is_empty()),
+        };
+        self.holding(element, bare).map(Some)
+    }
+
     fn object(&mut self, element: Element, around: &DAffine3) -> Result<(), SceneError> {
         let Some(translate) = family(element.kind()) else {
             let message = format!("the shape `{}`, which Noisefall does not render", element.kind());
             return Err(element.error(message, "replace it by a mesh, or remove it"));
         };
-        refuse_media(element)?;
         for (_, sensor) in element.objects(&["sensor"])? {
             self.remark(sensor, "nothing", "it measures nothing");
         }
-        let (surface, mut uses) = match element.objects(&["bsdf"])?.last() {
-            Some((_, bsdf)) => self.used(|import| import.surface(*bsdf, false))?,
-            None => (self.default_surface(), Uses::default()),
-        };
-        let (emission, emitted) = self.used(|import| area::emission(import, element))?;
+        let (surface, mut uses) = self.part(|import| import.used(|import| import.covering(element)))?.unwrap_or_default();
+        let (emission, emitted) = self.part(|import| import.used(|import| area::emission(import, element)))?.unwrap_or_default();
         uses.add(&emitted);
         element.ignore(&["silhouette_sampling_weight", "name"]);
         let map = *around * element.affine("to_world")?;
@@ -137,23 +143,12 @@ impl Import {
         self.description.objects.extend(geometries.into_iter().map(|Geometry { shape, map, flip }| ObjectDescription {
             name: element.label().to_owned(),
             shape,
-            material: Some(surface.material.clone()),
+            material: surface.clone(),
             emission: emission.clone(),
             flip,
             transform: Transform::list_of(&map),
             motion: Vec::new(),
         }));
         Ok(())
-    }
-}
-
-/// A shape with a medium inside or outside is an error.
-pub fn refuse_media(element: Element) -> Result<(), SceneError> {
-    match element.objects(&["medium"])?.first() {
-        Some((_, medium)) => Err(medium.error(
-            "the scene contains a participating medium, which Noisefall does not render",
-            "remove the media; clear glass absorbs by its `transmittance`",
-        )),
-        None => Ok(()),
     }
 }

@@ -20,15 +20,20 @@ pub fn sdf_grid(import: &mut Import, element: Element, placed: Placed) -> Result
     let path = import.file(element, "filename")?;
     let smooth = element.text("normals")? != Some("analytic");
     let name = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
-    let file = import.shared_model(&format!("sdfgrid {}", path.display()), &name, |import| {
+    let charted = placed.uses.coordinates;
+    let file = import.shared_model(&format!("sdfgrid {charted} {}", path.display()), &name, |import| {
         let bytes = read_file(element, &path)?;
         let error = |message: &str| {
             element
                 .error(format!("`{}`: {message}", path.display()), "a volume of Mitsuba, version 3, with one channel of numbers")
         };
         let grid = level_set(&bytes).ok_or_else(|| error("not a grid of distances"))?;
-        let model = grid.mesh(MOST_TRIANGLES.max(bytes.len() / BYTES_OF_TRIANGLE)).map_err(error)?;
+        let mut model = grid.mesh(MOST_TRIANGLES.max(bytes.len() / BYTES_OF_TRIANGLE)).map_err(error)?;
         import.remark(element, &format!("{} triangles", model.triangles.len()), "its surface and its normals are interpolated");
+        if charted {
+            // Mitsuba finds all textures at (0, 0), and v of a model runs upwards.
+            model.uvs = Some(vec![[0.0, 1.0]; model.vertices.len()]);
+        }
         Ok(model)
     })?;
     let flip = placed.flip ^ (!smooth && placed.is_mirrored());

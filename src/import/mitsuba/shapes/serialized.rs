@@ -13,7 +13,8 @@ pub fn serialized(import: &mut Import, element: Element, placed: Placed) -> Resu
     let number = element.integer("shape_index")?.unwrap_or(0);
     let face_normals = element.flag("face_normals", false)?;
     let flip_v = !element.flag("flip_tex_coords", false)?;
-    let key = format!("{} {number} {flip_v} {face_normals}", path.display());
+    let charted = placed.uses.coordinates;
+    let key = format!("{} {number} {flip_v} {charted} {face_normals}", path.display());
     let name = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
     let file = import.shared_model(&key, &name, |import| {
         let error = |message: &str| element.error(format!("the mesh cannot be read: {message}"), "this file cannot be used");
@@ -22,7 +23,7 @@ pub fn serialized(import: &mut Import, element: Element, placed: Placed) -> Resu
             Entry::Vacant(free) => free.insert(Packed::read(&path).map_err(|reason| error(&reason))?),
         };
         let model = packed.mesh(number).map_err(|reason| error(&reason))?;
-        Ok(Variant { flip_v, face_normals }.of(model))
+        Ok(Variant { flip_v, charted, face_normals }.of(model))
     })?;
     let mirrors = placed.is_mirrored();
     let has_normals = import.new_files.assets.get::<Model>(&file).is_some_and(|model| model.normals.is_some());

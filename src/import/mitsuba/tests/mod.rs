@@ -2,8 +2,11 @@
 mod clouds_and_grids;
 mod curves;
 mod emitters;
+mod files;
 mod hostile;
+mod legacy;
 mod materials;
+mod media;
 mod sensors;
 mod shapes;
 mod shared;
@@ -125,4 +128,20 @@ fn the_depth_of_paths_counts_edges() {
     assert_eq!(bounces("<integrator type=\"path\"/>"), None);
     let estimator = |kind: &str| scene(&format!("<integrator type=\"{kind}\"/>{SENSOR}")).description.render.settings.estimator;
     assert_eq!(["path", "bdpt"].map(estimator), [Estimator::Mis, Estimator::Bidirectional]);
+}
+
+#[test]
+fn photons_become_merged_vertices_and_mutations_paths_from_both_ends() {
+    let settings = |kind: &str| {
+        let found =
+            scene(&format!("<integrator type=\"{kind}\"><integer name=\"photonCount\" value=\"9\"/></integrator>{SENSOR}"));
+        assert!(found.remarks.is_empty(), "{:?}", remarks(&found));
+        (found.description.render.settings.estimator, found.description.render.settings.merging)
+    };
+    for kind in ["photonmapper", "ppm", "sppm"] {
+        assert_eq!(settings(kind), (Estimator::Bidirectional, true), "{kind}");
+    }
+    for kind in ["mlt", "pssmlt", "erpt"] {
+        assert_eq!(settings(kind), (Estimator::Bidirectional, false), "{kind}");
+    }
 }

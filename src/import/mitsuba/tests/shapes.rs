@@ -165,3 +165,23 @@ fn shapes_that_are_not_rendered_are_refused_by_name() {
     );
     assert!(refused(&medium).contains("participating medium, which Noisefall does not render"));
 }
+
+#[test]
+fn textures_on_meshes_without_coordinates_cover_half_of_the_unit_square_in_each_triangle() {
+    let mesh = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
+    let model = |bsdf: &str, mesh: &str| {
+        let text = format!(
+            "<scene version=\"3.0.0\">{SENSOR}<shape type=\"obj\"><string name=\"filename\" value=\"a.obj\"/>{bsdf}</shape></scene>"
+        );
+        let imported = read_with(&[("a.obj", mesh)], &text, &ImportOptions::default()).expect("it is valid");
+        let ShapeKind::Mesh(mesh) = &imported.description.objects[0].shape else { panic!("not a mesh") };
+        let MeshSource::File(path) = &mesh.source else { panic!("not a file") };
+        imported.assets.get::<Model>(path)
+    };
+    // v of a model runs upwards. The corners of each triangle are at (0, 0), (1, 0) and (0, 1) of the image.
+    let charted = model(SQUARES, mesh).expect("it is in memory");
+    assert_eq!((charted.vertices.len(), charted.uvs.clone()), (6, Some([[0.0, 1.0], [1.0, 1.0], [0.0, 0.0]].repeat(2))));
+    assert!(charted.normals.is_some(), "its vertices are smooth");
+    assert!(model("", mesh).is_none());
+    assert!(model(SQUARES, &format!("vt 0 0\n{}", mesh.replace("1 2 3 4", "1/1 2/1 3/1 4/1"))).is_none());
+}

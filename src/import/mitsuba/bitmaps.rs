@@ -1,0 +1,83 @@
+//! Images of textures. The coordinates of Mitsuba's images run downwards, as ours do.
+use glam::{DMat4, DVec2};
+
+use super::{context::Import, tree::Element};
+use crate::{
+    image::Encoding,
+    scene::SceneError,
+    texture::image::{Image, TexelFilter, Wrap},
+};
+
+impl Import {
+    /// An image file.
+    pub fn bitmap(&mut self, element: Element) -> Result<Image, SceneError> {
+        element.ignore(&["format", "accel", "filter_min", "mipmap", "max_anisotropy", "cache", "gamma"]);
+        self.uses.coordinates = true;
+        let path = self.file(element, "filename")?;
+        let raw = element.flag("raw", false)? || element.optional_number("gamma")? == Some(1.0);
+        let both = self.wrap(element, "wrap_mode", Wrap::Repeat)?;
+        // Version 0.6 knows one for each axis.
+        let (wrap_u, wrap_v) = (self.wrap(element, "wrap_mode_u", both)?, self.wrap(element, "wrap_mode_v", both)?);
+        let filter = match element.text("filter_type")?.unwrap_or("bilinear") {
+            "nearest" => TexelFilter::Nearest,
+            _ => TexelFilter::Bilinear,
+        };
+        let placed = self.placement(element)?;
+        let described = self.files.folder.described(&path);
+        self.images.insert(described.clone(), path);
+        Ok(Image {
+            path: described,
+            encoding: if raw { Encoding::Linear } else { Encoding::Srgb },
+            wrap_u,
+            wrap_v,
+            filter,
+            ..placed
+        })
+    }
+
+    /// The placement by `to_uv`.
+    pub fn placement(&mut self, element: Element) -> Result<Image, SceneError> {
+        let map = element.transform("to_uv")?;
+        let number = |name: &str, default: f64| element.number(name, default);
+        let old = DMat4::from_scale(DVec2::new(number("uscale", 1.0)?, number("vscale", 1.0)?).extend(1.0))
+            * DMat4::from_translation(DVec2::new(number("uoffset", 0.0)?, number("voffset", 0.0)?).extend(0.0));
+        decomposed(map * old).ok_or_else(|| element.error("`to_uv` flattens the texture", "check its numbers"))
+    }
+
+    fn wrap(&mut self, element: Element, name: &str, default: Wrap) -> Result<Wrap, SceneError> {
+        Ok(match element.text(name)? {
+            None => default,
+            Some("repeat") => Wrap::Repeat,
+            Some("mirror") => Wrap::Mirror,
+            Some("clamp") => Wrap::Clamp,
+            Some("zero" | "black") => Wrap::Black,
+            Some("one" | "white") => {
+                self.remark_value(element, name, "`clamp`", "the edge of the image continues")?;
+                Wrap::Clamp
+            }
+            Some(other) => return Err(element.error(format!("`{other}` is not a wrap mode"), "repeat, mirror or clamp")),
+        })
+    }
+}
+
+/// Whether an image lies elsewhere than over the unit square.
+pub fn is_placed(image: &Image) -> bool {
+    image.scale != [1.0; 2] || image.shear != 0.0 || image.rotate != 0.0 || image.offset != [0.0; 2]
+}
+
+/// Scale, shear, rotation and offset of a map of the plane; `None` if it flattens the plane.
+fn decomposed(map: DMat4) -> Option<Image> {
+    let column = |i: usize| map.col(i).truncate().truncate();
+    let (u, v, offset) = (column(0), column(1), column(3));
+    let rotate = u.y.atan2(u.x);
+    let (along, across) = (DVec2::from_angle(rotate), DVec2::from_angle(rotate).perp());
+    let scale = [u.length(), v.dot(across)];
+    if scale[0] == 0.0 || scale[1].abs() <= 1e-12 * v.length() {
+        return None;
+    }
+    let degrees = if u.y == 0.0 && u.x > 0.0 { 0.0 } else { rotate.to_degrees() };
+    // Rotations and scales of the file round.
+    let shear = v.dot(along) / scale[1];
+    let shear = if shear.abs() <= 1e-9 { 0.0 } else { shear };
+    Some(Image { scale, shear, rotate: degrees, offset: offset.to_array(), ..Image::default() })
+}
