@@ -106,6 +106,42 @@ fn a_screen_lets_one_minus_its_opacity_of_the_light_pass() {
     }
 }
 
+/// Lamps with and without surface, between which light is chosen. The screen has the number that follows those of the emitters.
+#[test]
+fn a_screen_dims_lamps_with_and_without_surface_alike() {
+    let without_surface = "[[lamps]]
+        point = { position = [0, 2, 0], intensity = 0.3 }
+        [[lamps]]
+        spot = { position = [0, 2, 0], target = [0, 0, 0], intensity = 0.2, angle = 30, inner = 20 }
+        [[lamps]]
+        projector = { position = [0, 2, 0], target = [0, 0, 0], up = [0, 0, -1], fov = 50, scale = 0.1 }
+        [[lamps]]
+        directional = { direction = [3, -4, 0], irradiance = 0.1 }\n";
+    let irradiance = (0.3 + 0.2 + 0.1) / 4.0 + 0.1 * 0.8;
+    for (opacity, passed) in [("0.5", 0.5), ("{ texture = 'third' }", 2.0 / 3.0)] {
+        for (surfaces, of_surfaces) in [(String::new(), 0.0), (lamp(""), LAMP)] {
+            let scene = scene(&format!(
+                "{}textures.third.checker = {{ even = 0.333333333, odd = 0.333333333, scale = 3 }}
+                materials.floor.lambertian.albedo = 0.5
+                materials.screen = {{ lambertian.albedo = 0.0, opacity = {opacity} }}
+                {}{surfaces}{without_surface}[[objects]]
+                shape.rectangle = {{ origin = [-2, 0.5, -2], edge_u = [0, 0, 4], edge_v = [4, 0, 0] }}
+                material = 'screen'",
+                camera([0.0, 0.25, 0.0], 0.01),
+                sheet("floor"),
+            ));
+            let exact = 0.5 * passed * (of_surfaces + irradiance / std::f64::consts::PI);
+            for estimator in WITH_CAMERA_PATHS {
+                let found = picture(&scene, settings(estimator), RED, 512).whole();
+                // The view is a centimetre wide, and the lamps 2 m away.
+                let allowed = 4.0 * found.variance_of_mean.sqrt() + 2e-5 * exact;
+                let what = format!("{} finds {} for {exact} through {opacity}", estimator.name(), found.mean);
+                assert!((found.mean - exact).abs() < allowed, "{what}");
+            }
+        }
+    }
+}
+
 /// A ray of the floor crosses the lamp twice: near side first.
 #[test]
 fn a_lamp_of_some_opacity_shows_both_of_its_sides() {

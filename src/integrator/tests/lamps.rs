@@ -17,7 +17,11 @@ fn scene(head: &str, rest: &str) -> Scene {
 
 /// One pixel that sees the floor at (x, 0, 0).
 fn at(x: f64, rest: &str) -> Scene {
-    let head = format!("camera = {{ eye = [{x}, 0.5, 3], look_at = [{x}, 0, 0], fov = 0.02, resolution = [1, 1] }}");
+    at_with("", x, rest)
+}
+
+fn at_with(materials: &str, x: f64, rest: &str) -> Scene {
+    let head = format!("{materials}camera = {{ eye = [{x}, 0.5, 3], look_at = [{x}, 0, 0], fov = 0.02, resolution = [1, 1] }}");
     scene(&head, &format!("{FLOOR}{rest}"))
 }
 
@@ -83,6 +87,50 @@ fn a_surface_in_between_hides_a_lamp_and_one_behind_it_does_not() {
     is_lit_by(&at(1.0, &format!("{}{sun}", disk(1e4))), [1.0; 3]);
     // Below the floor.
     is_lit_by(&at(0.0, "[[lamps]]\npoint = { position = [0, -2, 0], intensity = 8 }"), [0.0; 3]);
+}
+
+#[test]
+fn surfaces_of_some_opacity_dim_all_lamps() {
+    // Primitives that do not emit are numbered on where lamps begin: each number of a lamp is that of a screen, too.
+    let lamps = [
+        "point = { position = [0, 2, 0], intensity = 8 }",
+        "directional = { direction = [0, -1, 0], irradiance = 2 }",
+        "spot = { position = [0, 2, 0], target = [0, 0, 0], intensity = 8, angle = 30, inner = 20 }",
+        "projector = { position = [0, 2, 0], target = [0, 0, 0], up = [0, 0, -1], fov = 50, scale = 8 }",
+    ];
+    let screen = |height: f64| {
+        format!(
+            "[[objects]]\nshape.disk = {{ center = [0, {height}, 0], normal = [0, -1, 0], radius = 0.3 }}\nmaterial = 'screen'\n"
+        )
+    };
+    let screens: String = [0.6, 0.9, 1.2, 1.5].map(screen).concat();
+    let quarter = "materials.screen = { lambertian.albedo = 0, opacity = 0.75 }\n";
+    for (count, lamp) in (1..).zip(lamps) {
+        is_lit_by(&at_with(quarter, 0.0, &format!("{screens}[[lamps]]\n{lamp}\n")), [2.0 / 256.0; 3]);
+        let lamps: String = lamps[..count].iter().map(|lamp| format!("[[lamps]]\n{lamp}\n")).collect();
+        let [(found, error), ..] = mean(&at_with(quarter, 0.0, &format!("{screens}{lamps}")), Estimator::Light, Reuse::Off, 200);
+        let exact = 0.5 / std::f64::consts::PI * 2.0 / 256.0 * count as f64;
+        assert!((found - exact).abs() < 1e-3 * exact + 4.0 * error, "{count} lamps: {found} ± {error} for {exact}");
+    }
+}
+
+#[test]
+fn all_estimators_agree_where_light_of_lamps_and_emitters_passes_through_surfaces() {
+    let materials = "\nmaterials.screen = { lambertian.albedo = [0.2, 0.5, 0.7], opacity = 0.5 }
+        materials.leaf = { blend = { first = 'screen', second = 'coated', weight = 0.4 } }
+        materials.hole = { blend = { first = 'screen', second = 'null', weight = 0.5 } }
+        materials.null.null = {}\n";
+    let screens = ["screen", "leaf", "hole"].iter().zip([1.6, 1.9, 2.2]).map(|(material, height)| {
+        format!(
+            "[[objects]]\nshape.rectangle = {{ origin = [-3, {height}, 2], edge_u = [6, 0, 0], edge_v = [0, 0.2, -4] }}\n\
+             material = '{material}'\n"
+        )
+    });
+    let screens: String = screens.collect();
+    let shell = AREA.replace("emission", "material = 'screen'\nemission");
+    for area in ["", AREA, &shell] {
+        agree(&scene(&[VIEW, materials].concat(), &[FLOOR, BALLS, &screens, area, ALL_LAMPS].concat()), 300);
+    }
 }
 
 #[test]

@@ -85,6 +85,6 @@ impl Lights {
             primitive: free.pick(l.u(MISS), nearest.primitive),
             element: nearest.element,
         };
-        (free | (hit & !lamps), end)
+        (free | hit, end)
     }
 }

@@ -111,15 +111,15 @@ impl Lights {
         lights
     }
 
-    /// The number of the light at a triangle of a primitive, [`MISS`] for the background.
+    /// The number of the light at a triangle of a primitive, [`MISS`] for the background. A primitive that does not emit has a number
+    /// that no light has: its own could be that of a lamp without surface.
     #[inline(always)]
     pub fn light_at<L: Lanes>(&self, l: L, primitive: U<L>, element: U<L>) -> U<L> {
-        if self.firsts.is_empty() {
-            return primitive;
-        }
-        // What does not emit has a number that no light has.
         let dark = primitive.is(MISS).pick(primitive, l.u(MISS - 1));
         let emits = self.emitters.emits(primitive);
+        if self.firsts.is_empty() {
+            return emits.pick(primitive, dark);
+        }
         if !emits.any() {
             return dark;
         }
