@@ -1,7 +1,10 @@
 //! Noise and time of settings, from several images of each.
 use rayon::prelude::*;
 
-use super::rounds::{RoundPicture, Series};
+use super::{
+    missing::missing,
+    rounds::{RoundPicture, Series},
+};
 use crate::{measure::Floor, scene::RenderSettings, study::outcome::ROUNDING};
 
 /// Measurements of some settings, by round.
@@ -17,6 +20,17 @@ pub struct Measured {
     pub differences: Vec<Vec<f64>>,
     /// The light in the mean of these images, relative to m; about 1.
     pub found: f64,
+    /// A lower bound of the relMSE of an image, from light that other settings have found in addition.
+    pub missing: f64,
+}
+
+/// The mean of the images of some settings.
+pub struct Means {
+    pub radiance: Vec<f64>,
+    /// That of one image, from the spread of the images.
+    pub rel_mse: f64,
+    /// Number of images.
+    pub count: f64,
 }
 
 /// Compares the images of several settings, which must all converge to the same image.
@@ -25,7 +39,17 @@ pub fn measured(series: &[Series]) -> Vec<Measured> {
     let floor = Floor::DEFAULT.of(common.iter().map(|m| m * m).sum::<f64>() / common.len().max(1) as f64);
     // If no image has light, all distances are 0.
     let weights: Vec<f64> = common.iter().map(|m| 1.0 / (m * m + floor).max(f64::MIN_POSITIVE)).collect();
-    series.iter().map(|series| Measured::of(series, &common, &weights)).collect()
+    let mut all: Vec<Measured> = series.iter().map(|series| Measured::of(series, &common, &weights)).collect();
+    let of_settings = |(series, measured): (&Series, &Measured)| Means {
+        radiance: mean(series.pictures.iter()),
+        rel_mse: measured.rel_mse(&measured.rounds),
+        count: series.pictures.len() as f64,
+    };
+    let means: Vec<Means> = series.iter().zip(&all).map(of_settings).collect();
+    for (own, measured) in means.iter().zip(&mut all) {
+        measured.missing = means.iter().map(|other| missing(own, other, &common, floor)).fold(0.0, f64::max);
+    }
+    all
 }
 
 /// The mean of images, per channel of each pixel.
@@ -58,6 +82,7 @@ impl Measured {
             log_seconds: pictures.iter().map(|picture| picture.seconds.ln()).collect(),
             differences: (0..pictures.len()).into_par_iter().map(before).collect(),
             found: if light > 0.0 { along(&own) / light } else { 1.0 },
+            missing: 0.0,
         }
     }
 
@@ -81,9 +106,14 @@ impl Measured {
         f64::exp(sum / count)
     }
 
-    /// The relMSE, but at least that of rounding.
+    /// The relMSE, but at least that of missing light and of rounding.
     pub fn noise(&self, rounds: &[u32]) -> f64 {
-        self.rel_mse(rounds).max(ROUNDING)
+        self.rel_mse(rounds).max(self.missing).max(ROUNDING)
+    }
+
+    /// Whether these settings miss light that makes up more of their error than what their images show.
+    pub fn misses_light(&self) -> bool {
+        self.missing > self.rel_mse(&self.rounds)
     }
 
     /// Indices of the images of these rounds.

@@ -10,6 +10,7 @@
 mod candidate;
 mod candidates;
 mod measured;
+mod missing;
 mod rank;
 mod rounds;
 #[cfg(test)]
