@@ -114,7 +114,7 @@ mod tests {
         };
         let harness = Harness::builder().build_ui(|ui| assert!(!row(ui, &candidate, true, false)));
         assert!(harness.query_by_label("5.00 %").is_some() && harness.query_by_label("2.00 ± 0.20").is_some());
-        let misses = Candidate { misses_light: true, ..candidate };
+        let misses = Candidate { misses_light: true, ..candidate.clone() };
         let harness = Harness::builder().build_ui(|ui| assert!(!row(ui, &misses, true, false)));
         assert!(harness.query_by_label("≥ 5.00 %").is_some());
     }
