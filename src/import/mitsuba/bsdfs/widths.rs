@@ -18,7 +18,9 @@ use crate::{
 };
 
 /// Levels of an image, a power of two.
-const LEVELS: usize = 4;
+const LEVELS: usize = 8;
+/// Narrower facets are as smooth.
+const SMOOTH: f32 = 1e-3;
 
 /// The levels of a width, and the weights of the upper half of each part of them: of all, then of the lower half and its parts, then of
 /// the upper half and its parts.
@@ -85,11 +87,13 @@ impl Axis {
 
     fn of_image(import: &mut Import, element: Element, name: &str, image: &Image) -> Result<Option<Axis>, SceneError> {
         let Some(picture) = picture::read(import, image) else { return Ok(None) };
-        let values: Vec<f32> = picture.radiance.iter().map(|pixel| luminance(*pixel).clamp(0.0, 1.0)).collect();
-        let (least, most) = values.iter().fold((1.0_f32, 0.0_f32), |(least, most), value| (least.min(*value), most.max(*value)));
+        // Equal steps of the logarithm: highlights are brighter by the square of a width, and a mixture of two by no more than 6 %.
+        let values: Vec<f32> = picture.radiance.iter().map(|pixel| luminance(*pixel).clamp(SMOOTH, 1.0).ln()).collect();
+        let start = (f32::INFINITY, f32::NEG_INFINITY);
+        let (least, most) = values.iter().fold(start, |(least, most), value| (least.min(*value), most.max(*value)));
         let step = (most - least) / (LEVELS - 1) as f32;
         if step < 1e-4 {
-            return Ok(Some(Axis { levels: vec![f64::from(least)], weights: Vec::new() }));
+            return Ok(Some(Axis { levels: vec![f64::from(least).exp()], weights: Vec::new() }));
         }
         let mut weights = Vec::new();
         for [start, middle, end] in halves(0, LEVELS) {
@@ -101,7 +105,7 @@ impl Axis {
             let weight = Image { path, encoding: Encoding::Linear, ..image.clone() };
             weights.push(Textured::Texture(import.add_texture(&format!("{name} weight"), weight)));
         }
-        let levels = (0..LEVELS).map(|level| f64::from(least + step * level as f32)).collect();
+        let levels = (0..LEVELS).map(|level| f64::from(least + step * level as f32).exp()).collect();
         Ok(Some(Axis { levels, weights }))
     }
 }
@@ -129,7 +133,8 @@ mod tests {
 
     #[test]
     fn weights_mix_the_two_levels_around_a_place() {
-        let nodes = halves(0, LEVELS);
+        assert_eq!(halves(0, LEVELS).len(), LEVELS - 1);
+        let nodes = halves(0, 4);
         assert_eq!(nodes, [[0, 2, 4], [0, 1, 2], [2, 3, 4]]);
         for place in [0.0, 0.25, 1.0, 1.5, 2.75, 3.0_f32] {
             let [root, lower, above] = [0, 1, 2].map(|node| upper(place, nodes[node]));
