@@ -66,7 +66,7 @@ pub use self::{
     named_file::{NamedFile, key_of_file},
     outline::{Alternative, Choice, Entry, Looks, Outline},
     owned::OwnedValue,
-    parameter::{CountRange, Parameter, Range, SliderScale, capitalised, key_in_words},
+    parameter::{CountRange, Meaning, Parameter, Range, SliderScale, capitalised, key_in_words},
     path::{Path, Step},
     precision::Precision,
     problem::{Problem, nearest, short},

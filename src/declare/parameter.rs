@@ -19,12 +19,27 @@ pub struct Parameter {
     pub title: &'static str,
     /// Advice for those who use an alias or a value of a wrong type.
     pub advice: &'static str,
+    /// Its meaning, if kinds have it under different keys.
+    pub meaning: Option<Meaning>,
+}
+
+/// The meaning of a parameter that kinds have under different keys. A change of kind keeps its value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Meaning {
+    /// The colour of a surface in white light, such as its albedo.
+    Colour,
+    /// The square root of the width α of the microfacet slopes.
+    Roughness,
+    /// The width α of the microfacet slopes.
+    SlopeWidth,
+    /// The index of refraction behind a surface.
+    IndexOfRefraction,
 }
 
 impl Parameter {
     /// A parameter with its key and its sentence.
     pub const fn new(key: &'static str, doc: &'static str) -> Parameter {
-        Parameter { key, doc, symbol: "", unit: "", is_required: false, aliases: "", title: "", advice: "" }
+        Parameter { key, doc, symbol: "", unit: "", is_required: false, aliases: "", title: "", advice: "", meaning: None }
     }
 
     /// The same, but a scene file must give it.
@@ -55,6 +70,19 @@ impl Parameter {
     /// The same with advice.
     pub const fn advice(self, advice: &'static str) -> Parameter {
         Parameter { advice, ..self }
+    }
+
+    /// The same with a meaning.
+    pub const fn means(self, meaning: Meaning) -> Parameter {
+        Parameter { meaning: Some(meaning), ..self }
+    }
+
+    /// Whether a value of one parameter is one of the other: they have the same declared meaning, or else the same key and symbol.
+    pub fn means_same(&self, other: &Parameter) -> bool {
+        match (self.meaning, other.meaning) {
+            (None, None) => (self.key, self.symbol) == (other.key, other.symbol),
+            (one, another) => one == another,
+        }
     }
 
     /// Its label in the window: the title, or else the key in words.
@@ -170,6 +198,16 @@ impl CountRange {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn parameters_of_one_key_mean_the_same_unless_symbol_or_declaration_differ() {
+        const T: Parameter = Parameter::new("transmittance", "").symbol("T").unit("m⁻¹");
+        assert!(T.means_same(&T.required().title("Tint")));
+        assert!(!T.means_same(&T.symbol("τ")) && !T.means_same(&Parameter { key: "tint", ..T }));
+        let albedo = Parameter::new("albedo", "").means(Meaning::Colour);
+        assert!(albedo.means_same(&Parameter::new("f0", "").symbol("F₀").means(Meaning::Colour)));
+        assert!(!albedo.means_same(&Parameter::new("albedo", "")) && !albedo.means_same(&albedo.means(Meaning::Roughness)));
+    }
 
     #[test]
     fn a_sentence_begins_with_a_capital() {

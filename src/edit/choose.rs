@@ -16,7 +16,7 @@ pub enum ChoiceOutcome {
 }
 
 /// Chooses the alternative `name` of the choice `what` in the table at a path. A parameter keeps its value if the former alternative
-/// has one of the same key and type, and if the value is in range.
+/// has one of the same key, meaning and type, and if the value is in range.
 pub fn choose(description: &mut dyn Declare, path: &Path, what: &str, name: &str) -> ChoiceOutcome {
     let mut places = HashMap::new();
     let mut kept = HashMap::new();
@@ -33,7 +33,7 @@ type Place = Vec<Step>;
 
 /// An answer of the former alternative at a place.
 enum FormerAnswer {
-    Value(OwnedValue),
+    Value(Box<(Parameter, OwnedValue)>),
     Items(usize),
     Present,
 }
@@ -95,8 +95,10 @@ impl Parameters for Chooser<'_, '_> {
         let place = self.within.at(parameter.key);
         let was = OwnedValue::of(&value);
         if self.name.is_none() {
-            self.kept.insert(place, FormerAnswer::Value(was));
-        } else if let Some(FormerAnswer::Value(kept)) = self.kept.get(&place)
+            self.kept.insert(place, FormerAnswer::Value(Box::new((*parameter, was))));
+        } else if let Some(FormerAnswer::Value(former)) = self.kept.get(&place)
+            && let (before, kept) = &**former
+            && before.means_same(parameter)
             && kept.assign(&mut value)
             && check_value(parameter, &value).is_some()
         {

@@ -1,43 +1,43 @@
-//! Values of a material by their meaning, whatever its kind calls them.
+//! Values of a material by their declared meaning, whatever its kind calls them.
 use super::{choose::choose, set::set};
 use crate::{
-    declare::{Declare, Form, OneOf, OwnedValue, Parameter, Parameters, Path, Range, Step, Textured, Value},
+    declare::{Declare, Form, Meaning, OneOf, OwnedValue, Parameter, Parameters, Path, Range, Textured, Value},
     material::Material,
     scene::description::MaterialDescription,
 };
 
-/// A value that several kinds have under different keys.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Meaning {
-    /// The first colour that can be a texture.
-    Colour,
-    Roughness,
-    IndexOfRefraction,
-}
+/// Meanings of which a kind has one at most.
+const COLOUR: &[Meaning] = &[Meaning::Colour];
+const ROUGHNESS: &[Meaning] = &[Meaning::Roughness, Meaning::SlopeWidth];
+const INDEX: &[Meaning] = &[Meaning::IndexOfRefraction];
 
-/// A value, its path in the material, and its range.
+/// A value, its path in the material, its parameter, and its range.
 struct FoundValue {
     path: Path,
     value: OwnedValue,
+    parameter: Parameter,
     range: Range,
 }
 
-/// The path of the first colour of a material that can be a texture. `None` if it has none.
+/// The path of the colour of a material, or else of the first colour that can be a texture, such as that of a pane. `None` if it has none.
 pub fn colour(material: &MaterialDescription) -> Option<Path> {
-    first(&mut material.clone(), Meaning::Colour).map(|found| found.path)
+    let mut material = material.clone();
+    let is_meant = |parameter: &Parameter, _: &Value<'_>| parameter.meaning == Some(Meaning::Colour);
+    let is_colour = |_: &Parameter, value: &Value<'_>| matches!(value, Value::Textured(..));
+    let found = found(&mut material, &is_meant).or_else(|| found(&mut material, &is_colour));
+    found.map(|found| found.path)
 }
 
 /// What a material had before a change of kind that would lose it because the new kind has another key for it, and the new paths.
 pub fn kept_by_kind(material: &MaterialDescription, kind: &str) -> Vec<(Path, OwnedValue)> {
     let mut changed = material.clone();
     choose(&mut changed, &Path::default(), Material::WHAT, kind);
-    let kept = |meaning| {
-        let (before, after) = (first(&mut material.clone(), meaning)?, first(&mut changed.clone(), meaning)?);
-        let has_other_key = before.path.0.last() != after.path.0.last();
+    let kept = |meanings| {
+        let (before, after) = (of_meaning(&mut material.clone(), meanings)?, of_meaning(&mut changed.clone(), meanings)?);
+        let has_other_key = before.parameter.key != after.parameter.key;
         has_other_key.then(|| after.takes(&before)).flatten().map(|value| (after.path, value))
     };
-    let mut all: Vec<_> =
-        [Meaning::Colour, Meaning::Roughness, Meaning::IndexOfRefraction].into_iter().filter_map(kept).collect();
+    let mut all: Vec<_> = [COLOUR, ROUGHNESS, INDEX].into_iter().filter_map(kept).collect();
     for (path, value) in &all {
         _ = set(&mut changed, path, value);
     }
@@ -51,7 +51,7 @@ pub fn kept_by_kind(material: &MaterialDescription, kind: &str) -> Vec<(Path, Ow
 /// Half of the colour, if the kind cannot have all of it: a sheet scatters to both sides. A texture, whose colours are not known here,
 /// counts as white.
 fn halved_colour(material: &mut MaterialDescription) -> Option<(Path, OwnedValue)> {
-    let FoundValue { path, value, .. } = first(material, Meaning::Colour)?;
+    let FoundValue { path, value, .. } = of_meaning(material, COLOUR)?;
     let rgb = if let OwnedValue::Textured(Textured::Constant(rgb)) = value { rgb } else { [1.0; 3] };
     let constant = |rgb| OwnedValue::Textured(Textured::Constant(rgb));
     _ = set(material, &path, &constant(rgb));
@@ -61,7 +61,7 @@ fn halved_colour(material: &mut MaterialDescription) -> Option<(Path, OwnedValue
 impl FoundValue {
     /// The value of another one as this one stores it.
     fn takes(&self, other: &FoundValue) -> Option<OwnedValue> {
-        let is_alpha = |found: &FoundValue| matches!(found.path.0.last(), Some(Step::Key(key)) if key == ALPHA);
+        let is_alpha = |found: &FoundValue| found.parameter.meaning == Some(Meaning::SlopeWidth);
         let within = |x: f64| x.clamp(self.range.least, self.range.most);
         match (&other.value, &self.value) {
             (OwnedValue::TexturedNumber(Textured::Constant(x)), OwnedValue::TexturedNumber(_)) => {
@@ -82,45 +82,39 @@ impl FoundValue {
     }
 }
 
-/// The key of the width of slopes, the square of a roughness.
-const ALPHA: &str = "alpha";
+/// The first value of one of these meanings.
+fn of_meaning(material: &mut MaterialDescription, meanings: &[Meaning]) -> Option<FoundValue> {
+    found(material, &|parameter, _| parameter.meaning.is_some_and(|meaning| meanings.contains(&meaning)))
+}
 
-/// The first value of a meaning.
-fn first(material: &mut MaterialDescription, meaning: Meaning) -> Option<FoundValue> {
-    let mut finder = Finder { meaning, tables: vec![Path::default()], found: None };
+type IsMeant<'a> = dyn Fn(&Parameter, &Value<'_>) -> bool + 'a;
+
+/// The first value that is meant.
+fn found(material: &mut MaterialDescription, is_meant: &IsMeant<'_>) -> Option<FoundValue> {
+    let mut finder = Finder { is_meant, tables: vec![Path::default()], found: None };
     material.parameters(&mut finder);
     finder.found
 }
 
-struct Finder {
-    meaning: Meaning,
+struct Finder<'a> {
+    is_meant: &'a IsMeant<'a>,
     /// The paths of the tables around the current value.
     tables: Vec<Path>,
     found: Option<FoundValue>,
 }
 
-impl Finder {
-    fn is_meant(&self, key: &str, value: &Value<'_>) -> bool {
-        match self.meaning {
-            Meaning::Colour => matches!(value, Value::Textured(..)),
-            Meaning::Roughness => {
-                matches!(value, Value::TexturedNumber(..)) && ["roughness", ALPHA, "specular_roughness"].contains(&key)
-            }
-            Meaning::IndexOfRefraction => matches!(value, Value::Number(..)) && ["ior", "specular_ior"].contains(&key),
-        }
-    }
-}
-
-impl Parameters for Finder {
+impl Parameters for Finder<'_> {
     fn value(&mut self, parameter: &Parameter, value: Value<'_>) {
         let range = match &value {
             Value::Textured(_, range) | Value::TexturedNumber(_, range) | Value::Number(_, range) => *range,
             _ => return,
         };
-        if self.is_meant(parameter.key, &value)
+        if self.found.is_none()
+            && (self.is_meant)(parameter, &value)
             && let Some(table) = self.tables.last()
         {
-            self.found.get_or_insert_with(|| FoundValue { path: table.key(parameter.key), value: OwnedValue::of(&value), range });
+            let (path, value) = (table.key(parameter.key), OwnedValue::of(&value));
+            self.found = Some(FoundValue { path, value, parameter: *parameter, range });
         }
     }
 

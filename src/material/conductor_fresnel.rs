@@ -4,7 +4,7 @@ use super::{
     fresnel::{average, conductor},
 };
 use crate::{
-    declare::{OneOf, Parameter, Parameters, Problem, Range, Textured},
+    declare::{Meaning, OneOf, Parameter, Parameters, Problem, Range, Textured},
     math::{F, Lanes, M, One, Pick, U, V},
     texture::ColourSource,
 };
@@ -52,14 +52,18 @@ const K: Parameter =
 
 const TINT: Parameter = Parameter::new("tint", "Multiplies the reflectance at every angle.").aliases("specular_reflectance");
 
-const F0: Parameter =
-    Parameter::new("f0", "Reflectance at normal incidence; it rises to 1 at grazing angles by Schlick's approximation.")
-        .symbol("F₀")
-        .required()
-        .aliases("color colour albedo rgb specular_color");
+const F0: Parameter = Parameter::new(
+    "f0",
+    "Reflectance at normal incidence.means(Meaning::Colour); it rises to 1 at grazing angles by Schlick's approximation.",
+)
+.symbol("F₀")
+.required()
+.aliases("color colour albedo rgb specular_color");
 
-const REFLECTANCE: Parameter =
-    Parameter::new("reflectance", "Reflectance of the microfacets, the same at every angle.").symbol("F").required();
+const REFLECTANCE: Parameter = Parameter::new("reflectance", "Reflectance of the microfacets, the same at every angle.")
+    .symbol("F")
+    .required()
+    .means(Meaning::Colour);
 
 const INDICES: Range = Range::linear(0.0, 1e3).expected("every channel of `eta` and `k` must be a number from 0 to 1000");
 

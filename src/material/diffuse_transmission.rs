@@ -5,7 +5,7 @@ use std::f32::consts::FRAC_1_PI;
 
 use super::{Bsdf, BsdfSample, ChosenLobe, Compile, CompiledMaterial, Lobes, Local, MaterialCompiler, Materials, Shade, Stage};
 use crate::{
-    declare::{Declare, Kind, Parameter, Parameters, Problem, Range, Textured},
+    declare::{Declare, Kind, Meaning, Parameter, Parameters, Problem, Range, Textured},
     math::{F, Lanes, One, Pick, V},
     sampling::Directions,
     texture::ColourSource,
@@ -26,8 +26,10 @@ impl Default for DiffuseTransmission {
     }
 }
 
-const REFLECTANCE: Parameter =
-    Parameter::new("reflectance", "Fraction of the light that is reflected, per channel.").symbol("ρ").required();
+const REFLECTANCE: Parameter = Parameter::new("reflectance", "Fraction of the light that is reflected, per channel.")
+    .symbol("ρ")
+    .required()
+    .means(Meaning::Colour);
 const TRANSMITTANCE: Parameter =
     Parameter::new("transmittance", "Fraction of the light that is transmitted, per channel.").symbol("τ").required();
 

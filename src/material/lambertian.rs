@@ -3,7 +3,7 @@ use std::f32::consts::FRAC_1_PI;
 
 use super::{Bsdf, BsdfSample, ChosenLobe, Compile, CompiledMaterial, Lobes, Local, MaterialCompiler, Materials, Shade, Stage};
 use crate::{
-    declare::{Declare, Kind, Parameter, Parameters, Problem, Range, Textured},
+    declare::{Declare, Kind, Meaning, Parameter, Parameters, Problem, Range, Textured},
     math::{F, Lanes, One, Pick, V},
     sampling::Directions,
     texture::{NumberSource, TextureCompiler},
@@ -25,7 +25,8 @@ impl Default for Lambertian {
 const ALBEDO: Parameter = Parameter::new("albedo", "Fraction of the light that is reflected, per channel.")
     .symbol("ρ")
     .required()
-    .aliases("color colour rho reflectance kd Kd rgb base_color");
+    .aliases("color colour rho reflectance kd Kd rgb base_color")
+    .means(Meaning::Colour);
 
 impl Kind for Lambertian {
     const KIND: Parameter = Parameter::new("lambertian", "Ideal diffuse reflection: the same radiance in all directions.")

@@ -4,7 +4,7 @@ use super::{
     conductor_fresnel::ConductorFresnel,
 };
 use crate::{
-    declare::{Declare, Kind, Parameter, Parameters, Problem, Range, Textured},
+    declare::{Declare, Kind, Meaning, Parameter, Parameters, Problem, Range, Textured},
     math::{F, Lanes, One, V},
     sampling::Directions,
 };
@@ -25,7 +25,8 @@ impl Default for Mirror {
 const REFLECTANCE: Parameter = Parameter::new("reflectance", "Fraction of the light that is reflected, the same at every angle.")
     .symbol("r")
     .required()
-    .aliases("color colour albedo rgb");
+    .aliases("color colour albedo rgb")
+    .means(Meaning::Colour);
 
 impl Kind for Mirror {
     const KIND: Parameter = Parameter::new("mirror", "A smooth mirror.").aliases("specular perfect_mirror reflective");

@@ -63,7 +63,7 @@ pub use self::{
     roughness::Roughness,
     shade::Shade,
 };
-use crate::declare::{Parameter, Path, Problem};
+use crate::declare::{Meaning, Parameter, Path, Problem};
 
 macro_rules! materials {
     ($($module:ident::$Material:ident => $($Stage:ident)*),+ $(,)?) => {
@@ -158,7 +158,11 @@ impl Stage {
 
 /// The index of refraction of a kind.
 const fn ior(doc: &'static str) -> Parameter {
-    Parameter::new("ior", doc).symbol("η").required().aliases("eta index index_of_refraction refraction")
+    Parameter::new("ior", doc)
+        .symbol("η")
+        .required()
+        .aliases("eta index index_of_refraction refraction")
+        .means(Meaning::IndexOfRefraction)
 }
 
 /// A kind of material: from its description to what the kernel reads.

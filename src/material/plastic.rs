@@ -15,7 +15,7 @@ use super::{
     ggx, ior, microfacets,
 };
 use crate::{
-    declare::{Declare, Kind, Parameter, Parameters, Problem, Range, Textured},
+    declare::{Declare, Kind, Meaning, Parameter, Parameters, Problem, Range, Textured},
     math::{F, Lanes, M, One, Pick, U, V},
     sampling::Directions,
 };
@@ -47,7 +47,8 @@ impl Plastic {
 const ALBEDO: Parameter = Parameter::new("albedo", "Fraction of the light that the base reflects, without its coat.")
     .symbol("ρ")
     .required()
-    .aliases("color colour rho reflectance kd Kd rgb base_color");
+    .aliases("color colour rho reflectance kd Kd rgb base_color")
+    .means(Meaning::Colour);
 
 impl Kind for Plastic {
     const KIND: Parameter =

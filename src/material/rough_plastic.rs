@@ -17,7 +17,7 @@ use super::{
     microfacets::{self, Distribution},
 };
 use crate::{
-    declare::{Declare, Kind, Parameter, Parameters, Problem, Range, Textured},
+    declare::{Declare, Kind, Meaning, Parameter, Parameters, Problem, Range, Textured},
     math::{F, Lanes, M, One, Pick, V},
     sampling::Directions,
 };
@@ -58,7 +58,8 @@ impl Default for RoughPlastic {
 const ALBEDO: Parameter = Parameter::new("albedo", "Fraction of the light that the base reflects, without its coat.")
     .symbol("ρ")
     .required()
-    .aliases("color colour rho reflectance kd Kd rgb base_color diffuse_reflectance");
+    .aliases("color colour rho reflectance kd Kd rgb base_color diffuse_reflectance")
+    .means(Meaning::Colour);
 
 impl Kind for RoughPlastic {
     const KIND: Parameter =

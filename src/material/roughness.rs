@@ -1,5 +1,5 @@
 //! Roughness in scene descriptions: the width α of the GGX distribution, or its square root, which looks uniform to artists.
-use crate::declare::{OneOf, Parameter, Parameters, Range, Textured};
+use crate::declare::{Meaning, OneOf, Parameter, Parameters, Range, Textured};
 
 /// Roughness of a surface; smooth by default.
 #[derive(Clone, Debug, PartialEq)]
@@ -10,10 +10,14 @@ pub enum Roughness {
     Alpha(Textured<f64>),
 }
 
-const ROUGHNESS: Parameter =
-    Parameter::new("roughness", "Square root of α; 0 is smooth.").symbol("√α").aliases("rough glossiness");
-const ALPHA: Parameter =
-    Parameter::new("alpha", "Width of the distribution of microfacet slopes; 0 is smooth.").symbol("α").aliases("a");
+const ROUGHNESS: Parameter = Parameter::new("roughness", "Square root of α; 0 is smooth.")
+    .symbol("√α")
+    .aliases("rough glossiness")
+    .means(Meaning::Roughness);
+const ALPHA: Parameter = Parameter::new("alpha", "Width of the distribution of microfacet slopes; 0 is smooth.")
+    .symbol("α")
+    .aliases("a")
+    .means(Meaning::SlopeWidth);
 
 impl Roughness {
     /// A smooth surface.

@@ -4,6 +4,7 @@ mod edits;
 mod history;
 mod importing;
 mod kinds;
+mod meanings;
 mod outside;
 mod placing;
 #[cfg(feature = "reports")]

@@ -1,17 +1,21 @@
 //! The parameters of Disney's BSDF.
 use super::Disney;
-use crate::declare::{Declare, Parameter, Parameters, Range};
+use crate::declare::{Declare, Meaning, Parameter, Parameters, Range};
 
 pub(super) const BASE_COLOR: Parameter =
     Parameter::new("base_color", "Albedo of the diffuse base, and reflectance of the metal at normal incidence.")
-        .aliases("color colour albedo reflectance");
+        .aliases("color colour albedo reflectance")
+        .means(Meaning::Colour);
 pub(super) const METALLIC: Parameter =
     Parameter::new("metallic", "Fraction of the base that is metal.").aliases("metalness metal");
-pub(super) const ROUGHNESS: Parameter = Parameter::new("roughness", "Square root of the width α of the GGX distribution.");
+pub(super) const ROUGHNESS: Parameter =
+    Parameter::new("roughness", "Square root of the width α of the GGX distribution.").means(Meaning::Roughness);
 pub(super) const ANISOTROPIC: Parameter =
     Parameter::new("anisotropic", "How much longer the highlight is along the tangent; 0 is round.").aliases("anisotropy");
-pub(super) const IOR: Parameter =
-    Parameter::new("ior", "Index of refraction. With 1, nothing is reflected, even by metal.").symbol("η").aliases("eta index");
+pub(super) const IOR: Parameter = Parameter::new("ior", "Index of refraction. With 1, nothing is reflected, even by metal.")
+    .symbol("η")
+    .aliases("eta index")
+    .means(Meaning::IndexOfRefraction);
 pub(super) const SPEC_TINT: Parameter =
     Parameter::new("spec_tint", "How strongly the hue of the base colour tints the reflection off the interface.")
         .aliases("specular_tint");

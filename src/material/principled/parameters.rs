@@ -1,10 +1,11 @@
 //! The parameters of a principled material.
 use super::Principled;
-use crate::declare::{Declare, Parameter, Parameters, Range};
+use crate::declare::{Declare, Meaning, Parameter, Parameters, Range};
 
 pub(super) const BASE_WEIGHT: Parameter = Parameter::new("base_weight", "Factor that multiplies the base colour.");
 pub(super) const BASE_COLOR: Parameter =
-    Parameter::new("base_color", "Albedo of the diffuse base, and reflectance of the metal at normal incidence.");
+    Parameter::new("base_color", "Albedo of the diffuse base, and reflectance of the metal at normal incidence.")
+        .means(Meaning::Colour);
 pub(super) const BASE_DIFFUSE_ROUGHNESS: Parameter =
     Parameter::new("base_diffuse_roughness", "Roughness of the diffuse base; 0 is Lambertian.");
 pub(super) const BASE_METALNESS: Parameter = Parameter::new("base_metalness", "Fraction of the base that is metal.");
@@ -15,10 +16,11 @@ pub(super) const SPECULAR_WEIGHT: Parameter = Parameter::new(
 pub(super) const SPECULAR_COLOR: Parameter =
     Parameter::new("specular_color", "Tint of the reflection off the interface; for metals, only at grazing angles.");
 pub(super) const SPECULAR_ROUGHNESS: Parameter =
-    Parameter::new("specular_roughness", "Square root of the width α of the GGX distribution.");
+    Parameter::new("specular_roughness", "Square root of the width α of the GGX distribution.").means(Meaning::Roughness);
 pub(super) const SPECULAR_ROUGHNESS_ANISOTROPY: Parameter =
     Parameter::new("specular_roughness_anisotropy", "How much longer the highlight is along the tangent; 0 is round.");
-pub(super) const SPECULAR_IOR: Parameter = Parameter::new("specular_ior", "Index of refraction of the base.");
+pub(super) const SPECULAR_IOR: Parameter =
+    Parameter::new("specular_ior", "Index of refraction of the base.").means(Meaning::IndexOfRefraction);
 pub(super) const TRANSMISSION_WEIGHT: Parameter =
     Parameter::new("transmission_weight", "Fraction of the non-metallic base that is clear and refracts.");
 pub(super) const TRANSMISSION_COLOR: Parameter =
