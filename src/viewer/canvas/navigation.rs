@@ -7,14 +7,22 @@ use noisefall::scene::Camera;
 /// Smallest angle between the view and the vertical, radians.
 const POLE: f64 = 0.02;
 
+// A move by nothing returns the camera to the bit: `look_at + (eye - look_at)` is not always `eye`, and another eye is another image.
+
 /// Turns the eye around the point it looks at; radians to the right and upwards.
 pub fn orbit(camera: &Camera, right: f64, up: f64) -> Camera {
+    if [right, up] == [0.0; 2] {
+        return *camera;
+    }
     let turn = turn(camera, right, up);
     Camera { eye: camera.look_at + turn * (camera.eye - camera.look_at), ..*camera }
 }
 
 /// Turns the view about the eye; radians to the right and upwards.
 pub fn look(camera: &Camera, right: f64, up: f64) -> Camera {
+    if [right, up] == [0.0; 2] {
+        return *camera;
+    }
     let turn = turn(camera, -right, -up);
     Camera { look_at: camera.eye + turn * (camera.look_at - camera.eye), ..*camera }
 }
@@ -30,6 +38,9 @@ fn turn(camera: &Camera, right: f64, up: f64) -> DQuat {
 
 /// Moves eye and look-at together, metres to the right, upwards and forwards.
 pub fn fly(camera: &Camera, by: DVec3) -> Camera {
+    if by == DVec3::ZERO {
+        return *camera;
+    }
     let [right, up, forward] = camera.axes();
     let step = right * by.x + up * by.y + forward * by.z;
     Camera { eye: camera.eye + step, look_at: camera.look_at + step, ..*camera }
@@ -43,6 +54,9 @@ pub fn pan(camera: &Camera, right: f64, up: f64) -> Camera {
 
 /// Multiplies the distance to the look-at point, or the width of the image for an orthographic camera.
 pub fn dolly(camera: &Camera, factor: f64) -> Camera {
+    if factor == 1.0 {
+        return *camera;
+    }
     match camera.projection.widened(factor) {
         Some(projection) => Camera { projection, ..*camera },
         None => Camera { eye: camera.look_at + (camera.eye - camera.look_at) * factor, ..*camera },
@@ -67,6 +81,17 @@ mod tests {
             assert!((moved.eye.distance(moved.look_at) - 4.0).abs() < 1e-9);
             assert_eq!(moved.check(), Ok(()));
             assert!(moved.axes()[1].y > 0.0);
+        }
+    }
+
+    #[test]
+    fn a_move_by_nothing_keeps_every_bit_of_the_camera() {
+        let places = (1..200).map(|i| f64::from(i) * 0.37).map(|x| DVec3::new(x.sin(), (3.1 * x).cos(), (7.3 * x).sin()));
+        for eye in places {
+            let camera = Camera { eye: 4.1 * eye, look_at: DVec3::new(0.1, 0.7, -0.3), ..camera() };
+            for moved in [orbit(&camera, 0.0, 0.0), look(&camera, 0.0, 0.0), pan(&camera, 0.0, 0.0), dolly(&camera, 1.0)] {
+                assert_eq!(moved, camera);
+            }
         }
     }
 

@@ -54,6 +54,7 @@ mod table;
 mod toolbar;
 mod truth;
 mod undo;
+mod unedited;
 mod unused;
 mod wording;
 
