@@ -154,6 +154,11 @@ impl Document {
         self.saved = Some(self.version);
     }
 
+    /// Records that the file has another text with the same values.
+    pub(super) fn has_text(&mut self, on_disk: String) {
+        self.on_disk = on_disk;
+    }
+
     /// The text of the file as it was last read or written.
     pub fn on_disk(&self) -> &str {
         &self.on_disk

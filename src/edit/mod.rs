@@ -78,6 +78,7 @@ mod check;
 mod choose;
 mod colour;
 mod content;
+mod defaults;
 mod document;
 mod history;
 mod import;
@@ -113,7 +114,7 @@ pub use self::{
     history::{Gesture, History},
     origin::Origin,
     outside::Outside,
-    recovery::Recovery,
+    recovery::{Recovery, WindowView},
     save::new_text,
     templates::{TEMPLATES, Template},
     tree::Tree,

@@ -15,6 +15,8 @@ pub struct Outside {
     pub settings_changed: bool,
     /// Whether anything else differs except comments and formatting.
     pub scene_changed: bool,
+    /// Whether only comments and formatting differ. Then reloading is no step: undo and redo keep them.
+    pub is_format: bool,
     /// Whether the document has unsaved changes too, which reloading would lose: the user has to choose.
     pub conflicts: bool,
 }
@@ -42,19 +44,26 @@ impl Document {
         let settings_changed = was.render != now.render;
         let scene_changed = *was != SceneDescription { camera: was.camera.clone(), render: was.render.clone(), ..now.clone() };
         let is_rewritten = camera_changed || settings_changed || scene_changed;
-        if !is_rewritten && self.content.base.is(&before) {
+        let is_format = !is_rewritten && self.content.base.is(&before);
+        if is_format {
             // Only comments and formatting differ: the document keeps its changes, in the new text.
             content.description = self.content.description.clone();
             content.origins = self.content.origins.clone();
         }
         let is_ours = Tree::of(&mut content.description.clone()).is_identical(&Tree::of(&mut self.content.description.clone()));
         let conflicts = self.has_changes() && !is_ours;
-        Ok(Some(Outside { content, camera_changed, settings_changed, scene_changed, conflicts }))
+        Ok(Some(Outside { content, camera_changed, settings_changed, scene_changed, is_format, conflicts }))
     }
 
-    /// Reloads the file, as a step that can be undone.
+    /// Reloads the file, as a step that can be undone. Comments and formatting alone are no step.
     pub fn take_outside(&mut self, history: &mut History, outside: Outside) -> Result<(), Problem> {
         let text = outside.text().to_owned();
+        if outside.is_format {
+            // Every version has the new text, with its own values in it.
+            self.content.base = outside.content.base;
+            self.has_text(text);
+            return Ok(());
+        }
         let is_saved = outside.content.base.is(&outside.content.description);
         history.apply(self, &Edit::Reload(Box::new(outside.content)))?;
         if is_saved {

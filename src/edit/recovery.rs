@@ -4,12 +4,13 @@ use std::{
     path::{Path as FilePath, PathBuf, absolute},
 };
 
+use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use super::Document;
 use crate::{
     file::{WriteError, open_regular, replace},
-    scene::{SceneError, describe},
+    scene::{Camera, RenderSettings, SceneError, describe},
 };
 
 /// The start of the first line of a recovery file. The path of the scene file follows as a JSON string, or `{"from": …}` with the file of
@@ -17,23 +18,43 @@ use crate::{
 const FIRST_LINE: &str = "# Unsaved changes of the scene ";
 /// The first line for a scene without a file.
 const WITHOUT_FILE: &str = "# Unsaved changes of a scene without a file";
+/// The start of the second line, which may be missing. The view of the window follows as JSON.
+const VIEW_LINE: &str = "# Its view ";
+
+/// The view of a window on a scene. It is no part of the scene until it is saved with it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct WindowView {
+    /// The camera.
+    pub camera: Camera,
+    /// The settings of the render.
+    pub settings: RenderSettings,
+    /// The exposure in stops.
+    pub exposure: f32,
+}
 
 /// A scene with changes that are not saved.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Recovery {
     /// The scene file, with an absolute path; absent if the scene had none.
     pub path: Option<PathBuf>,
     /// The file of another program that the scene was read from, with an absolute path, if the scene had no file of its own.
     pub origin: Option<PathBuf>,
+    /// The view of the window, if it is known.
+    pub view: Option<Box<WindowView>>,
     /// The text of the scene.
     pub text: String,
 }
 
 impl Recovery {
-    /// The document as it is now.
-    pub fn of(document: &Document) -> Recovery {
+    /// The document as it is now, and the view of it.
+    pub fn of(document: &Document, view: Option<WindowView>) -> Recovery {
         let absolute = |path: &FilePath| absolute(path).unwrap_or_else(|_| path.to_owned());
-        Recovery { path: document.path().map(absolute), origin: document.origin().map(absolute), text: document.text() }
+        Recovery {
+            path: document.path().map(absolute),
+            origin: document.origin().map(absolute),
+            view: view.map(Box::new),
+            text: document.text(),
+        }
     }
 
     /// The file that the window had open.
@@ -41,14 +62,15 @@ impl Recovery {
         self.path.as_deref().or(self.origin.as_deref())
     }
 
-    /// Writes a recovery file, whole or not at all. It is a scene file itself, with one line of comment before its text.
+    /// Writes a recovery file, whole or not at all. It is a scene file itself, with one or two lines of comment before its text.
     pub fn write(&self, file: &FilePath) -> Result<(), WriteError> {
         let first = match (&self.path, &self.origin) {
             (Some(path), _) => format!("{FIRST_LINE}{}", json!(path.to_string_lossy())),
             (None, Some(origin)) => format!("{FIRST_LINE}{}", json!({ "from": origin.to_string_lossy() })),
             (None, None) => WITHOUT_FILE.to_owned(),
         };
-        replace(file, format!("{first}\n{}", self.text).as_bytes())
+        let second = self.view.as_ref().map_or_else(String::new, |view| format!("{VIEW_LINE}{}\n", json!(**view)));
+        replace(file, format!("{first}\n{second}{}", self.text).as_bytes())
     }
 
     /// Reads a recovery file; `None` if there is none.
@@ -63,7 +85,9 @@ impl Recovery {
         let wrong = || io::Error::new(io::ErrorKind::InvalidData, "it is not a recovery file");
         let source = source.ok_or_else(wrong)?;
         let [path, origin] = [&source, &source["from"]].map(|path| path.as_str().map(PathBuf::from));
-        Ok(Some(Recovery { path, origin, text: text.to_owned() }))
+        let view = text.strip_prefix(VIEW_LINE).and_then(|after| after.split_once('\n'));
+        let (view, text) = view.map_or((None, text), |(view, text)| (serde_json::from_str(view).ok(), text));
+        Ok(Some(Recovery { path, origin, view, text: text.to_owned() }))
     }
 
     /// The document with its changes. It counts as changed.

@@ -4,7 +4,7 @@
 //! Zwicker, "Adaptive rendering with non-local means filtering", ACM Trans. Graph. 31(6), 2012, sections 4 and 5.1).
 use super::{
     frame::Frame,
-    non_local_means::{Buffer, filter},
+    non_local_means::{self, Buffer, filter},
 };
 use crate::{
     math::colour::luminance,
@@ -43,6 +43,11 @@ pub fn denoised(frame: &Frame, cancelled: &(dyn Fn() -> bool + Sync)) -> Option<
     let [first, second] = [filter(first, second, size, floor, cancelled)?, filter(second, first, size, floor, cancelled)?];
     let whole = |((a, b), share): ((&[f32; 3], &[f32; 3]), &f32)| [0, 1, 2].map(|c| a[c] * share + b[c] * (1.0 - share));
     Some(first.iter().zip(&second).zip(&halves.shares).map(whole).collect())
+}
+
+/// How often [`denoised`] asks whether it was cancelled: the whole of its progress.
+pub fn steps(size: [u32; 2]) -> usize {
+    2 * non_local_means::steps(size.map(|side| side as usize))
 }
 
 /// Reserves memory for [`denoised`] at this size.

@@ -38,6 +38,11 @@ pub fn filter(
     is_complete.reduce(|| true, |a, b| a && b).then_some(result)
 }
 
+/// How often [`filter`] asks whether it was cancelled.
+pub fn steps([_, height]: [usize; 2]) -> usize {
+    height.div_ceil(BAND) * (2 * SEARCH_RADIUS as usize + 1)
+}
+
 /// Some rows of the image.
 struct Band<'a> {
     guide: Buffer<'a>,

@@ -86,6 +86,18 @@ fn a_material_keeps_its_colour_under_the_key_of_its_new_kind() {
 }
 
 #[test]
+fn a_value_has_the_default_of_its_kind() {
+    let mut document = room();
+    does(&mut document, &number("camera.fov", 77.0));
+    let default = |at: &str| document.default_of(&path(at));
+    assert_eq!(default("materials.gold.conductor.roughness"), Some(OwnedValue::TexturedNumber(Textured::Constant(0.0))));
+    let albedo = crate::material::Lambertian::default().albedo;
+    assert_eq!(default("materials.white.lambertian.albedo"), Some(OwnedValue::Textured(albedo)));
+    assert_eq!(default("objects.1.shape.sphere.radius"), Some(OwnedValue::Number(crate::shape::Sphere::default().radius)));
+    assert!(default("objects.1.shape.cuboid.max").is_none());
+}
+
+#[test]
 fn what_no_material_can_be_is_refused_at_once() {
     let mut document = room();
     does(&mut document, &Edit::choose(path("materials.white"), "material", "diffuse_transmission"));

@@ -72,6 +72,23 @@ fn another_format_outside_keeps_the_changes() {
 }
 
 #[test]
+fn a_comment_from_outside_survives_undo_redo_and_saving() {
+    let (mut document, mut history) = (room(), History::default());
+    history.apply(&mut document, &number("camera.fov", 30.0)).expect("it is in range");
+    let commented = ROOM.replace("# A room.", "# The room of a friend.");
+    let outside = compare(&document, &commented);
+    assert!(outside.is_format && !outside.conflicts);
+    document.take_outside(&mut history, outside).expect("it is valid");
+    assert_eq!(history.len(), 1, "it is no step");
+    let edited = commented.replace("fov = 40", "fov = 30");
+    assert_eq!((document.text(), document.has_changes()), (edited.clone(), true));
+    history.undo(&mut document);
+    assert_eq!((document.text(), document.has_changes()), (commented, false));
+    history.redo(&mut document);
+    assert_eq!((document.text(), document.has_changes()), (edited, true));
+}
+
+#[test]
 fn changes_survive_a_crash() {
     let folder = tempfile::tempdir().expect("a folder");
     let [scene, file] = ["room.toml", "room.recovery"].map(|name| folder.path().join(name));
@@ -79,9 +96,9 @@ fn changes_survive_a_crash() {
     std::fs::write(&scene, ROOM).expect("it is written");
     let mut document = Document::open(&scene, ROOM).expect("it is valid");
     does(&mut document, &number("camera.fov", 30.0));
-    Recovery::of(&document).write(&file).expect("it is written");
+    Recovery::of(&document, None).write(&file).expect("it is written");
     let recovery = Recovery::read(&file).expect("it is readable").expect("it is there");
-    assert_eq!(recovery, Recovery { path: Some(scene.clone()), origin: None, text: document.text() });
+    assert_eq!(recovery, Recovery { path: Some(scene.clone()), origin: None, view: None, text: document.text() });
     let recovered = recovery.open().expect("it is valid");
     assert_eq!((recovered.path(), recovered.text(), recovered.has_changes()), (Some(&*scene), document.text(), true));
     assert!(recovered.compare_outside(ROOM).expect("it is readable").is_none(), "the file is as it was");
@@ -97,7 +114,7 @@ fn a_scene_without_a_file_is_recovered_too() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("untitled.recovery");
     let document = Document::untitled(ROOM).expect("it is valid");
-    Recovery::of(&document).write(&file).expect("it is written");
+    Recovery::of(&document, None).write(&file).expect("it is written");
     let recovered = Recovery::read(&file).expect("it is readable").expect("it is there").open().expect("it is valid");
     assert_eq!((recovered.path(), recovered.text().as_str(), recovered.has_changes()), (None, ROOM, true));
     let text = std::fs::read_to_string(&file).expect("it is written");
@@ -110,7 +127,7 @@ fn a_scene_of_another_program_is_recovered_with_its_origin() {
     let [scene, file] = ["room.gltf", "room.recovery"].map(|name| folder.path().join(name));
     let mut document = Document::imported(&scene, ROOM, crate::scene::describe("room", ROOM.to_owned()).expect("it is valid"));
     does(&mut document, &number("camera.fov", 30.0));
-    Recovery::of(&document).write(&file).expect("it is written");
+    Recovery::of(&document, None).write(&file).expect("it is written");
     let recovery = Recovery::read(&file).expect("it is readable").expect("it is there");
     assert_eq!((recovery.file(), &recovery.path), (Some(&*scene), &None));
     let mut recovered = recovery.open().expect("it is valid");

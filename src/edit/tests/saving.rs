@@ -254,6 +254,6 @@ fn a_disk_that_fails_at_any_moment_leaves_the_scene_and_its_recovery_file_before
         std::fs::write(path, "old").expect("it is written");
     }
     let mut document = Document::open(&scene, ROOM).unwrap_or_else(|error| panic!("{}", error.report()));
-    lose_nothing(&recovery, &mut || Recovery::of(&document).write(&recovery).map_err(|error| error.to_string()));
+    lose_nothing(&recovery, &mut || Recovery::of(&document, None).write(&recovery).map_err(|error| error.to_string()));
     lose_nothing(&scene, &mut || document.save(&scene).map_err(|error| error.to_string()));
 }

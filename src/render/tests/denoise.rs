@@ -4,7 +4,12 @@ use rand::{Rng, SeedableRng, rngs::SmallRng};
 use super::{add, red};
 use crate::{
     measure::SampleNoise,
-    render::{Frame, denoise::denoised, film::Film, halves::Halves},
+    render::{
+        Frame,
+        denoise::{denoised, steps},
+        film::Film,
+        halves::Halves,
+    },
 };
 
 const SIZE: usize = 48;
@@ -57,6 +62,15 @@ fn noise_falls_and_edges_stay() {
     }
     let exact = denoised(&noisy(&truth, 0.0, 1), &|| false).expect("it has halves");
     assert!(mse(&exact, &truth) < 1e-4, "without noise hardly anything is smoothed");
+}
+
+#[test]
+fn the_steps_of_denoising_are_known_before() {
+    let frame = noisy(&vec![[0.5; 3]; SIZE * SIZE], 0.1, 1);
+    let asked = std::sync::atomic::AtomicUsize::new(0);
+    let count = || asked.fetch_add(1, std::sync::atomic::Ordering::Relaxed) == usize::MAX;
+    assert!(denoised(&frame, &count).is_some());
+    assert_eq!(asked.into_inner(), steps([frame.width, frame.height]));
 }
 
 #[test]

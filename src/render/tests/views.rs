@@ -51,7 +51,7 @@ fn features() -> Features {
 }
 
 fn sources<'a>(frame: &'a Frame, materials: &'a [String]) -> Sources<'a> {
-    Sources { frame, radiance: None, truth: None, pinned: None, features: None, scale: None, materials }
+    Sources { frame, radiance: None, truth: None, pinned: None, is_comparison: false, features: None, scale: None, materials }
 }
 
 fn numbers(view: View, sources: &Sources) -> Vec<f32> {
@@ -194,7 +194,7 @@ fn a_scale_has_the_unit_of_its_view_and_what_is_missing_is_asked_for() {
         (View::StandardError, "W·sr⁻¹·m⁻²", 1.0),
         (View::SampleCount, "samples", 7.0),
         (View::ZScore, "σ", 4.0),
-        (View::Difference, "relative to pinned image or B", 0.001),
+        (View::Difference, "relative to the pinned image", 0.001),
         (View::Depth, "m", 50.0),
         (View::HitCost, "ns per ray", 50.0),
     ] {

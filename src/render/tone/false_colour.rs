@@ -24,6 +24,9 @@ impl Tone for FalseColour {
     }
 }
 
+/// The luminances of the first and the last colour, after exposure.
+pub(super) const RANGE: [f32; 2] = [1e-3, 1e3];
+
 static FALSE_COLOURS: LazyLock<FalseColours> = LazyLock::new(FalseColours::new);
 
 /// Luminance from 10⁻³ to 10³ on a logarithmic scale through the colours of viridis.
@@ -35,8 +38,8 @@ struct FalseColours {
 impl FalseColours {
     /// Selects 32 buckets per octave.
     const SHIFT: u32 = 18;
-    const LOWEST: f32 = 1e-3;
-    const HIGHEST: f32 = 1e3;
+    const LOWEST: f32 = RANGE[0];
+    const HIGHEST: f32 = RANGE[1];
 
     fn new() -> FalseColours {
         let mut colours = Box::new([[0; 4]; 1024]);

@@ -10,6 +10,7 @@ mod reinhard;
 
 use serde::Serialize;
 
+use self::false_colour::RANGE as FALSE_COLOUR_RANGE;
 use super::{display::encode, white_balance::WhiteBalance};
 use crate::declare::Word;
 
@@ -45,6 +46,12 @@ pub fn to_srgb(radiance: &[[f32; 3]], display: Display, pixels: &mut Vec<[u8; 4]
     let scale = display.exposure.exp2();
     let balance = display.white_balance.matrix().map(|rows| rows.map(|row| row.map(|factor| factor * scale)));
     in_tone_map!(display.tone_map, T => T::show(radiance, &Gain { scale, balance }, pixels));
+}
+
+/// The luminances at the ends of the colour scale, if the tone map is one.
+pub fn false_colour_range(display: Display) -> Option<[f32; 2]> {
+    let range = || FALSE_COLOUR_RANGE.map(|end| end / display.exposure.exp2());
+    (display.tone_map == ToneMap::FalseColour).then(range)
 }
 
 /// What radiance is multiplied by before a tone map.

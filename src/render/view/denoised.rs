@@ -1,5 +1,5 @@
 //! The denoised image.
-use super::{DisplaySettings, Field, Legend, Quantity, Sources};
+use super::{DisplaySettings, Field, Legend, Quantity, Sources, legend::false_colours};
 use crate::{
     declare::Word,
     render::{
@@ -28,7 +28,8 @@ impl Quantity for Denoised {
     }
 
     fn draw(settings: DisplaySettings, sources: &Sources, pixels: &mut Vec<[u8; 4]>) -> Option<(Legend, Field)> {
-        let legend = |title: &str| Legend { title: title.to_owned(), scale: None, entries: Vec::new() };
+        let plain = |title: &str| Legend { title: title.to_owned(), scale: None, entries: Vec::new() };
+        let legend = |title: &str| false_colours(title, settings.display).unwrap_or_else(|| plain(title));
         let Some(radiance) = sources.radiance else {
             to_srgb(&sources.frame.radiance, settings.display, pixels);
             return Some((legend(Self::missing()), Field::Missing));

@@ -1,5 +1,8 @@
 //! The difference from another image.
-use super::{Field, Quantity, Sources, legend::part_below};
+use super::{
+    Field, Quantity, Sources,
+    legend::{part_below, round_up},
+};
 use crate::{declare::Word, math::colour::luminance, measure::Floor};
 
 pub(super) struct Difference;
@@ -13,8 +16,13 @@ impl Quantity for Difference {
 
     const SHOWS_LIGHT: bool = true;
     const IS_SIGNED: bool = true;
-    fn unit() -> &'static str {
-        "relative to pinned image or B"
+
+    fn title(sources: &Sources) -> &'static str {
+        if sources.is_comparison { "Difference A − B" } else { "Difference image − pinned image" }
+    }
+
+    fn unit_of(sources: &Sources) -> &'static str {
+        if sources.is_comparison { "relative to B" } else { "relative to the pinned image" }
     }
 
     fn missing() -> &'static str {
@@ -44,10 +52,10 @@ fn difference(sources: &Sources) -> Option<Vec<f32>> {
     same.then(|| radiance.iter().zip(&pinned.radiance).map(relative).collect())
 }
 
-/// Powers of ten, from a thousandth to one, around nearly all numbers.
+/// Round numbers around nearly all numbers, at least a thousandth.
 fn around(numbers: &[f32]) -> [f32; 2] {
     let sizes: Vec<f32> = numbers.iter().map(|x| x.abs()).collect();
-    let end = 10f32.powf(part_below(&sizes, 0.98).max(1e-3).log10().ceil().min(0.0));
+    let end = round_up(part_below(&sizes, 0.98).max(1e-3));
     [-end, end]
 }
 
@@ -57,6 +65,9 @@ mod tests {
 
     #[test]
     fn ends_lie_around_nearly_all_numbers() {
-        assert_eq!([around(&[-0.05, 0.02]), around(&[5.0, -7.0]), around(&[0.0])], [[-0.1, 0.1], [-1.0, 1.0], [-0.001, 0.001]]);
+        let many = |x: f32| vec![x; 100];
+        let is = |ends: [f32; 2], end: f32| (ends[1] / end - 1.0).abs() < 1e-5 && ends[0] == -ends[1];
+        assert!(is(around(&[many(-0.04), many(0.02), vec![90.0]].concat()), 0.05));
+        assert!(is(around(&many(-7.0)), 10.0) && is(around(&[0.0]), 0.001));
     }
 }

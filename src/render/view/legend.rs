@@ -1,5 +1,8 @@
 //! Legends of views.
-use crate::render::colour_map::ColourMap;
+use crate::render::{
+    colour_map::ColourMap,
+    tone::{Display, false_colour_range},
+};
 
 /// The legend of a view.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,6 +43,13 @@ impl Scale {
     }
 }
 
+/// The legend of radiance in false colours; `None` with another tone map.
+pub(super) fn false_colours(title: &str, display: Display) -> Option<Legend> {
+    let ends = false_colour_range(display)?;
+    let scale = Scale { map: ColourMap::Viridis, ends, log: true, unit: "W·sr⁻¹·m⁻²" };
+    Some(Legend { title: title.to_owned(), scale: Some(scale), entries: Vec::new() })
+}
+
 /// The quantile of the finite numbers.
 pub(super) fn part_below(numbers: &[f32], part: f64) -> f32 {
     let mut finite: Vec<f32> = numbers.iter().copied().filter(|x| x.is_finite()).collect();
@@ -60,6 +70,15 @@ pub(super) fn round_up(x: f32) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::render::tone::ToneMap;
+
+    #[test]
+    fn false_colours_have_a_legend_in_the_light_of_the_scene() {
+        let display = |exposure, tone_map| Display { exposure, tone_map, ..Display::default() };
+        let legend = false_colours("Luminance", display(1.0, ToneMap::FalseColour)).expect("it has one");
+        assert!(legend.scale.is_some_and(|scale| scale.ends == [0.5e-3, 500.0] && scale.log));
+        assert_eq!(false_colours("Luminance", display(1.0, ToneMap::None)), None);
+    }
 
     #[test]
     fn places_and_numbers_are_inverse_and_ends_are_round() {

@@ -100,6 +100,16 @@ trait Quantity {
         ""
     }
 
+    /// The quantity, for the legend.
+    fn title(_sources: &Sources) -> &'static str {
+        Self::WORD.title
+    }
+
+    /// Unit of the numbers of these sources.
+    fn unit_of(_sources: &Sources) -> &'static str {
+        Self::unit()
+    }
+
     /// Advice where its data is missing.
     fn missing() -> &'static str {
         "Coming …"
@@ -127,11 +137,11 @@ trait Quantity {
     fn draw(settings: DisplaySettings, sources: &Sources, pixels: &mut Vec<[u8; 4]>) -> Option<(Legend, Field)> {
         let field = Self::field(sources);
         let is_missing = matches!(field, Field::Missing);
-        let title = if is_missing { Self::missing() } else { Self::WORD.title };
+        let title = if is_missing { Self::missing() } else { Self::title(sources) };
         let scale = match &field {
             Field::Numbers(numbers) => sources.scale.or_else(|| {
                 let map = if Self::IS_SIGNED { ColourMap::Diverging } else { settings.map };
-                Some(Scale { map, ends: Self::ends(numbers), log: Self::IS_LOG, unit: Self::unit() })
+                Some(Scale { map, ends: Self::ends(numbers), log: Self::IS_LOG, unit: Self::unit_of(sources) })
             }),
             _ => None,
         };
@@ -150,8 +160,10 @@ pub struct Sources<'a> {
     pub radiance: Option<&'a [[f32; 3]]>,
     /// The truth to compare with.
     pub truth: Option<&'a Reference>,
-    /// The pinned image of the difference.
+    /// The image that the difference subtracts.
     pub pinned: Option<&'a Frame>,
+    /// Whether the difference is that of the two sides of a comparison.
+    pub is_comparison: bool,
     /// The first surfaces of all pixels.
     pub features: Option<&'a Features>,
     /// The scale of another image beside this one, in place of its own.
@@ -172,7 +184,7 @@ pub struct DisplaySettings {
 }
 
 /// Draws a view as 8-bit sRGB, row by row from the top left, and replaces the contents of `pixels`. Returns its legend and
-/// values, except for radiance.
+/// values; radiance has a legend in false colours only.
 pub fn draw(settings: DisplaySettings, sources: &Sources, pixels: &mut Vec<[u8; 4]>) -> Option<(Legend, Field)> {
     in_view!(settings.view, V => V::draw(settings, sources, pixels))
 }

@@ -1,5 +1,5 @@
 //! The image itself, through exposure and tone map.
-use super::{DisplaySettings, Field, Legend, Quantity, Sources};
+use super::{DisplaySettings, Field, Legend, Quantity, Sources, legend::false_colours};
 use crate::{declare::Word, render::tone::to_srgb};
 
 pub(super) struct Radiance;
@@ -15,7 +15,7 @@ impl Quantity for Radiance {
 
     fn draw(settings: DisplaySettings, sources: &Sources, pixels: &mut Vec<[u8; 4]>) -> Option<(Legend, Field)> {
         to_srgb(sources.radiance.unwrap_or(&sources.frame.radiance), settings.display, pixels);
-        None
+        false_colours("Luminance", settings.display).map(|legend| (legend, Field::Colours(Vec::new())))
     }
 
     fn field(_: &Sources) -> Field {

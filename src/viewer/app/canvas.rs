@@ -1,5 +1,6 @@
 //! Joins the canvas and its overlays with the state of the window.
 use egui::{TextureHandle, Ui};
+use noisefall::render::view::Legend;
 
 use super::state::App;
 use crate::viewer::canvas::{
@@ -10,13 +11,13 @@ use crate::viewer::panels::panel_tabs::PanelTab;
 
 impl App {
     pub fn canvas(&mut self, ui: &mut Ui) {
+        let has_dialog = self.front().is_some();
         let (pictures, session, window) = (self.pictures(), &mut self.session, &mut self.window);
         let scene = session.opened.as_ref().map(|opened| opened.scene.as_ref());
-        // In an open list, arrows are the list's.
-        let has_window = self.dialogs.wait() || self.dialogs.help || self.dialogs.gallery.open;
         // On the page of the scene, letters are for what is selected.
         let is_editing = window.panel == PanelTab::Edit && self.selection.subject.is_some();
-        let keys = !has_window
+        // In an open list, arrows are the list's.
+        let keys = !has_dialog
             && !is_editing
             && !egui::Popup::is_any_open(ui.ctx())
             && !self.selection.gizmo.is_active()
@@ -37,6 +38,9 @@ impl App {
                 Some(lamp) => self.pick(Some(lamp)),
                 None => self.click(pixel),
             }
+        }
+        if let Some(response) = &output.response {
+            self.image_menu(ui, response, output.area.as_ref());
         }
         self.show_dragged(ui);
         if let Some(area) = &output.area {
@@ -73,7 +77,13 @@ impl App {
         self.show_gizmo(ui, area);
         let (session, results) = (&self.session, &self.results);
         let region = self.window.marking.or(session.budget.region);
-        overlay::show(ui, area, region, results.scores.as_ref(), results.legend.as_ref());
+        let progress = self.background.denoiser.progress().filter(|_| self.shown_view().is_denoised());
+        let denoising = progress.map(|part| Legend {
+            title: format!("Denoising, {:.0} %. This is the image without it.", 100.0 * part),
+            scale: None,
+            entries: Vec::new(),
+        });
+        overlay::show(ui, area, region, results.scores.as_ref(), denoising.as_ref().or(results.legend.as_ref()));
         if self.window.tab == Some(InstrumentTab::Path) {
             let size = session.opened.as_ref().map_or(1.0, |opened| opened.scene.size) as f32;
             let of_path = second.filter(|_| self.instruments.path.of_second).unwrap_or(area);

@@ -2,7 +2,7 @@
 use egui::Ui;
 use noisefall::render::State;
 
-use super::state::App;
+use super::{front::FrontDialog, state::App};
 use crate::viewer::background::catalogue::SceneRequest;
 use crate::viewer::canvas::interaction::Tool;
 use crate::viewer::dialogs::save_target::SaveTarget;
@@ -49,7 +49,7 @@ impl App {
             Command::Open => self.open_scene(SceneRequest::Browse),
             Command::SaveScene => self.save_scene(),
             Command::SavePicture => self.open_save_dialog(SaveTarget::Picture),
-            Command::Help => self.dialogs.help = !self.dialogs.help,
+            Command::Help => self.toggle_dialog(FrontDialog::Help),
         }
     }
 }

@@ -12,7 +12,7 @@ impl App {
             let selects = ctx.with_plugin(|labels: &mut LabelSelectionState| labels.has_selection());
             ctx.text_edit_focused() || selects == Some(true)
         };
-        if asks && !is_text() {
+        if asks && !is_text() && !self.awaits_answer() {
             self.copy();
         }
     }
@@ -26,7 +26,7 @@ impl App {
     }
 
     /// Copies all pixels of the image, as a PNG of it has them.
-    fn copy_image(&mut self) {
+    pub fn copy_image(&mut self) {
         let frame = self.results.shown.clone().filter(|_| self.can_save());
         let Some(frame) = frame else {
             return self.tell("Not copied: the image is not complete yet. Try again in a moment.".to_owned(), false);

@@ -1,7 +1,15 @@
 //! Joins the windows over the image with the state of the window.
-use noisefall::scene::{Estimator, RenderSettings, Roulette};
+use std::path::PathBuf;
 
-use super::state::App;
+use noisefall::{
+    material::Material,
+    scene::{
+        Estimator, RenderSettings, Roulette,
+        description::{ObjectDescription, SceneDescription},
+    },
+};
+
+use super::{front::FrontDialog, state::App};
 use crate::viewer::background::adviser::Adviser;
 use crate::viewer::dialogs::{
     advice, choose_file, help, open, remarks, save,
@@ -13,11 +21,71 @@ use crate::viewer::dialogs::{
 };
 use crate::viewer::instruments::tabs::InstrumentTab;
 
+/// The shipped scene with the caustic of a glass ball.
+const GLASS: &str = "glass_ball_caustic";
+
 impl App {
+    /// Shows the dialog in front, and what lies over the image beside it.
     pub fn show_dialogs(&mut self, ctx: &egui::Context) {
-        if self.dialogs.wait() {
+        self.receive_questions();
+        let front = self.front();
+        if front.is_some_and(FrontDialog::waits) {
             shield::show(ctx);
         }
+        match front {
+            Some(front) => self.show_front(ctx, front),
+            None => self.show_loading(),
+        }
+        if let Some(page) = self.dialogs.tour.filter(|_| self.results.shown.is_some() && front.is_none()) {
+            let has_glass = self.session.opened.as_ref().is_some_and(|opened| has_glass(&opened.description));
+            tour::show(ctx, page, has_glass).into_iter().for_each(|request| self.follow_tour(request));
+        }
+        let height = if front.is_none() { scene_error::show_of_file(ctx, &mut self.dialogs.file_error) } else { 0.0 };
+        self.dialogs.notices.show(ctx, height);
+    }
+
+    fn show_front(&mut self, ctx: &egui::Context, front: FrontDialog) {
+        match front {
+            FrontDialog::Save => self.show_save(ctx),
+            FrontDialog::Open => {
+                let opened = open::show(ctx, &mut self.dialogs.open);
+                opened.into_iter().for_each(|path| self.ask_to_leave(Leaving::Open(Some(path))));
+            }
+            FrontDialog::ChooseFile => {
+                let file = choose_file::show(ctx, &mut self.dialogs.file);
+                file.into_iter().for_each(|(purpose, path)| self.use_file(&purpose, &path));
+            }
+            FrontDialog::Tev => self.show_tev(ctx),
+            FrontDialog::Sequence => self.show_sequence(ctx),
+            FrontDialog::ExistingFrames => self.show_existing_frames(ctx),
+            FrontDialog::Unsaved => self.show_unsaved(),
+            FrontDialog::Conflict => self.show_conflict(),
+            FrontDialog::Recovery => self.show_recovery(),
+            FrontDialog::Unfinished => self.show_unfinished(),
+            FrontDialog::Help => {
+                if help::show(ctx, &mut self.dialogs.help) {
+                    self.start_tour();
+                }
+            }
+            FrontDialog::Gallery => {
+                let request = self.dialogs.gallery.show(ctx, &self.catalogue, self.session.path());
+                request.into_iter().for_each(|request| self.open_scene(request));
+            }
+            FrontDialog::SceneError => {
+                if scene_error::show(ctx, &mut self.dialogs.scene_error, self.session.opened.is_some()) {
+                    self.ask_to_leave(Leaving::Open(None));
+                }
+            }
+            FrontDialog::Advice => self.show_advice(ctx),
+            FrontDialog::Remarks => {
+                if let Some(opened) = &self.session.opened {
+                    remarks::show(ctx, &mut self.dialogs.remarks, &opened.remarks);
+                }
+            }
+        }
+    }
+
+    fn show_save(&mut self, ctx: &egui::Context) {
         let mut bounces = self.window.tab == Some(InstrumentTab::Bounces);
         let had_bounces = bounces;
         let answer = save::show(ctx, &mut self.dialogs.save, &mut bounces);
@@ -37,33 +105,6 @@ impl App {
             Some(SaveAnswer::Other(export)) => self.open_export(export),
             None => {}
         }
-        self.show_export_dialogs(ctx);
-        let opened = open::show(ctx, &mut self.dialogs.open);
-        opened.into_iter().for_each(|path| self.ask_to_leave(Leaving::Open(Some(path))));
-        let file = choose_file::show(ctx, &mut self.dialogs.file);
-        file.into_iter().for_each(|(purpose, path)| self.use_file(&purpose, &path));
-        self.show_loading();
-        self.show_unsaved();
-        self.show_conflict();
-        self.show_recovery();
-        self.show_unfinished();
-        scene_error::show_of_file(ctx, &mut self.dialogs.file_error);
-        if let Some(opened) = self.session.opened.as_ref().filter(|_| self.dialogs.remarks) {
-            remarks::show(ctx, &mut self.dialogs.remarks, &opened.remarks);
-        }
-        if help::show(ctx, &mut self.dialogs.help) {
-            self.start_tour();
-        }
-        if scene_error::show(ctx, &mut self.dialogs.scene_error, self.session.opened.is_some()) {
-            self.ask_to_leave(Leaving::Open(None));
-        }
-        let request = self.dialogs.gallery.show(ctx, &self.catalogue, self.session.path());
-        request.into_iter().for_each(|request| self.open_scene(request));
-        self.show_advice(ctx);
-        if let Some(page) = self.dialogs.tour.filter(|_| self.results.shown.is_some()) {
-            tour::show(ctx, page).into_iter().for_each(|request| self.follow_tour(request));
-        }
-        self.dialogs.notices.show(ctx);
     }
 
     /// Whether a study has the machine, and the picture waits.
@@ -72,9 +113,7 @@ impl App {
     }
 
     fn show_advice(&mut self, ctx: &egui::Context) {
-        let (edited, camera, adviser) = (*self.session.edited(), self.session.camera, &mut self.background.adviser);
-        // Advice is for the picture that it was asked for, and for none that has changed since.
-        adviser.take_if(|adviser| adviser.request.settings != edited || adviser.request.camera != camera);
+        let adviser = &mut self.background.adviser;
         advice::show(ctx, adviser).into_iter().for_each(|settings| *self.session.edited() = settings);
     }
 
@@ -106,6 +145,11 @@ impl App {
                 self.session.settings.estimator = Estimator::Mis;
                 self.start_comparison(RenderSettings { estimator: Estimator::Bidirectional, ..self.session.settings });
             }
+            TourRequest::OpenGlass => {
+                let entry = self.catalogue.iter().find(|entry| entry.path.file_stem().is_some_and(|stem| stem == GLASS));
+                let path = entry.map_or_else(|| PathBuf::from(GLASS), |entry| entry.path.clone());
+                self.ask_to_leave(Leaving::Open(Some(path)));
+            }
             TourRequest::OpenGallery => self.dialogs.gallery.open = true,
         }
     }
@@ -115,4 +159,13 @@ impl App {
         self.preferences.change(|saved| saved.toured |= self.dialogs.tour.is_some());
         self.dialogs.tour.take().is_some()
     }
+}
+
+/// Whether a scene has glass that light is refracted by.
+fn has_glass(scene: &SceneDescription) -> bool {
+    let refracts = |object: &ObjectDescription| {
+        let material = object.material.as_ref().and_then(|name| scene.materials.get(name));
+        material.is_some_and(|material| matches!(material.kind, Material::Dielectric(_)))
+    };
+    scene.objects.iter().any(refracts)
 }

@@ -41,6 +41,7 @@ impl App {
             shows_second: comparison.is_some_and(|comparison| comparison.layout.split() != Split::None),
             look,
             pinned,
+            is_comparison: view.is_some(),
             features,
             denoised,
             materials: session.opened.as_ref().map_or_else(|| Arc::from([]), |opened| opened.materials.clone()),

@@ -16,6 +16,10 @@ impl App {
     /// Reads what was dropped on the window, and uses what has been read.
     pub fn take_dropped_files(&mut self) {
         let dropped = self.ctx.input(|input| input.raw.dropped_files.clone());
+        // The question is about the scene that is open.
+        if !dropped.is_empty() && self.awaits_answer() && self.dialogs.open.is_none() {
+            return self.tell("Not opened: close the dialog first, then drop the file again.".to_owned(), true);
+        }
         for file in dropped {
             self.background.drops.read(file.path().to_owned(), self.session.camera.resolution, self.window.hovered);
         }

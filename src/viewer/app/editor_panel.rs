@@ -20,7 +20,7 @@ use crate::viewer::panels::{
     subject::Subject,
     users,
 };
-use crate::viewer::widgets::split;
+use crate::viewer::widgets::{split, style::leave_room_for_bar};
 
 impl App {
     /// The panel of the scene's parts, with the parameters of the selected one.
@@ -46,7 +46,10 @@ impl App {
             Some(SceneCommand::SaveAs) => self.ask_where_to_save(),
             None => {}
         }
-        ScrollArea::vertical().id_salt("parameters").auto_shrink(false).show(ui, |ui| self.inspector(ui));
+        ScrollArea::vertical().id_salt("parameters").auto_shrink(false).show(ui, |ui| {
+            leave_room_for_bar(ui);
+            self.inspector(ui);
+        });
     }
 
     /// Gives the scene the camera and the settings of the window.
@@ -101,6 +104,11 @@ impl App {
         for request in asked.requests {
             let edit = match request {
                 Request::Set { path, value } => Edit::set(path, value),
+                Request::Reset { path } => {
+                    let default = self.editor.as_ref().and_then(|editor| editor.document.default_of(&path));
+                    let Some(value) = default else { continue };
+                    Edit::set(path, value)
+                }
                 Request::Choose { path, choice, name } => {
                     let Some(editor) = &self.editor else { return };
                     let edit = editor.document.change_kind(&path, choice, name);

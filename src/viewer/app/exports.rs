@@ -26,11 +26,18 @@ impl App {
         }
     }
 
-    pub fn show_export_dialogs(&mut self, ctx: &egui::Context) {
+    pub fn show_tev(&mut self, ctx: &egui::Context) {
         let address = connect_tev::show(ctx, &mut self.dialogs.tev);
         address.into_iter().for_each(|address| self.background.tev.connect(address));
+    }
+
+    pub fn show_sequence(&mut self, ctx: &egui::Context) {
         let answer = sequence::show(ctx, &mut self.dialogs.sequence);
         answer.into_iter().for_each(|answer| self.render_sequence(answer));
+    }
+
+    /// Asks about frames that exist, and follows the answer.
+    pub fn show_existing_frames(&mut self, ctx: &egui::Context) {
         let Some((request, [existing, frames])) = &self.dialogs.existing_frames else { return };
         let Some(existing) = sequence::ask_about_existing(ctx, *existing, *frames) else { return };
         let request = SequenceRequest { existing, ..request.clone() };

@@ -15,7 +15,7 @@ use crate::viewer::panels::subject::Subject;
 impl App {
     /// Gives the gizmo its keys, before the window looks at its own: while the pointer is over the picture.
     pub fn take_gizmo_keys(&mut self) {
-        let is_free = !self.dialogs.wait() && self.has_gizmo();
+        let is_free = self.front().is_none() && self.has_gizmo();
         let gizmo = &mut self.selection.gizmo;
         if is_free && (self.window.hovered.is_some() || gizmo.has_pointer() || gizmo.is_active()) {
             gizmo.take_keys(&self.ctx);

@@ -86,10 +86,6 @@ impl App {
 
     /// Asks what becomes of a render that was found, and follows the answer.
     pub fn show_unfinished(&mut self) {
-        // One question at a time.
-        if self.dialogs.recovery.is_some() {
-            return;
-        }
         let Some(answer) = self.dialogs.unfinished.as_ref().and_then(|found| unfinished::show(&self.ctx, found)) else { return };
         let Some(found) = self.dialogs.unfinished.take() else { return };
         match answer {

@@ -20,7 +20,7 @@ impl App {
                 self.selection.select(Some(subject));
                 self.look_at_selection();
             }
-            Action::DropToFloor => self.drop_to_floor(&subject),
+            Action::DropToFloor => self.rest_on_floor(&subject),
             Action::Duplicate => self.duplicate_beside(&subject),
             Action::Delete => {
                 if self.edit(&Edit::remove(subject.path())) {
@@ -92,7 +92,7 @@ impl App {
         is_made
     }
 
-    fn drop_to_floor(&mut self, subject: &Subject) {
+    fn rest_on_floor(&mut self, subject: &Subject) {
         let (Some(opened), Some(editor), Subject::Object(place)) = (&self.session.opened, &self.editor, subject) else { return };
         match editor.document.drop_to_floor(&opened.scene, *place) {
             Some(edit) => _ = self.edit(&edit),

@@ -83,7 +83,7 @@ impl App {
     /// Opens the scene of another program again that has changed.
     fn reload_foreign(&mut self) {
         let Some(path) = self.session.path().map(Path::to_owned) else { return };
-        self.window.kept_view = Some((path.clone(), self.session.camera, self.session.settings));
+        self.window.kept_view = Some((Some(path.clone()), self.session.window_view()));
         self.ask_to_leave(Leaving::Open(Some(path)));
     }
 
@@ -145,7 +145,9 @@ impl App {
         let Some(editor) = &self.editor else { return };
         let (before, name) = (editor.description(), file_name(editor));
         self.dialogs.file_error = None;
-        self.history.push_edit("reload of the file");
+        if !outside.is_format {
+            self.history.push_edit("reload of the file");
+        }
         self.step_in_scene(|editor| editor.take_outside(outside), |now| *now != *before);
         self.tell(format!("Reloaded {name}"), false);
     }
@@ -153,9 +155,6 @@ impl App {
     /// Shows the question about a file that was changed by another program, and follows the answer.
     pub fn show_conflict(&mut self) {
         let (Some(conflict), Some(editor)) = (&self.dialogs.conflict, &mut self.editor) else { return };
-        if self.dialogs.save.is_some() || self.saving.is_some() {
-            return;
-        }
         let Some(answer) = conflict::show(&self.ctx, conflict, &file_name(editor)) else { return };
         if answer == ConflictAnswer::SaveAs {
             // The question stays until the scene is saved.

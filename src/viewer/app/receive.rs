@@ -89,17 +89,22 @@ impl App {
 
     fn open(&mut self, mut opened: OpenedScene, document: Document) {
         let (session, results, scene) = (&mut self.session, &mut self.results, &opened.scene);
-        if session.opened.as_ref().is_none_or(|before| before.path != opened.path) {
+        let is_other = session.opened.as_ref().is_none_or(|before| before.path != opened.path || opened.path.is_none());
+        if is_other {
             // What suited another scene's light says nothing about this one's.
             let display = &mut session.look.display;
             (display.exposure, display.white_balance) = (scene.exposure, WhiteBalance::NEUTRAL);
+            self.window.forget_last_saved();
+            // They name files after the scene before.
+            (self.dialogs.save, self.dialogs.sequence, self.window.leaving) = (None, None, None);
         }
         if let Some(path) = &opened.path {
             opened.name = catalogue::remember(&mut self.catalogue, &opened.name, path);
             self.preferences.change(|saved| recent::note(&mut saved.recent, path));
         }
-        let view = self.window.kept_view.take().filter(|(path, ..)| opened.path.as_ref() == Some(path));
-        let view = view.map_or((scene.camera, scene.settings), |(_, camera, settings)| (camera, settings));
+        let kept_view = self.window.kept_view.take().filter(|(path, _)| *path == opened.path).map(|(_, view)| view);
+        let view = kept_view.map_or((scene.camera, scene.settings), |view| (view.camera, view.settings));
+        session.look.display.exposure = kept_view.map_or(session.look.display.exposure, |view| view.exposure);
         (session.camera, session.settings) = opened.kept.as_ref().map_or(view, |kept| (kept.header.camera, kept.header.settings));
         // A new scene has no file, and goes on being edited as the one before.
         let paused = session.budget.paused && opened.path.is_none() && session.opened.is_some();

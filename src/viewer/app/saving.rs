@@ -14,7 +14,10 @@ use super::state::App;
 use crate::viewer::background::{
     display_image::DisplayImage, display_image::render, display_request::BounceTerm, display_request::DisplayRequest,
 };
-use crate::viewer::dialogs::{save::SaveDialog, save_target::SaveTarget};
+use crate::viewer::dialogs::{
+    save::SaveDialog,
+    save_target::{SaveTarget, SceneNames},
+};
 use crate::viewer::instruments::path::copying::{PathForm, written};
 
 impl App {
@@ -30,9 +33,13 @@ impl App {
 
     pub fn open_save_dialog(&mut self, target: SaveTarget) {
         if self.dialogs.save.is_none() {
-            let last = self.window.last_saved.as_deref().filter(|_| target != SaveTarget::Scene);
-            let title = self.session.opened.as_ref().map_or("", |opened| opened.name.as_str());
-            let dialog = SaveDialog::new(target, self.session.path(), title, last);
+            let scene = SceneNames {
+                path: self.session.path(),
+                title: self.session.opened.as_ref().map_or("", |opened| opened.name.as_str()),
+                last_saved: self.window.last_saved.as_deref(),
+                folder: self.window.last_folder.as_deref(),
+            };
+            let dialog = SaveDialog::new(target, &scene);
             let has_other_view = target == SaveTarget::Scene && self.session.view_differs();
             self.dialogs.save = Some(if has_other_view { dialog.with_view() } else { dialog });
         }

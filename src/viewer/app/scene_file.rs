@@ -1,4 +1,6 @@
 //! Asks before unsaved changes are lost.
+use std::path::Path;
+
 use egui::ViewportCommand;
 use noisefall::render::State;
 
@@ -27,6 +29,8 @@ impl App {
             Leaving::Open(path) => self.background.loader.open(path),
             Leaving::New(template) => self.background.loader.begin(template),
             Leaving::Restore(found) => {
+                let file = found.recovery.file().map(Path::to_owned);
+                self.window.kept_view = found.recovery.view.as_deref().map(|view| (file, *view));
                 self.background.loader.restore(found.recovery);
                 self.background.recovery.restoring = Some(found.file);
             }

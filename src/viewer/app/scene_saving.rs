@@ -100,7 +100,7 @@ impl App {
         if let Some(leaving) = leaving {
             return self.leave(leaving);
         }
-        self.window.kept_view = Some((path.clone(), self.session.camera, self.session.settings));
+        self.window.kept_view = Some((Some(path.clone()), self.session.window_view()));
         self.background.loader.open(Some(path));
     }
 
@@ -113,6 +113,7 @@ impl App {
             let name = catalogue::name(&editor.document.description().title, path);
             opened.name = catalogue::remember(&mut self.catalogue, &name, path);
             opened.path = Some(path.to_owned());
+            self.window.forget_last_saved();
             self.preferences.change(|saved| recent::note(&mut saved.recent, path));
         }
         let left_out = if self.session.view_differs() { ". The view is not the scene's camera, and is not saved." } else { "" };

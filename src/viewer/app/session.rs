@@ -2,6 +2,7 @@
 use std::{path::Path, sync::Arc};
 
 use noisefall::{
+    edit::WindowView,
     render::{Budget, Frame, RenderRequest, view::DisplaySettings},
     scene::{Camera, RenderSettings, built_in, description::SceneDescription},
 };
@@ -85,6 +86,11 @@ impl Session {
     pub fn view_differs(&self) -> bool {
         let of_scene = |opened: &OpenedScene| Camera { resolution: self.camera.resolution, ..opened.scene.camera };
         self.opened.as_ref().is_some_and(|opened| of_scene(opened) != self.camera)
+    }
+
+    /// The view of the open scene, and of no other.
+    pub fn window_view(&self) -> WindowView {
+        WindowView { camera: self.camera, settings: self.settings, exposure: self.look.display.exposure }
     }
 
     /// The file of the open scene.

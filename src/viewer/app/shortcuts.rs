@@ -1,7 +1,7 @@
 //! Keys: commands, dialogs, instruments and views.
 use egui::{Context, Event, InputState, Key, KeyboardShortcut, Modifiers, Popup, ViewportCommand};
 
-use super::state::App;
+use super::{front::FrontDialog, state::App};
 use crate::viewer::canvas::interaction::Tool;
 use crate::viewer::instruments::tabs::InstrumentTab;
 use crate::viewer::panels::{
@@ -52,21 +52,18 @@ impl App {
         self.file_and_step_keys(ctx);
         self.take_copy_key(ctx);
         self.window_keys(ctx);
-        // Whatever has the keyboard: only in text this key is the cursor's.
-        if presses(ctx, Key::Home) && !ctx.text_edit_focused() {
-            self.perform(Command::ResetCamera);
-        }
-        if ctx.text_edit_focused() || self.dialogs.wait() || self.session.opened.is_none() {
+        if ctx.text_edit_focused() || self.front().is_some() || self.session.opened.is_none() {
             return;
         }
-        let has_dialog = self.dialogs.help || self.dialogs.gallery.open;
+        // Whatever has the keyboard: only in text this key is the cursor's.
+        if presses(ctx, Key::Home) {
+            self.perform(Command::ResetCamera);
+        }
         self.command_keys(ctx);
         if presses(ctx, Key::L) {
             self.look_at_selection();
         }
-        if !has_dialog {
-            self.scene_keys(ctx);
-        }
+        self.scene_keys(ctx);
         self.display_keys(ctx);
     }
 
@@ -84,12 +81,12 @@ impl App {
     fn file_and_step_keys(&mut self, ctx: &Context) {
         for (shortcut, command) in FILE_KEYS {
             let can = command != Command::SavePicture || self.can_save();
-            if ctx.input_mut(|input| input.consume_shortcut(&shortcut)) && can && !self.dialogs.wait() {
+            if ctx.input_mut(|input| input.consume_shortcut(&shortcut)) && can && self.make_room() {
                 self.perform(command);
             }
         }
         // In text they belong to the text.
-        if !ctx.text_edit_focused() && !self.dialogs.wait() {
+        if !ctx.text_edit_focused() && self.front().is_none() {
             for (shortcut, command) in STEP_KEYS {
                 if ctx.input_mut(|input| input.consume_shortcut(&shortcut)) {
                     self.perform(command);
@@ -100,25 +97,35 @@ impl App {
 
     /// Keys of dialogs and instruments.
     fn window_keys(&mut self, ctx: &Context) {
-        let key = |key| ctx.input(|input| input.key_pressed(key));
-        if key(Key::F11) {
-            let is_full = ctx.input(|input| input.viewport().fullscreen.unwrap_or(false));
-            ctx.send_viewport_cmd(ViewportCommand::Fullscreen(!is_full));
-        }
-        if key(Key::Escape) {
+        // A key that is held is pressed once.
+        let key = |key| ctx.input(|input| begins_press(input, key));
+        self.full_screen_key(ctx, key(Key::F11));
+        if ctx.input(|input| input.key_pressed(Key::Escape)) {
             self.escape();
         }
-        for (code, shown) in [
-            (Key::F1, &mut self.dialogs.help),
-            (Key::F6, &mut self.dialogs.gallery.open),
-            (Key::F12, &mut self.frame_times.shown),
-        ] {
-            *shown ^= key(code);
+        self.frame_times.shown ^= key(Key::F12);
+        for (code, dialog) in [(Key::F1, FrontDialog::Help), (Key::F6, FrontDialog::Gallery)] {
+            if key(code) {
+                self.toggle_dialog(dialog);
+            }
         }
         for (code, tab) in TAB_KEYS {
-            if key(code) && self.session.opened.is_some() {
+            let is_pressed = key(code) && self.session.opened.is_some() && self.front().is_none();
+            if is_pressed && !(code == Key::F2 && self.rename_selected()) {
                 self.toggle_tab(tab);
             }
+        }
+    }
+
+    /// Fills the screen or no longer does, each time the key is pressed, even if the window has not followed the last one yet.
+    fn full_screen_key(&mut self, ctx: &Context, is_pressed: bool) {
+        let reported = ctx.input(|input| input.viewport().fullscreen.unwrap_or(false));
+        let asked = &mut self.window.full_screen;
+        asked.take_if(|[before, _]| *before != reported);
+        if is_pressed {
+            let is_full = asked.map_or(reported, |[_, asked]| asked);
+            *asked = Some([reported, !is_full]);
+            ctx.send_viewport_cmd(ViewportCommand::Fullscreen(!is_full));
         }
     }
 
@@ -126,7 +133,12 @@ impl App {
         // Space presses the button that Tab has reached.
         let has_focus = ctx.egui_wants_keyboard_input();
         for (code, command) in COMMAND_KEYS {
-            if presses(ctx, code) && !(code == Key::Space && has_focus) {
+            let is_pressed = if code == Key::Space {
+                !has_focus && presses(ctx, code) && ctx.input(|input| begins_press(input, code))
+            } else {
+                presses(ctx, code)
+            };
+            if is_pressed {
                 self.perform(command);
             }
         }
@@ -171,7 +183,7 @@ impl App {
         self.window.panel == PanelTab::Edit && is_pressed(input, Key::A, Modifiers::SHIFT)
     }
 
-    /// Closes what lies over the picture: of several things all dialogs first, then messages, then the selection, then the region.
+    /// Closes what lies over the picture: the dialog in front first, then the tour, messages, the selection, and the region.
     fn escape(&mut self) {
         // A menu, a list or a colour picker closes itself, and nothing else.
         if Popup::is_any_open(&self.ctx) {
@@ -181,34 +193,14 @@ impl App {
             return;
         }
         // The field of a path belongs to its dialog.
-        let dialogs = &mut self.dialogs;
-        if dialogs.open.take().is_some() || dialogs.save.take().is_some() || dialogs.file.take().is_some() {
-            return;
-        }
-        if dialogs.tev.take().is_some() || dialogs.sequence.take().is_some() || dialogs.existing_frames.take().is_some() {
-            return;
-        }
-        if dialogs.unsaved.take().is_some()
-            || dialogs.conflict.take().is_some()
-            || dialogs.recovery.take().is_some()
-            || dialogs.unfinished.take().is_some()
-        {
-            return;
-        }
-        // It lies over the tour, and its cards have the keyboard.
-        if std::mem::take(&mut dialogs.gallery.open) {
-            return;
+        if let Some(front) = self.front() {
+            return self.close(front);
         }
         // Escape discards the edit of a field, and does nothing else.
         if self.window.had_focus || self.cancel_loading() {
             return;
         }
-        let dialogs = &mut self.dialogs;
-        if dialogs.help || dialogs.remarks || dialogs.wait() {
-            (dialogs.help, dialogs.remarks, dialogs.scene_error) = (false, false, None);
-            return;
-        }
-        if self.background.adviser.take().is_some() || self.end_tour() || self.discard_copy() {
+        if self.end_tour() || self.discard_copy() {
             return;
         }
         let dialogs = &mut self.dialogs;
@@ -232,6 +224,12 @@ fn presses(ctx: &Context, key: Key) -> bool {
 fn is_pressed(input: &InputState, key: Key, with: Modifiers) -> bool {
     let is_press = |event: &Event| matches!(event, Event::Key { key: of, pressed: true, modifiers, .. } if *of == key && modifiers.matches_exact(with));
     input.events.iter().any(is_press)
+}
+
+/// Whether a key was pressed, and not only held.
+fn begins_press(input: &InputState, key: Key) -> bool {
+    let begins = |event: &Event| matches!(event, Event::Key { key: of, pressed: true, repeat: false, .. } if *of == key);
+    input.events.iter().any(begins)
 }
 
 /// Whether Shift+D was pressed. A key that is held, such as that of a flight to the right, is not pressed again.

@@ -9,28 +9,29 @@ use crate::viewer::panels::{
     camera, display, panel_tabs, panel_tabs::PanelTab, pixel_readout::Pixel, sampling, sampling::Findings, scene,
     status_bar::StatusBar, stop, views, views::ReferenceSource, window,
 };
-use crate::viewer::widgets::style::section;
+use crate::viewer::widgets::style::{leave_room_for_bar, section};
 
 /// The largest part of the panel's height that the notes of a scene take while it is edited.
 const NOTES: f32 = 0.2;
 
 impl App {
     pub fn side_panel(&mut self, ui: &mut Ui) {
-        // The bar has room of its own: it would lie over what is at the right.
-        let scroll = &mut ui.spacing_mut().scroll;
-        scroll.floating_allocated_width = scroll.bar_width;
         let height = ui.available_height();
         ui.scope(|ui| {
-            ui.set_max_width(ui.available_width() - ui.spacing().scroll.allocated_width());
+            leave_room_for_bar(ui);
             self.scene_and_tabs(ui);
         });
         if self.window.panel == PanelTab::Edit {
             let notes = ScrollArea::vertical().id_salt("notes").max_height(NOTES * height).auto_shrink([false, true]);
-            notes.show(ui, |ui| scene::notes(ui, self.session.opened.as_ref()));
+            notes.show(ui, |ui| {
+                leave_room_for_bar(ui);
+                scene::notes(ui, self.session.opened.as_ref());
+            });
             // Its parts scroll by themselves.
             return self.editor_panel(ui);
         }
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+            leave_room_for_bar(ui);
             scene::notes(ui, self.session.opened.as_ref());
             ui.add_enabled_ui(self.session.opened.is_some(), |ui| {
                 section(ui, "Sampling", |ui| self.sampling_panel(ui));
@@ -100,7 +101,8 @@ impl App {
     }
 
     pub fn display_panel(&mut self, ui: &mut Ui) {
-        display::show(ui, &mut self.session.look.display);
+        let default_exposure = self.session.opened.as_ref().map_or(0.0, |opened| opened.scene.exposure);
+        display::show(ui, &mut self.session.look.display, default_exposure);
         let of_scene = self.exact_solution();
         let reference = match (&self.session.dropped_reference, of_scene) {
             (Some(dropped), _) => ReferenceSource::Dropped(&dropped.name),

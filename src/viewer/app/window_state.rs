@@ -1,10 +1,7 @@
 //! The state of the window itself: tools, tabs and dialogs.
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use noisefall::{
-    render::Region,
-    scene::{Camera, RenderSettings},
-};
+use noisefall::{edit::WindowView, render::Region};
 
 use crate::viewer::background::{progress_keeper::FoundRender, recovery_files::FoundRecovery, sequence_task::SequenceRequest};
 use crate::viewer::canvas::{interaction::Tool, picture_view::PictureView};
@@ -13,7 +10,7 @@ use crate::viewer::dialogs::{
     save::SaveDialog, sequence::SequenceDialog, unsaved::Leaving,
 };
 use crate::viewer::instruments::tabs::InstrumentTab;
-use crate::viewer::panels::panel_tabs::PanelTab;
+use crate::viewer::panels::{panel_tabs::PanelTab, subject::Subject};
 
 #[derive(Default)]
 pub struct WindowState {
@@ -39,7 +36,10 @@ pub struct WindowState {
     pub later_events: Vec<egui::Event>,
     /// How often a button of the mouse was pressed.
     pub presses: u64,
+    /// The file of an image, a plot or a path of this scene that was saved last.
     pub last_saved: Option<PathBuf>,
+    /// The folder of the last such file of an earlier scene.
+    pub last_folder: Option<PathBuf>,
     /// What goes on when the scene is saved, while the place to save it is asked for.
     pub leaving: Option<Leaving>,
     /// The window closes, whatever is unsaved.
@@ -47,8 +47,22 @@ pub struct WindowState {
     pub title: String,
     /// The time of the window's clock at which it began to wait for a file.
     pub reading_since: Option<f64>,
-    /// A file whose scene is shown as the one before it, with its camera and settings, when it is opened.
-    pub kept_view: Option<(PathBuf, Camera, RenderSettings)>,
+    /// The view of the scene that is opened next, if that is the one of this file, or one without a file.
+    pub kept_view: Option<(Option<PathBuf>, WindowView)>,
+    /// The part whose menu is open over the image.
+    pub menu_of: Option<Subject>,
+    /// Whether the window filled the screen when it was last asked to change that, and what it was asked for, until it has followed.
+    pub full_screen: Option<[bool; 2]>,
+    /// The view of the last frame.
+    pub last_view: Option<WindowView>,
+}
+
+impl WindowState {
+    /// Forgets the name of the last saved file, and not its folder: another scene has other names.
+    pub fn forget_last_saved(&mut self) {
+        let folder = self.last_saved.take().and_then(|path| path.parent().map(Path::to_owned));
+        self.last_folder = folder.or(self.last_folder.take());
+    }
 }
 
 #[derive(Default)]
@@ -78,15 +92,4 @@ pub struct Dialogs {
     pub gallery: Gallery,
     /// The page of the tour that is open.
     pub tour: Option<usize>,
-}
-
-impl Dialogs {
-    /// Whether a dialog waits for an answer and takes the keys.
-    pub fn wait(&self) -> bool {
-        let has_question =
-            self.unsaved.is_some() || self.conflict.is_some() || self.recovery.is_some() || self.unfinished.is_some();
-        let has_export = self.tev.is_some() || self.sequence.is_some() || self.existing_frames.is_some();
-        let has_file = self.save.is_some() || self.open.is_some() || self.file.is_some();
-        has_file || has_export || has_question || self.scene_error.is_some()
-    }
 }

@@ -1,11 +1,17 @@
 //! Denoises frames off the UI thread, while the view shows them.
-use std::sync::Arc;
+use std::{
+    sync::{
+        Arc,
+        atomic::{AtomicUsize, Ordering},
+    },
+    time::Duration,
+};
 
 use noisefall::{
     math::SimdLevel,
     render::{
         Frame,
-        denoise::{denoised, reserve},
+        denoise::{denoised, reserve, steps},
         threads::Threads,
     },
 };
@@ -21,11 +27,16 @@ pub struct Denoiser {
     /// The frame of the task.
     of: Option<Arc<Frame>>,
     pending: Option<BackgroundTask<Option<Vec<[f32; 3]>>>>,
+    /// The steps that the task has made.
+    steps: Arc<AtomicUsize>,
 }
+
+/// Milliseconds between two looks at the progress.
+const LOOK: u64 = 100;
 
 impl Denoiser {
     pub fn new(ctx: &egui::Context) -> Denoiser {
-        Denoiser { ctx: ctx.clone(), done: None, of: None, pending: None }
+        Denoiser { ctx: ctx.clone(), done: None, of: None, pending: None, steps: Arc::default() }
     }
 
     /// The denoised radiance of a frame as soon as it is known; until then, that of an earlier frame of the same image.
@@ -50,6 +61,13 @@ impl Denoiser {
         self.done.as_ref().map(|(of, _)| of.clone()).filter(|of| is_of_image(of, frame))
     }
 
+    /// The fraction of the task that is done, while there is no result for the image yet.
+    pub fn progress(&self) -> Option<f32> {
+        let of = self.of.as_ref().filter(|of| self.pending.is_some() && self.of(of).is_none())?;
+        let whole = steps([of.width, of.height]).max(1);
+        Some(self.steps.load(Ordering::Relaxed) as f32 / whole as f32)
+    }
+
     /// Cancels the task and drops the result: nothing shows it.
     pub fn stop(&mut self) {
         (self.done, self.of, self.pending) = (None, None, None);
@@ -57,11 +75,17 @@ impl Denoiser {
 
     fn start(&mut self, frame: &Arc<Frame>, threads: usize) {
         self.of = Some(frame.clone());
-        let frame = frame.clone();
+        self.steps = Arc::default();
+        let (frame, steps, ctx) = (frame.clone(), self.steps.clone(), self.ctx.clone());
         self.pending = Some(BackgroundTask::start(&self.ctx, move |cancelled| {
             let _memory = reserve([frame.width, frame.height]).ok()?;
             let pool = Threads::new(threads, SimdLevel::best()).ok()?;
-            pool.install(|| denoised(&frame, cancelled))
+            let step = || {
+                steps.fetch_add(1, Ordering::Relaxed);
+                ctx.request_repaint_after(Duration::from_millis(LOOK));
+                cancelled()
+            };
+            pool.install(|| denoised(&frame, &step))
         }));
     }
 }

@@ -79,6 +79,7 @@ pub struct ReferenceComparison {
 pub fn render(request: DisplayRequest) -> DisplayImage {
     let DisplayRequest { frame, second, shows_second, term, look, reference, pinned, features, denoised, materials, .. } =
         request;
+    let is_comparison = request.is_comparison;
     let (on_screen, most_side) = (request.on_screen, request.most_side);
     let truth = reference.as_deref();
     let picture = |frame: &Frame, radiance: Option<&[[f32; 3]]>, scale: Option<Scale>| {
@@ -89,7 +90,8 @@ pub fn render(request: DisplayRequest) -> DisplayImage {
         let reduced = (to != size && (look.view == View::Radiance || radiance.is_some() && look.view.is_denoised()))
             .then(|| averaged(radiance.unwrap_or(&frame.radiance), size, to));
         let radiance = reduced.as_deref().or(radiance);
-        let shown = draw(look, &Sources { frame, radiance, truth, pinned, features, scale, materials: &materials }, &mut pixels);
+        let sources = Sources { frame, radiance, truth, pinned, is_comparison, features, scale, materials: &materials };
+        let shown = draw(look, &sources, &mut pixels);
         if to != size && reduced.is_none() {
             pixels = averaged_codes(&pixels, size, to);
         }

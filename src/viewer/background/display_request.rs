@@ -19,7 +19,9 @@ pub struct DisplayRequest {
     pub look: DisplaySettings,
     /// The image that the frame converges to, if it is known.
     pub reference: Option<Arc<Reference>>,
+    /// The image that the difference subtracts, and whether that is side B of a comparison.
     pub pinned: Option<Arc<Frame>>,
+    pub is_comparison: bool,
     pub features: Option<Arc<Features>>,
     /// The denoised radiance of the frame.
     pub denoised: Option<Arc<Vec<[f32; 3]>>>,
@@ -54,6 +56,7 @@ impl PartialEq for DisplayRequest {
             && self.look == other.look
             && same(self.reference.as_ref(), other.reference.as_ref())
             && same(self.pinned.as_ref(), other.pinned.as_ref())
+            && self.is_comparison == other.is_comparison
             && same(self.features.as_ref(), other.features.as_ref())
             && same(self.denoised.as_ref(), other.denoised.as_ref())
             && self.term == other.term
@@ -101,6 +104,7 @@ pub mod tests {
             look: DisplaySettings::default(),
             reference: None,
             pinned: None,
+            is_comparison: false,
             features: None,
             denoised: None,
             materials: Arc::from([]),

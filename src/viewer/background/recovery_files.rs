@@ -6,7 +6,7 @@ use std::{
     time::Duration,
 };
 
-use noisefall::edit::{Document, Recovery};
+use noisefall::edit::{Document, Recovery, WindowView};
 use tempfile::NamedTempFile;
 
 use super::catalogue::in_full;
@@ -34,12 +34,12 @@ pub struct OwnFile {
     _lock: NamedTempFile,
 }
 
-/// Writes the changes. Returns whether they are in the file.
-pub fn keep(folder: &Path, own: &mut Option<OwnFile>, document: &Document) -> bool {
+/// Writes the changes, and the view of them. Returns whether they are in the file.
+pub fn keep(folder: &Path, own: &mut Option<OwnFile>, document: &Document, view: Option<WindowView>) -> bool {
     if own.is_none() {
         *own = begin(folder, "unsaved-", EXTENSION).ok();
     }
-    own.as_ref().is_some_and(|own| Recovery::of(document).write(&own.path).is_ok())
+    own.as_ref().is_some_and(|own| Recovery::of(document, view).write(&own.path).is_ok())
 }
 
 /// Begins a file of this window, with a lock beside it.
@@ -150,11 +150,11 @@ pub mod tests {
         let document = changed(&scene, 20.0);
         let mut own = None;
         assert!(find(&kept, None).is_none());
-        assert!(keep(&kept, &mut own, &document));
+        assert!(keep(&kept, &mut own, &document, None));
         assert!(find(&kept, Some(&scene)).is_none(), "the window is open");
         drop(own);
         let found = find(&kept, Some(&scene)).expect("it was left behind");
-        assert_eq!(found.recovery, Recovery::of(&document));
+        assert_eq!(found.recovery, Recovery::of(&document, None));
         assert!(find(&kept, None).is_some() && find(&kept, Some(&folder.path().join("other.toml"))).is_none());
         // What was saved after all is nothing to restore.
         fs::write(&scene, document.text()).expect("it is written");
@@ -169,7 +169,7 @@ pub mod tests {
         let document = changed(&folder.path().join("mine.toml"), 20.0);
         assert!(find_patiently(&kept, None, || panic!("there is nothing to wait for")).is_none());
         let mut own = None;
-        assert!(keep(&kept, &mut own, &document));
+        assert!(keep(&kept, &mut own, &document, None));
         let other = folder.path().join("other.toml");
         assert!(find_patiently(&kept, Some(&other), || panic!("it is of another scene")).is_none());
         let mut looks = 0;
@@ -180,9 +180,9 @@ pub mod tests {
             }
             true
         });
-        assert_eq!((found.map(|found| found.recovery), looks), (Some(Recovery::of(&document)), 3));
+        assert_eq!((found.map(|found| found.recovery), looks), (Some(Recovery::of(&document, None)), 3));
         let mut own = None;
-        assert!(keep(&folder.path().join("open"), &mut own, &document));
+        assert!(keep(&folder.path().join("open"), &mut own, &document, None));
         assert!(find_patiently(&folder.path().join("open"), None, || false).is_none(), "its window stays open");
     }
 
@@ -193,7 +193,7 @@ pub mod tests {
         let edit = Edit::set(ParameterPath::of("title"), OwnedValue::Text("Two lamps".to_owned()));
         document.apply(&edit).expect("a title can be anything");
         let mut own = None;
-        assert!(keep(kept.path(), &mut own, &document));
+        assert!(keep(kept.path(), &mut own, &document, None));
         drop(own);
         assert_eq!(find(kept.path(), None).map(|found| found.title).as_deref(), Some("Two lamps"));
     }

@@ -6,7 +6,7 @@ use std::{
 };
 
 use crossbeam_channel::{Receiver, Sender, unbounded};
-use noisefall::edit::{Document, Version};
+use noisefall::edit::{Document, Version, WindowView};
 
 use super::{
     background_task::BackgroundTask,
@@ -24,8 +24,8 @@ pub struct RecoveryKeeper {
     folder: Option<PathBuf>,
     /// Writes on its own thread, because folders can be slow.
     thread: Option<Thread>,
-    /// The version that the file holds, or will in a moment.
-    kept: Option<Version>,
+    /// The version and the view that the file holds, or will in a moment.
+    kept: Option<(Version, Option<WindowView>)>,
     search: Option<BackgroundTask<Option<FoundRecovery>>>,
     /// The file of the recovery that is being opened.
     pub restoring: Option<PathBuf>,
@@ -39,7 +39,7 @@ struct Thread {
 }
 
 enum Command {
-    Keep { document: Box<Document>, superseded: Option<PathBuf> },
+    Keep { document: Box<Document>, view: Option<Box<WindowView>>, superseded: Option<PathBuf> },
     Forget,
     Remove(PathBuf),
 }
@@ -61,15 +61,19 @@ impl RecoveryKeeper {
         self.folder.as_deref()
     }
 
-    /// Keeps the changes of a document, or forgets them if there are none.
-    pub fn keep(&mut self, changed: Option<&Document>) {
-        let version = changed.map(Document::version);
-        if version == self.kept || self.folder.is_none() {
+    /// Keeps the changes of a document and the view of it, or forgets them if there are none.
+    pub fn keep(&mut self, changed: Option<&Document>, view: Option<WindowView>) {
+        let now = changed.map(|document| (document.version(), view));
+        if now == self.kept || self.folder.is_none() {
             return;
         }
-        self.kept = version;
+        self.kept = now;
         let command = match changed {
-            Some(document) => Command::Keep { document: Box::new(document.clone()), superseded: self.superseded.take() },
+            Some(document) => Command::Keep {
+                document: Box::new(document.clone()),
+                view: view.map(Box::new),
+                superseded: self.superseded.take(),
+            },
             None => Command::Forget,
         };
         self.send(command);
@@ -90,7 +94,7 @@ impl RecoveryKeeper {
 
     /// Forgets the changes of the open scene.
     pub fn forget(&mut self) {
-        self.keep(None);
+        self.keep(None, None);
     }
 
     /// Removes changes that nobody wants.
@@ -138,16 +142,16 @@ fn work(folder: &Path, commands: &Receiver<Command>) {
         let mut latest = None;
         for command in std::iter::once(first).chain(commands.try_iter()) {
             match command {
-                Command::Keep { document, superseded: file } => {
+                Command::Keep { document, view, superseded: file } => {
                     superseded.extend(file);
-                    latest = Some(Some(document));
+                    latest = Some(Some((document, view)));
                 }
                 Command::Forget => latest = Some(None),
                 Command::Remove(file) => remove(&file),
             }
         }
         match latest {
-            Some(Some(document)) if keep(folder, &mut own, &document) => {
+            Some(Some((document, view))) if keep(folder, &mut own, &document, view.as_deref().copied()) => {
                 superseded.drain(..).for_each(|file| remove(&file));
             }
             Some(None) => {
@@ -174,12 +178,12 @@ mod tests {
         let kept = folder.path().join("recovery");
         let document = changed(&scene, 20.0);
         let mut keeper = RecoveryKeeper::in_folder(&kept);
-        keeper.keep(Some(&document));
-        keeper.keep(None);
+        keeper.keep(Some(&document), None);
+        keeper.keep(None, None);
         drop(keeper);
         assert_eq!(count_files(&kept), 0);
         let mut keeper = RecoveryKeeper::in_folder(&kept);
-        keeper.keep(Some(&document));
+        keeper.keep(Some(&document), None);
         drop(keeper);
         let left = find(&kept, None).expect("it was left behind");
         // Its changes are taken over by another window: then they are in that window's file.
@@ -187,7 +191,7 @@ mod tests {
         keeper.restoring = Some(left.file.clone());
         keeper.begin(&egui::Context::default(), Some(scene.clone()), true);
         assert!(left.file.exists());
-        keeper.keep(Some(&changed(&scene, 30.0)));
+        keeper.keep(Some(&changed(&scene, 30.0)), None);
         drop(keeper);
         assert!(!left.file.exists());
         let found = find(&kept, Some(&scene)).expect("it was left behind again");

@@ -37,6 +37,8 @@ pub struct CanvasOutput {
     pub marked: Option<(Region, bool)>,
     /// The camera, if it was moved.
     pub camera: Option<Camera>,
+    /// The area of the canvas, for its menu.
+    pub response: Option<Response>,
     /// Where the first picture lies, for overlays.
     pub area: Option<PictureArea>,
     /// Where the second one lies, if that is elsewhere.
@@ -92,6 +94,7 @@ pub fn show(
         clicked: hovered.filter(|_| response.clicked()),
         marked: if tool == Tool::Region && is_free { marked(ui, &response, &under, view) } else { None },
         camera: scene.and_then(|scene| flight::moved(ui, &response, moves, camera, under.rect, scene)),
+        response: Some(response),
         area: Some(areas[0]),
         second_area: areas.get(1).copied(),
     }

@@ -45,7 +45,8 @@ fn ground(ui: &Ui, left: f32, bottom: f32, size: Vec2) -> Pos2 {
 fn draw_legend(ui: &Ui, left: f32, bottom: f32, legend: &Legend) {
     const LINE: f32 = 17.0;
     const WIDTH: f32 = 250.0;
-    let unit = legend.scale.as_ref().map_or_else(String::new, |scale| format!(", {}", scale.unit));
+    let unit = legend.scale.as_ref().filter(|scale| !scale.unit.is_empty());
+    let unit = unit.map_or_else(String::new, |scale| format!(", {}", scale.unit));
     let title = format!("{}{unit}", legend.title);
     let title = ui.painter().layout(title, FontId::proportional(13.0), INK, WIDTH);
     let scale = if legend.scale.is_some() { 36.0 } else { 0.0 };
@@ -75,7 +76,8 @@ fn bar(ui: &Ui, rect: Rect, scale: &Scale) {
         ui.painter().rect_filled(strip, 0.0, Color32::from_rgb(r, g, b));
     }
     for (place, align) in [(0.0, Align2::LEFT_TOP), (0.5, Align2::CENTER_TOP), (1.0, Align2::RIGHT_TOP)] {
-        let text = number(scale.number(place));
+        let (x, is_signed) = (scale.number(place), scale.ends[0] < 0.0);
+        let text = if is_signed && x > 0.0 { format!("+{}", number(x)) } else { number(x) };
         let at = pos2(egui::lerp(rect.x_range(), place), rect.bottom() + 3.0);
         ui.painter().text(at, align, text, FontId::proportional(12.0), INK);
     }

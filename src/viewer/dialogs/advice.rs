@@ -16,7 +16,6 @@ fn part_of(done: usize, whole: usize) -> f32 {
 /// Shows the progress of the study, then its advice, until a setting is chosen or the window is closed.
 pub fn show(ctx: &egui::Context, adviser: &mut Option<Adviser>) -> Option<RenderSettings> {
     let study = adviser.as_mut()?;
-    study.receive();
     let (mut open, mut chosen) = (true, None);
     egui::Window::new("What should I use here?")
         .open(&mut open)

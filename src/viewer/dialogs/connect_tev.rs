@@ -2,6 +2,7 @@
 use egui::{Align, Align2, Button, Layout, RichText, Ui};
 use noisefall::render::tev::{DEFAULT_ADDRESS, check_address};
 
+use super::question::hold_keyboard;
 use crate::viewer::widgets::path_field::PathField;
 
 /// Asks for HOST:PORT.
@@ -40,6 +41,7 @@ pub fn show(ctx: &egui::Context, dialog: &mut Option<TevDialog>) -> Option<Strin
 
 /// Returns whether to connect, and whether to close.
 fn dialog_body(ui: &mut Ui, field: &mut PathField) -> (bool, bool) {
+    hold_keyboard(ui);
     ui.set_width(460.0);
     ui.label("Shows the image in tev while it is rendered: linear radiance, without exposure and tone map. Start tev first.");
     ui.add_space(4.0);

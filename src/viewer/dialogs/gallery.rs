@@ -29,6 +29,8 @@ pub struct Gallery {
     pub open: bool,
     /// The card of the open scene is still to be given the keyboard.
     takes_keyboard: bool,
+    /// The last frame in which it was shown.
+    last_frame: Option<u64>,
     pictures: HashMap<PathBuf, TextureHandle>,
     arriving: Option<Receiver<(PathBuf, ColorImage)>>,
     /// All pictures that exist have arrived.
@@ -77,13 +79,11 @@ impl Gallery {
         }
     }
 
-    /// Shows the gallery while it is open. The card of the open scene has the keyboard at first: that of the built-in one if there is no
+    /// Shows the gallery. The card of the open scene has the keyboard at first: that of the built-in one if there is no
     /// file.
     pub fn show(&mut self, ctx: &egui::Context, catalogue: &[CatalogueEntry], current: Option<&Path>) -> Option<SceneRequest> {
-        if !self.open {
-            self.takes_keyboard = true;
-            return None;
-        }
+        let frame = ctx.cumulative_frame_nr();
+        self.takes_keyboard |= self.last_frame.replace(frame).is_none_or(|last| last + 1 < frame);
         let current = open_entry(catalogue, current).map(|entry| &*entry.path);
         self.receive(ctx, catalogue.iter().map(|entry| entry.path.clone()));
         let (mut open, mut request) = (true, None);

@@ -13,6 +13,7 @@ mod path_form;
 mod question;
 pub mod recovery;
 pub mod remarks;
+mod report;
 pub mod save;
 pub mod save_target;
 pub mod scene_error;

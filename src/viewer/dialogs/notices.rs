@@ -36,22 +36,26 @@ impl Notices {
         self.0.push(Notice { text, is_error, until });
     }
 
-    pub fn show(&mut self, ctx: &egui::Context) {
+    /// Shows the messages, this much higher than where they usually are.
+    pub fn show(&mut self, ctx: &egui::Context, lift: f32) {
         let now = ctx.input(|input| input.time);
         self.0.retain(|notice| notice.until > now);
         if self.0.is_empty() {
             return;
         }
         let mut closed = None;
-        egui::Area::new(egui::Id::unique("notices")).anchor(Align2::CENTER_BOTTOM, over_the_picture(64.0)).show(ctx, |ui| {
-            for (number, notice) in self.0.iter().enumerate() {
-                egui::Frame::popup(ui.style()).show(ui, |ui| {
-                    if show_notice(ui, notice) {
-                        closed = Some(number);
-                    }
-                });
-            }
-        });
+        egui::Area::new(egui::Id::unique("notices")).anchor(Align2::CENTER_BOTTOM, over_the_picture(64.0 + lift)).show(
+            ctx,
+            |ui| {
+                for (number, notice) in self.0.iter().enumerate() {
+                    egui::Frame::popup(ui.style()).show(ui, |ui| {
+                        if show_notice(ui, notice) {
+                            closed = Some(number);
+                        }
+                    });
+                }
+            },
+        );
         if let Some(number) = closed {
             self.0.remove(number);
         }

@@ -69,19 +69,46 @@ fn recent_files(ui: &mut egui::Ui, files: &[RecentFile]) -> Option<PathBuf> {
     let mut chosen = None;
     let room = (ui.ctx().content_rect().height() - AROUND_RECENT).max(LEAST_RECENT);
     ScrollArea::vertical().id_salt("recent").max_height(room).show(ui, |ui| {
-        files.iter().for_each(|file| chosen = recent_row(ui, file).or(chosen.take()));
+        let folders = folders(files);
+        files.iter().zip(&folders).for_each(|(file, folder)| chosen = recent_row(ui, file, folder).or(chosen.take()));
     });
     chosen
 }
 
-fn recent_row(ui: &mut egui::Ui, RecentFile { path, exists }: &RecentFile) -> Option<PathBuf> {
+fn recent_row(ui: &mut egui::Ui, RecentFile { path, exists }: &RecentFile, folder: &str) -> Option<PathBuf> {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let row = Button::new(name).right_text(RichText::new(folder_name(path)).weak()).truncate();
+    let row = Button::new(name).right_text(RichText::new(folder).weak()).truncate();
     let row = ui.add_enabled(*exists, row.frame_when_inactive(false).min_size(vec2(ui.available_width(), 0.0)));
     let row = row.on_hover_text(path.display().to_string());
     row.on_disabled_hover_text(format!("{} is no longer there.", path.display())).clicked().then(|| path.clone())
 }
 
-fn folder_name(path: &Path) -> String {
-    path.parent().and_then(Path::file_name).unwrap_or_default().to_string_lossy().into_owned()
+/// The folder of each file: its name, or as much more of its path as tells files of one name apart.
+fn folders(files: &[RecentFile]) -> Vec<String> {
+    let parts = |path: &Path| -> Vec<String> {
+        let folder = path.parent().map(|folder| folder.iter().map(|part| part.to_string_lossy().into_owned()).collect());
+        folder.unwrap_or_default()
+    };
+    let end = |parts: &[String], count: usize| parts[parts.len().saturating_sub(count)..].join("/");
+    let of = |file: &RecentFile| {
+        let own = parts(&file.path);
+        let others = files.iter().filter(|other| other.path != file.path && other.path.file_name() == file.path.file_name());
+        let others: Vec<Vec<String>> = others.map(|other| parts(&other.path)).collect();
+        let is_alone = |count: &usize| others.iter().all(|other| end(other, *count) != end(&own, *count));
+        end(&own, (1..own.len().max(1)).find(is_alone).unwrap_or(own.len().max(1)))
+    };
+    files.iter().map(of).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_of_one_name_are_told_apart_by_their_folders() {
+        let paths =
+            ["/home/a/one/scenes/room.toml", "/home/a/two/scenes/room.toml", "/home/a/two/scenes/ball.toml", "/room.toml"];
+        let files = paths.map(|path| RecentFile { path: path.into(), exists: true });
+        assert_eq!(folders(&files), ["one/scenes", "two/scenes", "scenes", "/"]);
+    }
 }

@@ -3,7 +3,7 @@ use std::path::{Path, PathBuf};
 
 use egui::{Align, Align2, Button, Context, Layout, RichText, Ui, Window};
 
-use super::completion::Completion;
+use super::{completion::Completion, question::hold_keyboard};
 use crate::viewer::{background::catalogue::in_full, widgets::path_field::PathField};
 
 /// Width of the form and height of the list of the folder, points.
@@ -54,6 +54,7 @@ pub fn ask(
     let mut open = true;
     let window = Window::new(title).open(&mut open).collapsible(false).resizable(false);
     let shown = window.anchor(Align2::CENTER_CENTER, [0.0, 0.0]).show(ctx, |ui| {
+        hold_keyboard(ui);
         let answer = form.show(ui, wanted);
         FormAnswer { path: below(ui).or(answer.path), ..answer }
     });

@@ -1,9 +1,10 @@
 //! The dialog that saves the image, the curves or a path.
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use egui::{Align2, Button, RichText};
 
-use super::save_target::{SaveTarget, suggested_path};
+use super::question::hold_keyboard;
+use super::save_target::{SaveTarget, SceneNames, suggested_path};
 use crate::viewer::widgets::path_field::PathField;
 
 /// Asks where to save a file.
@@ -15,9 +16,9 @@ pub struct SaveDialog {
 }
 
 impl SaveDialog {
-    /// A dialog that suggests a path after the last file or after the scene, which has this name.
-    pub fn new(target: SaveTarget, scene: Option<&Path>, title: &str, last_saved: Option<&Path>) -> SaveDialog {
-        let path = suggested_path(target, scene, title, last_saved).display().to_string();
+    /// A dialog that suggests a path.
+    pub fn new(target: SaveTarget, scene: &SceneNames<'_>) -> SaveDialog {
+        let path = suggested_path(target, scene).display().to_string();
         SaveDialog { target, field: PathField::of_new_file(path, "path/to/file"), keeps_view: None }
     }
 
@@ -128,6 +129,7 @@ fn dialog_body(
     field: &mut PathField,
     (keeps_view, bounces): (&mut Option<bool>, &mut bool),
 ) -> (bool, bool) {
+    hold_keyboard(ui);
     ui.set_width(460.0);
     ui.label(target.explanation());
     layers_choice(ui, target, field, bounces);

@@ -99,15 +99,29 @@ impl SaveTarget {
     }
 }
 
+/// What a suggested name is made of.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct SceneNames<'a> {
+    /// The scene file.
+    pub path: Option<&'a Path>,
+    pub title: &'a str,
+    /// The last file that was saved of this scene, other than the scene.
+    pub last_saved: Option<&'a Path>,
+    /// The folder of the last file of another scene.
+    pub folder: Option<&'a Path>,
+}
+
 /// A path that is not taken, named after the last file of this scene, or after the file of the scene, or else after its name.
-pub fn suggested_path(target: SaveTarget, scene: Option<&Path>, title: &str, last_saved: Option<&Path>) -> PathBuf {
+pub fn suggested_path(target: SaveTarget, scene: &SceneNames<'_>) -> PathBuf {
     let extension = target.extensions()[0];
-    let of_file = scene.and_then(|path| path.file_stem()?.to_str().map(str::to_owned));
-    let name = of_file.unwrap_or_else(|| file_stem(title));
-    let path = last_saved.filter(|path| extension != "png" || SaveTarget::Picture.takes(path));
-    let here = || std::env::current_dir().map_or_else(|_| PathBuf::from(&name), |folder| folder.join(&name));
+    let is_scene = target == SaveTarget::Scene;
+    let of_file = scene.path.and_then(|path| path.file_stem()?.to_str().map(str::to_owned));
+    let name = of_file.unwrap_or_else(|| file_stem(scene.title));
+    let last = scene.last_saved.filter(|path| !is_scene && (extension != "png" || SaveTarget::Picture.takes(path)));
+    let folder = scene.folder.filter(|_| !is_scene).map(Path::to_owned);
+    let in_folder = || folder.or_else(|| std::env::current_dir().ok()).unwrap_or_default().join(&name);
     // Paths in a scene are relative to its folder.
-    let path = path.or(scene.filter(|_| target == SaveTarget::Scene)).map_or_else(here, Path::to_owned);
+    let path = last.or(scene.path.filter(|_| is_scene)).map_or_else(in_folder, Path::to_owned);
     let keeps = extension == "png" && SaveTarget::Picture.takes(&path);
     free(&if keeps { path } else { path.with_extension(extension) })
 }
@@ -144,9 +158,20 @@ mod tests {
 
     #[test]
     fn a_scene_without_a_file_is_named_after_its_title() {
-        let suggested = |target: SaveTarget| suggested_path(target, None, "A studio of mine", None);
+        let scene = SceneNames { title: "A studio of mine", ..SceneNames::default() };
+        let suggested = |target: SaveTarget| suggested_path(target, &scene);
         assert!(suggested(SaveTarget::Scene).ends_with("a_studio_of_mine.toml"));
         assert!(suggested(SaveTarget::Picture).ends_with("a_studio_of_mine.png"));
+    }
+
+    #[test]
+    fn a_later_scene_has_its_own_name_in_the_folder_of_the_last_file() {
+        let [image, room] = ["/nowhere/pictures/ball.png", "/nowhere/scenes/room.toml"].map(Path::new);
+        let same = SceneNames { path: Some(room), last_saved: Some(image), ..SceneNames::default() };
+        assert_eq!(suggested_path(SaveTarget::CurvesCsv, &same), Path::new("/nowhere/pictures/ball.csv"));
+        let other = SceneNames { last_saved: None, folder: image.parent(), ..same };
+        assert_eq!(suggested_path(SaveTarget::Picture, &other), Path::new("/nowhere/pictures/room.png"));
+        assert_eq!(suggested_path(SaveTarget::Scene, &other), room);
     }
 
     #[test]

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use egui::{Align, Align2, Button, DragValue, Layout, RichText, Ui};
 use noisefall::{file::numbered, render::image_file::check_target, scene::CameraSequence};
 
-use super::question::{Choice, ask};
+use super::question::{Choice, ask, hold_keyboard};
 use crate::viewer::background::sequence_task::ExistingFrames;
 use crate::viewer::widgets::{
     path_field::PathField,
@@ -95,6 +95,7 @@ pub fn show(ctx: &egui::Context, dialog: &mut Option<SequenceDialog>) -> Option<
 
 /// Returns whether to render, and whether to close.
 fn dialog_body(ui: &mut Ui, asked: &mut SequenceDialog) -> (bool, bool) {
+    hold_keyboard(ui);
     ui.set_width(460.0);
     ui.label("Renders numbered images with the settings of the window. The main render pauses meanwhile.");
     ui.add_space(4.0);

@@ -1,5 +1,5 @@
 //! The tour on first run: noise, bounces, roulette and paths from both ends, shown on the image itself.
-use egui::{Align2, Button, RichText, ScrollArea, TextStyle, TextWrapMode, Ui, WidgetText, Window};
+use egui::{Button, RichText, ScrollArea, TextStyle, TextWrapMode, Ui, WidgetText, Window};
 
 use crate::viewer::{instruments::tabs::InstrumentTab, widgets::palette::Palette};
 
@@ -14,6 +14,8 @@ pub enum TourRequest {
     CompareWithCap,
     /// Compares MIS with bidirectional paths.
     CompareBothEnds,
+    /// Opens a scene with a glass ball.
+    OpenGlass,
     OpenGallery,
 }
 
@@ -24,6 +26,8 @@ struct Page {
     shows: Option<InstrumentTab>,
     /// A button that tries it out.
     tries: (&'static str, TourRequest),
+    /// Its text for a scene without glass, and another button.
+    without_glass: Option<(&'static str, (&'static str, TourRequest))>,
 }
 
 const PAGES: [Page; 5] = [
@@ -34,6 +38,7 @@ const PAGES: [Page; 5] = [
                line shows the samples and the noise so far.",
         shows: Some(InstrumentTab::Convergence),
         tries: ("Start over", TourRequest::Restart),
+        without_glass: None,
     },
     Page {
         title: "Light bounces",
@@ -41,6 +46,7 @@ const PAGES: [Page; 5] = [
                term. A bounce cap cuts the series. The missing light makes the image biased, and the window says so.",
         shows: Some(InstrumentTab::Bounces),
         tries: ("Show bounce 2 alone", TourRequest::ShowSecondBounce),
+        without_glass: None,
     },
     Page {
         title: "Roulette ends paths without bias",
@@ -48,15 +54,22 @@ const PAGES: [Page; 5] = [
                mean stays exact at finite cost. Compare it with a cap of 3: the difference is the missing light.",
         shows: Some(InstrumentTab::Compare),
         tries: ("Compare with a cap of 3", TourRequest::CompareWithCap),
+        without_glass: None,
     },
     Page {
         title: "Paths can start at both ends",
-        text: "Paths from the lamp form a caustic directly; a path from the camera meets the lamp through glass only by chance. A \
-               strategy (s, t) takes s vertices from the lamp and t from the camera. Bidirectional paths use all strategies, each \
-               weighted by its pdf over the sum of all pdfs. The image stays the same. Caustics have less noise, but simple scenes \
-               take more time.",
+        text: "The glass focuses light to a caustic. Paths from the lamp reach it easily; a path from the camera meets the lamp through \
+               glass only by chance. A strategy (s, t) takes s vertices from the lamp and t from the camera. Bidirectional path \
+               tracing combines all strategies, each weighted by its pdf over the sum of all pdfs. The image stays the same. \
+               Caustics have less noise, but simple scenes take more time.",
         shows: Some(InstrumentTab::Compare),
         tries: ("Compare MIS with both ends", TourRequest::CompareBothEnds),
+        without_glass: Some((
+            "Paths can also start at the lamps. A strategy (s, t) takes s vertices from a lamp and t from the camera. Bidirectional \
+             path tracing combines all strategies. This pays off for caustics, the light that glass focuses, and this scene has no \
+             glass. Open one that has, and compare there.",
+            ("Open a scene with glass", TourRequest::OpenGlass),
+        )),
     },
     Page {
         title: "Your turn",
@@ -65,6 +78,7 @@ const PAGES: [Page; 5] = [
                tooltip; F1 lists the keys.",
         shows: None,
         tries: ("Open the gallery", TourRequest::OpenGallery),
+        without_glass: None,
     },
 ];
 
@@ -74,8 +88,8 @@ const MARGIN: f32 = 14.0;
 const TOP: f32 = 48.0;
 /// Between title and text.
 const GAP: f32 = 4.0;
-/// Height of the buttons below the text, with the frame of the window.
-const BUTTONS: f32 = 96.0;
+/// Height of the bar above the text and of the buttons below it, with the frame of the window.
+const AROUND: f32 = 130.0;
 
 /// The number of pages.
 #[cfg(test)]
@@ -90,35 +104,50 @@ fn heading(ui: &Ui, page: &Page) -> RichText {
     RichText::new(page.title).heading().color(ui.accent())
 }
 
-/// The height of the text of a page of this width.
+impl Page {
+    /// The text and the buttons for a scene.
+    fn contents(&self, has_glass: bool) -> (&'static str, Vec<(&'static str, TourRequest)>) {
+        match self.without_glass.filter(|_| !has_glass) {
+            Some((text, opens)) => (text, vec![opens, self.tries]),
+            None => (self.text, vec![self.tries]),
+        }
+    }
+}
+
+/// The height of the longest text of a page of this width.
 fn height(ui: &Ui, page: &Page, width: f32) -> f32 {
     let layout = |text: WidgetText| text.into_galley(ui, Some(TextWrapMode::Wrap), width, TextStyle::Body).size().y;
-    let lines = layout(heading(ui, page).into()) + layout(page.text.into());
+    let texts = [true, false].map(|has_glass| layout(page.contents(has_glass).0.into()));
+    let lines = layout(heading(ui, page).into()) + texts[0].max(texts[1]);
     (lines + GAP + ui.spacing().item_spacing.y).ceil()
 }
 
-/// Shows a page.
-pub fn show(ctx: &egui::Context, number: usize) -> Option<TourRequest> {
+/// Shows a page. The bar above it moves it.
+pub fn show(ctx: &egui::Context, number: usize, has_glass: bool) -> Option<TourRequest> {
     let page = &PAGES[number];
-    let mut request = None;
+    let (text, buttons) = page.contents(has_glass);
+    let (mut open, mut request) = (true, None);
     // A small screen shows the buttons and scrolls the text.
     let screen = ctx.content_rect().size();
-    let [width, most_height] = [WIDTH.min(screen.x - 3.0 * MARGIN), (screen.y - TOP - BUTTONS - MARGIN).max(60.0)];
-    let place = Window::new("Tour").title_bar(false).collapsible(false).resizable(false).anchor(Align2::LEFT_TOP, [MARGIN, TOP]);
-    place.show(ctx, |ui| {
+    let [width, most_height] = [WIDTH.min(screen.x - 3.0 * MARGIN), (screen.y - TOP - AROUND - MARGIN).max(60.0)];
+    let window = Window::new("Tour").open(&mut open).collapsible(false).resizable(false).default_pos([MARGIN, TOP]);
+    window.show(ctx, |ui| {
         ui.set_width(width);
         // The buttons stay where they are from page to page: a second click on Next must not hit the picture.
         let height = PAGES.iter().map(|page| height(ui, page, width)).fold(0.0, f32::max).min(most_height);
         ScrollArea::vertical().max_height(height).min_scrolled_height(height).auto_shrink([true, false]).show(ui, |ui| {
             ui.label(heading(ui, page));
             ui.add_space(GAP);
-            ui.label(page.text);
+            ui.label(text);
         });
         ui.add_space(6.0);
-        let (name, asked) = page.tries;
-        if ui.button(name).clicked() {
-            request = Some(asked);
-        }
+        ui.horizontal(|ui| {
+            for (name, asked) in buttons {
+                if ui.button(name).clicked() {
+                    request = Some(asked);
+                }
+            }
+        });
         ui.add_space(6.0);
         ui.horizontal(|ui| {
             ui.weak(format!("{} of {}", number + 1, PAGES.len()));
@@ -136,5 +165,5 @@ pub fn show(ctx: &egui::Context, number: usize) -> Option<TourRequest> {
             });
         });
     });
-    request
+    if open { request } else { Some(TourRequest::End) }
 }

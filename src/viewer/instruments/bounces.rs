@@ -8,7 +8,11 @@ use noisefall::{
 
 use super::strategies;
 
-use crate::viewer::widgets::{counted::counted, palette::Palette};
+use crate::viewer::widgets::{
+    counted::counted,
+    palette::Palette,
+    slider::{self, Scale},
+};
 
 /// The part of the series that is displayed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -98,7 +102,10 @@ fn choose_part(ui: &mut Ui, bounces: &mut Bounces, without_strategies: Option<&s
 fn show_series(ui: &mut Ui, bounces: &mut Bounces, Subject { frame, has_light_paths, .. }: Subject<'_>) {
     ui.horizontal(|ui| {
         let label = ui.label("k").on_hover_text("k is the number of bounces, reflections and refractions alike.");
-        ui.add(Slider::new(&mut bounces.k, 0..=LAST)).labelled_by(label.id);
+        let scale = Scale::linear(0.0..=LAST as f64);
+        slider::show(ui, &mut bounces.k, &scale, Bounces::default().k, |ui, k| {
+            ui.add(Slider::new(k, 0..=LAST)).labelled_by(label.id)
+        });
         ui.add(Label::new(RichText::new(meaning(*bounces)).weak()).truncate());
     });
     // While the camera moves there are no figures. Bars and lines keep their places.

@@ -1,5 +1,5 @@
 //! The panel of the camera's numbers.
-use egui::{Button, RichText};
+use egui::{Button, Label, RichText, vec2};
 use glam::DVec3;
 use noisefall::scene::{Camera, Lens, Scene, description::CameraDescription};
 
@@ -8,8 +8,14 @@ use crate::viewer::widgets::{
     number,
     quotation::with_quotation_marks,
     refusal,
-    style::{controls, elided, row},
+    slider::{self, Scale},
+    style::{controls, row},
 };
+
+/// Height of two lines of an error, points.
+const ERROR_HEIGHT: f32 = 26.0;
+/// The angle of view without a scene, degrees.
+const DEFAULT_FOV: f64 = 40.0;
 
 /// Returns whether the camera is to be reset to that of the scene.
 pub fn show(ui: &mut egui::Ui, camera: &mut Camera, scene: Option<&Scene>) -> bool {
@@ -30,7 +36,7 @@ pub fn show(ui: &mut egui::Ui, camera: &mut Camera, scene: Option<&Scene>) -> bo
                 refusal::remember(ui, field, before.element_sum(), "A direction must not be zero.".to_owned());
             }
         });
-        projection(ui, camera);
+        projection(ui, camera, scene.map_or(DEFAULT_FOV, |scene| scene.camera.fov));
         lens(ui, camera, speed);
         row(ui, &CameraDescription::FILTER.label(), "Weight of the light around the centre of a pixel.", |ui, _| {
             ui.horizontal(|ui| kinds(ui, &mut camera.filter));
@@ -48,16 +54,23 @@ pub fn show(ui: &mut egui::Ui, camera: &mut Camera, scene: Option<&Scene>) -> bo
             });
         });
     });
-    // A line of its own, whether or not there is an error.
-    let error = camera.check().err().map_or_else(|| " ".to_owned(), |error| with_quotation_marks(&error.to_string()));
-    let width = ui.available_width();
-    elided(ui, width, RichText::new(&error).color(ui.visuals().error_fg_color));
+    ui.add_space(4.0);
     let moved = scene.is_some_and(|scene| Camera { resolution: camera.resolution, ..scene.camera } != *camera);
     let reset = ui.add_enabled(moved, Button::new("Back to the scene's camera"));
-    reset.on_hover_text("Resets the camera to that of the scene, except for the resolution. (Home)").clicked()
+    let resets = reset.on_hover_text("Resets the camera to that of the scene, except for the resolution. (Home)").clicked();
+    // Room for an error, whether or not there is one: what is below stays where it is.
+    ui.allocate_ui(vec2(ui.available_width(), ERROR_HEIGHT), |ui| {
+        ui.set_min_height(ERROR_HEIGHT);
+        if let Err(error) = camera.check() {
+            let error = RichText::new(with_quotation_marks(&error.to_string())).small();
+            ui.add(Label::new(error.color(ui.visuals().error_fg_color)).wrap());
+        }
+    });
+    resets
 }
 
-fn projection(ui: &mut egui::Ui, camera: &mut Camera) {
+/// A double click gives the angle of view its default.
+fn projection(ui: &mut egui::Ui, camera: &mut Camera, default_fov: f64) {
     let before = *camera;
     row(ui, &CameraDescription::PROJECTION.label(), "Rays through one point, or parallel rays.", |ui, _| {
         ui.horizontal(|ui| kinds(ui, &mut camera.projection));
@@ -67,8 +80,11 @@ fn projection(ui: &mut egui::Ui, camera: &mut Camera) {
         camera.lens = camera.lens.filter(|_| camera.projection.takes_lens());
     }
     row(ui, &CameraDescription::FOV.label(), "Full horizontal angle of view.", |ui, label| {
-        let slider = number::slider(ui, &mut camera.fov, 2, 1.0..=170.0).suffix("°");
-        ui.add_enabled(camera.projection.has_angle(), slider).labelled_by(label);
+        let has_angle = camera.projection.has_angle();
+        slider::show(ui, &mut camera.fov, &Scale::linear(1.0..=170.0), default_fov, |ui, fov| {
+            let slider = number::slider(ui, fov, 2, 1.0..=170.0).suffix("°");
+            ui.add_enabled(has_angle, slider).labelled_by(label)
+        });
     });
     number_rows(ui, &mut camera.projection);
 }

@@ -4,24 +4,34 @@ use noisefall::render::{Display, ToneMap, WhiteBalance};
 
 use crate::viewer::widgets::{
     explained::Explained,
-    list::value_entry,
+    list::{explained, value_entry},
+    slider::{self, Scale},
     style::{controls, row},
 };
 
-pub fn show(ui: &mut Ui, display: &mut Display) {
+/// The stops of the slider, from end to end, and its width in points. Its field takes all numbers.
+const LEAST: f64 = -5.0;
+const MOST: f64 = 5.0;
+const EXPOSURE_WIDTH: f32 = 140.0;
+
+/// A double click gives the exposure its default.
+pub fn show(ui: &mut Ui, display: &mut Display, default_exposure: f32) {
     controls(ui, "display", |ui| {
         row(ui, "Exposure", "Exposure in stops. One more doubles the brightness. ([ and ])", |ui, label| {
             let now = display.exposure.into();
-            let slider =
-                Slider::new(&mut display.exposure, -20.0..=20.0).step_by(0.1).fixed_decimals(1).clamping(SliderClamping::Edits);
-            ui.add(Explained::new(slider, now).suffix(" EV")).labelled_by(label);
+            ui.spacing_mut().slider_width = EXPOSURE_WIDTH;
+            slider::show(ui, &mut display.exposure, &Scale::linear(LEAST..=MOST), default_exposure, |ui, exposure| {
+                let slider = Slider::new(exposure, LEAST as f32..=MOST as f32).fixed_decimals(2).drag_value_speed(0.02);
+                let slider = slider.clamping(SliderClamping::Edits);
+                ui.add(Explained::new(slider, now).suffix(" EV")).labelled_by(label)
+            });
         });
         white_balance(ui, &mut display.white_balance);
         row(ui, "Tone map", "Maps radiance, which has no upper bound, to display light.", |ui, label| {
             let tone_map = &mut display.tone_map;
             let combo = ComboBox::from_id_salt("Tone map").selected_text(tone_map.title()).show_ui(ui, |ui| {
                 for (map, word) in ToneMap::ALL.map(|map| (map, map.word())) {
-                    value_entry(ui, tone_map, map, word.title).on_hover_text(word.doc);
+                    explained(value_entry(ui, tone_map, map, word.title), word.doc);
                 }
             });
             combo.response.labelled_by(label);

@@ -9,8 +9,7 @@ use noisefall::{
 
 use super::presets;
 use crate::viewer::widgets::{
-    kinds::{kinds, number_rows, word_list, words},
-    list::closing,
+    kinds::{kind_list, number_rows, word_list, words},
     number,
     palette::Palette,
     style::{choices, controls, elided, row, row_with_note},
@@ -106,9 +105,10 @@ fn estimator_row(
                     return;
                 }
                 None if *estimator == Estimator::Auto => "…".to_owned(),
-                None => return,
+                None => estimator.word().doc.to_owned(),
             };
-            elided(ui, ui.available_width(), RichText::new(text).weak());
+            let width = ui.available_width();
+            elided(ui, width, RichText::new(&text).weak()).on_hover_text(text);
         });
     });
 }
@@ -146,18 +146,14 @@ fn adaptive_row(ui: &mut Ui, adaptive: &mut bool, status: &Status, light_paths: 
 
 fn roulette_rows(ui: &mut Ui, roulette: &mut Roulette, caution: Option<&str>) {
     let doc = "Ends paths with probability 1 − q and weights the survivors by 1/q. Shorter paths, no bias.";
-    row_with_note(ui, &RenderSettings::ROULETTE.label(), doc, |ui, label| {
-        let combo = ComboBox::from_id_salt("Roulette").selected_text(roulette.about().label());
-        let list = |ui: &mut Ui| {
-            let before = roulette.place();
-            kinds(ui, roulette);
-            closing(ui, (roulette.place() != before).then_some(()));
-        };
-        combo.show_ui(ui, list).response.labelled_by(label);
-        match caution {
-            Some(caution) => ui.colored_label(ui.warning(), "infinite variance?").on_hover_text(caution),
-            None => ui.label(" "),
-        };
+    row(ui, &RenderSettings::ROULETTE.label(), doc, |ui, label| {
+        ui.horizontal(|ui| {
+            let combo = ComboBox::from_id_salt("Roulette").selected_text(roulette.about().label());
+            combo.show_ui(ui, |ui| kind_list(ui, roulette)).response.labelled_by(label);
+            if let Some(caution) = caution {
+                ui.colored_label(ui.warning(), "infinite variance?").on_hover_text(caution);
+            }
+        });
     });
     number_rows(ui, roulette);
 }

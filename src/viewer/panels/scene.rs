@@ -7,7 +7,10 @@ use crate::viewer::background::{
     catalogue::{BUILT_IN_NAME, CatalogueEntry, SceneRequest, open_entry},
     opened_scene::OpenedScene,
 };
-use crate::viewer::widgets::{list::closing, quotation::with_quotation_marks};
+use crate::viewer::widgets::{
+    list::{closing, explained},
+    quotation::with_quotation_marks,
+};
 
 /// The height of a row of the list: more than its text needs, so that all are alike.
 const ROW: f32 = 26.0;
@@ -69,7 +72,7 @@ fn scene_list(ui: &mut egui::Ui, opened: Option<&OpenedScene>, catalogue: &[Cata
     }
     for entry in catalogue {
         let label = ui.add(row(open.is_some_and(|open| open.path == entry.path), &entry.name));
-        if label.on_hover_text(entry.path.display().to_string()).clicked() {
+        if explained(label, &entry.path.display().to_string()).clicked() {
             chosen = Some(Some(entry.path.clone()));
         }
     }

@@ -8,7 +8,7 @@ use noisefall::{
 };
 
 use super::outliner::New;
-use crate::viewer::widgets::list::closing;
+use crate::viewer::widgets::list::{closing, explained};
 
 /// What a button asks for.
 #[derive(Clone, Copy, Debug)]
@@ -56,7 +56,7 @@ fn template_menu(ui: &mut Ui) -> Option<Template> {
     let menu = ui.menu_button("New scene", |ui| {
         let mut chosen = None;
         for template in TEMPLATES {
-            if ui.button(template.title).on_hover_text(template.doc).clicked() {
+            if explained(ui.button(template.title), template.doc).clicked() {
                 chosen = Some(template);
             }
         }
@@ -76,7 +76,7 @@ fn lamps(ui: &mut Ui) -> Option<New> {
 fn kinds<T: OneOf>(ui: &mut Ui) -> Option<&'static str> {
     let mut chosen = None;
     for kind in T::alternatives() {
-        if ui.button(kind.name().replace('_', " ")).on_hover_text(kind.about().doc).clicked() {
+        if explained(ui.button(kind.name().replace('_', " ")), kind.about().doc).clicked() {
             chosen = Some(kind.name());
         }
     }

@@ -51,7 +51,7 @@ const TOOLS: [(Tool, &str, &str); 4] = [
 
 impl Toolbar<'_> {
     pub fn show(&self, ui: &mut Ui) -> Option<Command> {
-        const WHOLE: f32 = 860.0;
+        const WHOLE: f32 = 876.0;
         const OF_REGION: f32 = 56.0;
         const OF_ENDS: f32 = 104.0;
         const OF_IMAGE: f32 = 42.0;
@@ -62,7 +62,7 @@ impl Toolbar<'_> {
         let contents = |ui: &mut Ui| {
             let mut command = None;
             let mut asks = |asked: Option<Command>| command = asked.or(command);
-            (ui.spacing_mut().button_padding, ui.spacing_mut().item_spacing.x) = (egui::vec2(6.0, 4.0), 6.0);
+            (ui.spacing_mut().button_padding, ui.spacing_mut().item_spacing.x) = (egui::vec2(5.0, 4.0), 6.0);
             asks(self.render_buttons(ui));
             ui.separator();
             asks(self.undo_buttons(ui));
@@ -146,9 +146,24 @@ impl Toolbar<'_> {
     }
 }
 
+/// Width of the zoom in percent, points.
+const ZOOM_WIDTH: f32 = 44.0;
+
+/// A zoom in percent.
+fn percent(zoom: f32) -> String {
+    format!("{:.0} %", 100.0 * zoom)
+}
+
 fn zoom_buttons(ui: &mut Ui, zoom: f32) -> Option<Command> {
     let fits = ui.button("Fit").on_hover_text("Fits the image to the window. (F, double-click)").clicked();
-    let doc = format!("Shows one image pixel per screen pixel. (1) Now it is {:.0} %.", 100.0 * zoom);
-    let is_actual = ui.button("1:1").on_hover_text(doc).clicked();
+    let is_actual = ui.button("1:1").on_hover_text("Shows one image pixel per screen pixel. (1)").clicked();
+    // As wide as any zoom: what follows stays where it is.
+    let size = egui::vec2(ZOOM_WIDTH, ui.spacing().interact_size.y);
+    let label = egui::Label::new(egui::RichText::new(percent(zoom)).weak()).selectable(false);
+    let shown = ui.allocate_ui_with_layout(size, egui::Layout::left_to_right(egui::Align::Center), |ui| {
+        ui.set_min_width(ZOOM_WIDTH);
+        ui.add(label)
+    });
+    shown.inner.on_hover_text("Zoom: screen pixels per image pixel.");
     fits.then_some(Command::Fit).or(is_actual.then_some(Command::ActualSize))
 }

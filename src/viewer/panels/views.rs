@@ -5,7 +5,7 @@ use egui::{ComboBox, Ui};
 use noisefall::render::{Frame, colour_map::ColourMap, view::View};
 
 use crate::viewer::widgets::{
-    list::value_entry,
+    list::{explained, value_entry},
     style::{choices, controls, elided, row},
 };
 
@@ -23,7 +23,7 @@ pub enum ReferenceSource<'a> {
 pub fn choice(ui: &mut Ui, view: &mut View) {
     let combo = ComboBox::from_id_salt("View").selected_text(view.title()).width(150.0).height(400.0).show_ui(ui, |ui| {
         for of in View::ALL {
-            value_entry(ui, view, of, of.title()).on_hover_text(of.word().doc);
+            explained(value_entry(ui, view, of, of.title()), of.word().doc);
         }
     });
     let label = ui.label("View").on_hover_text("Quantity to display. Changing it does not restart the render. (V)");

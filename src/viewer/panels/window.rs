@@ -3,6 +3,7 @@ use egui::{ComboBox, Slider, ThemePreference, Ui};
 
 use crate::viewer::widgets::{
     list::{entry, value_entry},
+    slider::{self, Scale},
     style::{controls, row},
 };
 
@@ -29,7 +30,10 @@ pub fn show(ui: &mut Ui, threads: &mut usize, shows_frame_times: &mut bool) -> O
         let doc = "Number of render threads. It does not change the image.";
         row(ui, "Threads", doc, |ui, label| {
             let most = cores().max(*threads);
-            ui.add(Slider::new(threads, 1..=most)).labelled_by(label);
+            let scale = Scale::linear(1.0..=most as f64);
+            slider::show(ui, threads, &scale, all_but_one(cores()), |ui, threads| {
+                ui.add(Slider::new(threads, 1..=most)).labelled_by(label)
+            });
         });
         row(ui, "Theme", "Light, dark, or the theme of the system.", |ui, label| chosen = theme(ui, label));
         row(ui, "Frame times", "Shows how long the window takes to draw. (F12)", |ui, label| {

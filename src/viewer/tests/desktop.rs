@@ -87,6 +87,24 @@ fn f11_asks_for_the_full_screen_and_for_the_way_back() {
 }
 
 #[test]
+fn f11_twice_is_no_change_even_if_the_window_has_not_followed_yet_and_a_held_key_is_one_press() {
+    let mut window = window("furnace");
+    window.input_mut().viewports.entry(ViewportId::ROOT).or_default().fullscreen = Some(false);
+    let mut asked = Vec::new();
+    for (pressed, repeat) in [(true, false), (true, true), (false, false), (true, false), (false, false)] {
+        let modifiers = Modifiers::NONE;
+        window.event(egui::Event::Key { key: Key::F11, physical_key: None, pressed, repeat, modifiers });
+        window.step();
+        let commands = &window.output().viewport_output[&ViewportId::ROOT].commands;
+        asked.extend(commands.iter().filter_map(|command| match command {
+            ViewportCommand::Fullscreen(is_full) => Some(*is_full),
+            _ => None,
+        }));
+    }
+    assert_eq!(asked, [true, false]);
+}
+
+#[test]
 fn recent_files_are_listed_opened_and_disabled_when_they_are_gone() {
     let folder = tempfile::tempdir().expect("a folder");
     let text = std::fs::read_to_string(shipped("furnace")).expect("it is shipped");

@@ -41,3 +41,25 @@ fn a_tool_leaves_the_page_of_the_panel_as_it_is() {
     assert_eq!(window.state().selection.object(), Some(AMBER_BALL));
     assert_eq!(window.state().window.panel, PanelTab::Render, "the camera has its numbers there");
 }
+
+#[test]
+fn the_tooltip_of_an_entry_hides_no_other_entry() {
+    let mut window = window("furnace");
+    let lists = [("Tone map", ToneMap::ALL.map(|map| (map.word().title, map.word().doc)).to_vec())];
+    for (list, entries) in lists {
+        window.get_by_role_and_label(Role::ComboBox, list).click();
+        window.run_steps(4);
+        let entry = |window: &Window, title: &str| {
+            let mut entries = window.query_all_by_role_and_label(Role::Button, title).map(|node| node.rect());
+            entries.next_back().expect("the list has it")
+        };
+        let (first, doc) = entries[1];
+        window.hover_at(entry(&window, first).center());
+        window.run_steps(10);
+        let tooltip = window.query_by_label(doc).expect("the entry is explained").rect();
+        for (title, _) in &entries {
+            assert!(!tooltip.intersects(entry(&window, title)), "{title}");
+        }
+        press(&mut window, Key::Escape);
+    }
+}

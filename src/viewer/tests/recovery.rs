@@ -65,6 +65,29 @@ fn changes_of_a_lost_window_are_offered_and_restored() {
 }
 
 #[test]
+fn the_view_comes_back_with_the_changes() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let kept_in = folder.path().join("recovery");
+    let (mut window, path, _) = window_of_copy(folder.path());
+    window.state_mut().background.recovery = RecoveryKeeper::in_folder(&kept_in);
+    grow(&mut window);
+    let session = &mut window.state_mut().session;
+    session.camera.eye.x += 0.125;
+    (session.settings.seed, session.look.display.exposure) = (7, 1.5);
+    let camera = session.camera;
+    let holds_view = |file: &PathBuf| std::fs::read_to_string(file).is_ok_and(|text| text.contains("\"exposure\":1.5"));
+    wait(&mut window, "the view in the file", |_| kept(&kept_in).iter().any(holds_view));
+    drop(window);
+    let mut window = reopened(Some(path), &kept_in);
+    wait(&mut window, "the question", |app| app.dialogs.recovery.is_some());
+    window.run_steps(2);
+    click(&mut window, "Restore changes");
+    wait(&mut window, "the changes", |app| app.has_unsaved_changes() && !app.background.loader.is_busy());
+    let session = &window.state().session;
+    assert_eq!((session.camera, session.settings.seed, session.look.display.exposure), (camera, 7, 1.5));
+}
+
+#[test]
 fn changes_that_are_discarded_are_not_offered_again() {
     let folder = tempfile::tempdir().expect("a folder");
     let kept_in = folder.path().join("recovery");

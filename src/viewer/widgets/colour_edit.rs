@@ -14,6 +14,7 @@ use super::{
     committed_text,
     explained::Explained,
     hex::{brightness, bytes, from_hex, hex, linear},
+    slider::{self, Scale},
 };
 
 /// Shows the button. Changes of `rgb`, linear Rec. 709, keep its brightness where it is above 1; `most` bounds every channel.
@@ -81,21 +82,27 @@ fn hex_field(ui: &mut Ui, rgb: &mut [f64; 3]) -> bool {
     entered.is_some()
 }
 
+/// The temperature of daylight, kelvin.
+const DAYLIGHT: f64 = 6504.0;
+
 /// Sets the colour of a black body of the same luminance.
 fn kelvin(ui: &mut Ui, rgb: &mut [f64; 3]) -> bool {
     let found = temperature(*rgb);
-    let mut kelvin = found.unwrap_or(6504.0).round();
+    let mut kelvin = found.unwrap_or(DAYLIGHT).round();
+    let now = kelvin;
     let slider = ui.horizontal(|ui| {
         let label = ui.label("Temperature").on_hover_text("Sets the colour to that of a black body and keeps the luminance.");
-        let now = kelvin;
-        let slider = Slider::new(&mut kelvin, COLDEST..=HOTTEST).logarithmic(true).fixed_decimals(0);
-        let slider = ui.add(Explained::new(slider, now).suffix(" K")).labelled_by(label.id);
+        let scale = Scale { range: COLDEST..=HOTTEST, is_logarithmic: true };
+        let slider = slider::show(ui, &mut kelvin, &scale, DAYLIGHT, |ui, kelvin| {
+            let slider = Slider::new(kelvin, COLDEST..=HOTTEST).logarithmic(true).fixed_decimals(0);
+            ui.add(Explained::new(slider, now).suffix(" K")).labelled_by(label.id)
+        });
         if found.is_none() {
             ui.weak("none");
         }
         slider
     });
-    let changed = slider.inner.changed();
+    let changed = slider.inner.changed() || kelvin != now;
     if changed {
         let y = f64::from(luminance(rgb.map(|x| x as f32)));
         *rgb = black_body(kelvin).map(|x| x * if y > 0.0 { y } else { 1.0 });

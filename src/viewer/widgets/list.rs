@@ -1,5 +1,5 @@
 //! Lists and menus that close when something is chosen. By itself egui closes them for the mouse, and not for keys.
-use egui::{IntoAtoms, Response, Ui};
+use egui::{IntoAtoms, RectAlign, Response, Tooltip, Ui};
 
 /// An entry that is marked or not.
 pub fn entry<'a>(ui: &mut Ui, is_chosen: bool, text: impl IntoAtoms<'a>) -> Response {
@@ -15,6 +15,15 @@ pub fn value_entry<'a, T: PartialEq>(ui: &mut Ui, chosen: &mut T, value: T, text
         *chosen = value;
     }
     response
+}
+
+/// Explains an entry beside its list: below it, the text would hide the next entries.
+pub fn explained(entry: Response, doc: &str) -> Response {
+    const SIDES: [RectAlign; 2] = [RectAlign::RIGHT_START, RectAlign::LEFT_START];
+    let mut tooltip = Tooltip::for_enabled(&entry);
+    tooltip.popup = tooltip.popup.align(SIDES[0]).align_alternatives(&SIDES[1..]);
+    tooltip.show(|ui| ui.label(doc));
+    entry
 }
 
 /// What was chosen in the list or menu of `ui`, which closes if that is something.

@@ -9,6 +9,12 @@ pub fn over_the_picture(lift: f32) -> [f32; 2] {
     [-0.5 * PANEL_WIDTH, -lift]
 }
 
+/// Keeps contents from below the scroll bar, whether or not there is one: a bar that takes room when it appears would move the image.
+pub fn leave_room_for_bar(ui: &mut egui::Ui) {
+    let bar = ui.spacing().scroll.bar_width;
+    ui.set_max_width(ui.available_width() - bar);
+}
+
 /// Shows a collapsible section of the side panel.
 pub fn section(ui: &mut egui::Ui, title: &str, contents: impl FnOnce(&mut egui::Ui)) {
     ui.separator();

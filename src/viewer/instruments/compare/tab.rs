@@ -3,7 +3,10 @@ use egui::{ScrollArea, Ui};
 use noisefall::{measure::LogRatio, scene::RenderSettings};
 
 use super::{comparison::CompareLayout, comparison::Comparison, figures, figures::SideStatus, menu};
-use crate::viewer::widgets::style::choices;
+use crate::viewer::widgets::{
+    slider::{self, Scale},
+    style::choices,
+};
 
 const LAYOUTS: [(CompareLayout, &str, &str); 3] = [
     (CompareLayout::Wipe, "Wipe", "Shows A left of a line and B right of it. Drag the line."),
@@ -45,7 +48,9 @@ pub fn show(
     ui.add_enabled_ui(compare.layout == CompareLayout::Wipe, |ui| {
         ui.horizontal(|ui| {
             let label = ui.label("Line").on_hover_text("Moves the line between A and B. You can also drag it in the image.");
-            ui.add(egui::Slider::new(wipe, 0.0..=1.0).show_value(false)).labelled_by(label.id);
+            slider::show(ui, wipe, &Scale::linear(0.0..=1.0), 0.5, |ui, wipe| {
+                ui.add(egui::Slider::new(wipe, 0.0..=1.0).show_value(false)).labelled_by(label.id)
+            });
         });
     });
     *comparison = (!ends).then_some(compare);

@@ -15,20 +15,38 @@ pub enum CurveFile {
 /// Shows the curves and their figures. `latest` are the generations of the two views; a hint says how to get a reference where
 /// `has_reference` is false.
 pub fn show(ui: &mut Ui, history: &mut History, latest: [Option<u64>; 2], has_reference: bool) -> Option<CurveFile> {
-    let mut file = None;
-    egui::Panel::right("convergence figures").resizable(false).exact_size(270.0).show(ui, |ui| {
-        egui::ScrollArea::vertical().show(ui, |ui| {
-            axis_choice(ui, history);
-            // Above the figures, whose lines break elsewhere as the numbers grow.
-            file = buttons(ui, history, latest);
-            legend(ui, history, latest);
-            if !has_reference {
-                ui.add_space(4.0);
-                ui.weak("Drop a reference EXR on the window to see the true error and the bias.");
-            }
-        });
+    let room = ui.available_size();
+    if room.x < FIGURES_WIDTH + LEAST_PLOT {
+        let scroll = egui::ScrollArea::vertical().auto_shrink(false);
+        let contents = |ui: &mut Ui| {
+            ui.allocate_ui(egui::vec2(ui.available_width(), room.y), |ui| plot(ui, history));
+            figures_column(ui, history, latest, has_reference)
+        };
+        return scroll.show(ui, contents).inner;
+    }
+    let panel = egui::Panel::right("convergence figures").resizable(false).exact_size(FIGURES_WIDTH);
+    let file = panel.show(ui, |ui| {
+        let scroll = egui::ScrollArea::vertical();
+        scroll.show(ui, |ui| figures_column(ui, history, latest, has_reference)).inner
     });
     plot(ui, history);
+    file.inner
+}
+
+/// Width of the figures, and the least width of a plot beside them, points. In less room they stand below it.
+const FIGURES_WIDTH: f32 = 270.0;
+const LEAST_PLOT: f32 = 220.0;
+
+/// Shows the choice of axes, the buttons and the legend.
+fn figures_column(ui: &mut Ui, history: &mut History, latest: [Option<u64>; 2], has_reference: bool) -> Option<CurveFile> {
+    axis_choice(ui, history);
+    // Above the figures, whose lines break elsewhere as the numbers grow.
+    let file = buttons(ui, history, latest);
+    legend(ui, history, latest);
+    if !has_reference {
+        ui.add_space(4.0);
+        ui.weak("Drop a reference EXR on the window to see the true error and the bias.");
+    }
     file
 }
 

@@ -46,7 +46,7 @@ pub fn show(ui: &mut Ui, inspector: &mut PathInspector, subject: &Subject) -> bo
                 ui.set_max_width(SAMPLES);
                 let saves = samples(ui, inspector, pixel, subject);
                 ui.separator();
-                path(ui, inspector, request, terms);
+                path(ui, inspector, request, |ui, replay, objects, channel| terms(ui, replay, objects, channel, SAMPLES));
                 saves
             })
             .inner;
@@ -59,8 +59,9 @@ pub fn show(ui: &mut Ui, inspector: &mut PathInspector, subject: &Subject) -> bo
             // The bar has room of its own: it would lie over the last column.
             let style = &mut ui.spacing_mut().scroll;
             style.floating_allocated_width = style.bar_width;
+            let room = ui.available_width() - ui.spacing().scroll.allocated_width();
             let scroll = ScrollArea::both().auto_shrink(false).scroll_bar_visibility(ScrollBarVisibility::AlwaysVisible);
-            _ = scroll.show(ui, |ui| terms(ui, replay, objects, channel));
+            _ = scroll.show(ui, |ui| terms(ui, replay, objects, channel, room));
         });
     });
     saves
@@ -98,11 +99,11 @@ fn path(
     inspector.channel = channel;
 }
 
-/// Shows the terms of a sample: of its strategies if there are paths from lights, or else of its vertices.
-fn terms(ui: &mut Ui, replay: &Replay, objects: &[Object], channel: Channel) {
+/// Shows the terms of a sample in a width: of its strategies if there are paths from lights, or else of its vertices.
+fn terms(ui: &mut Ui, replay: &Replay, objects: &[Object], channel: Channel, room: f32) {
     match &replay.both_ends {
         Some(both) => strategies::show(ui, both, replay.radiance, objects, channel),
-        None => table::show(ui, replay, objects, channel),
+        None => table::show(ui, replay, objects, channel, room),
     }
 }
 
@@ -140,6 +141,7 @@ fn sample_column(ui: &mut Ui, inspector: &mut PathInspector, request: Option<&Re
     if let Some(sample) = histogram::show(ui, histogram, inspector.sample) {
         inspector.sample = sample;
     }
+    let saves = request.is_some_and(|request| copying::show(ui, inspector, request));
     let traces_light_paths = request.is_some_and(|request| light_paths::are_traced(&request.scene, &request.settings));
     if traces_light_paths {
         ui.weak("Samples lack the light that paths from lights bring to this pixel from others (t = 1).");
@@ -148,7 +150,7 @@ fn sample_column(ui: &mut Ui, inspector: &mut PathInspector, request: Option<&Re
     if traces_light_paths {
         ui.weak("The path from the light is orange. Dashes connect both paths where nothing lies between.");
     }
-    request.is_some_and(|request| copying::show(ui, inspector, request))
+    saves
 }
 
 /// Chooses the sample whose path is shown.

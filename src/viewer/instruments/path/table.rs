@@ -17,6 +17,9 @@ use crate::viewer::widgets::{
 
 /// Width of the source of light, so that the table fits beside the samples in a window of 1280 points.
 const TERM_WIDTH: f32 = 100.0;
+/// Width of the other columns, and the largest width of the names of vertices, points.
+const OTHERS: f32 = 424.0;
+const WIDEST_VERTEX: f32 = 260.0;
 /// More of a path than this nobody reads.
 pub const MOST_VERTICES: usize = 64;
 
@@ -60,15 +63,16 @@ pub fn heading(ui: &mut Ui, sample: u32, replay: &Replay, channel: &mut Channel)
     ui.add_space(2.0);
 }
 
-pub fn show(ui: &mut Ui, replay: &Replay, objects: &[Object], channel: Channel) {
-    let channel = channel as usize;
+/// Shows the table in a width. The names of vertices get what the other columns leave.
+pub fn show(ui: &mut Ui, replay: &Replay, objects: &[Object], channel: Channel, room: f32) {
+    let (channel, vertex_width) = (channel as usize, (room - OTHERS).clamp(VERTEX_WIDTH, WIDEST_VERTEX));
     Grid::new("vertices").striped(true).spacing([8.0, 4.0]).show(ui, |ui| {
         for (name, doc) in COLUMNS {
             ui.label(RichText::new(name).weak()).on_hover_text(doc);
         }
         ui.end_row();
         for row in rows(replay, MOST_VERTICES) {
-            show_row(ui, &row, objects, channel);
+            show_row(ui, &row, objects, channel, vertex_width);
         }
         for total in totals(replay, MOST_VERTICES) {
             ui.label(RichText::new(&total.name).strong().size(TEXT)).on_hover_text(total.doc);
@@ -79,10 +83,10 @@ pub fn show(ui: &mut Ui, replay: &Replay, objects: &[Object], channel: Channel) 
     });
 }
 
-fn show_row(ui: &mut Ui, row: &Row, objects: &[Object], channel: usize) {
+fn show_row(ui: &mut Ui, row: &Row, objects: &[Object], channel: usize, vertex_width: f32) {
     let vertex = row.vertex;
     let place = format!("{} {}", vertex.bounce, place(vertex, objects));
-    elided(ui, VERTEX_WIDTH, RichText::new(&place).size(TEXT)).on_hover_text(format!("{place}\n{}", details(vertex)));
+    elided(ui, vertex_width, RichText::new(&place).size(TEXT)).on_hover_text(format!("{place}\n{}", details(vertex)));
     let Some(term) = &row.term else {
         (0..COLUMNS.len() - 1).for_each(|_| drop(ui.weak("–")));
         ui.end_row();
@@ -231,8 +235,9 @@ mod tests {
     /// All that is written, row by row.
     fn written(replay: &Replay) -> Vec<String> {
         let scene = built_in();
-        let harness =
-            Harness::builder().with_size(egui::vec2(4000.0, 400.0)).build_ui(|ui| show(ui, replay, &scene.objects, Channel::Red));
+        let harness = Harness::builder()
+            .with_size(egui::vec2(4000.0, 400.0))
+            .build_ui(|ui| show(ui, replay, &scene.objects, Channel::Red, 4000.0));
         let labels =
             harness.root().children_recursive().filter(|node| node.accesskit_node().role() == egui::accesskit::Role::Label);
         labels.filter_map(|label| label.accesskit_node().value()).collect()

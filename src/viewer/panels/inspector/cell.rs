@@ -4,7 +4,11 @@ use glam::DVec3;
 use noisefall::declare::{OwnedValue, Parameter, Path, Range, Textured, Value, Word, check_value};
 
 use super::{Request, Surroundings, numbers::Numbers, references};
-use crate::viewer::widgets::{colour_edit, committed_text, counted::counted, list::value_entry};
+use crate::viewer::widgets::{
+    colour_edit, committed_text,
+    counted::counted,
+    list::{explained, value_entry},
+};
 
 /// The control of a value, and its result.
 pub struct Cell<'a> {
@@ -14,6 +18,8 @@ pub struct Cell<'a> {
     /// Whether the value is a name that may be absent.
     pub is_optional_name: bool,
     pub request: Option<Request>,
+    /// Whether the default value is asked for.
+    pub resets: std::cell::Cell<bool>,
 }
 
 impl Cell<'_> {
@@ -83,7 +89,7 @@ impl Cell<'_> {
     }
 
     fn numbers(&self, label: Id) -> Numbers<'_> {
-        Numbers { parameter: self.parameter, label }
+        Numbers { parameter: self.parameter, label, resets: &self.resets }
     }
 
     fn colour(&mut self, ui: &mut Ui, label: Id, rgb: [f64; 3], range: &Range) -> Option<[f64; 3]> {
@@ -153,7 +159,7 @@ impl Cell<'_> {
         let mut new = place;
         let combo = ComboBox::from_id_salt("word").selected_text(words[place].title).show_ui(ui, |ui| {
             for (at, word) in words.iter().enumerate() {
-                value_entry(ui, &mut new, at, word.title).on_hover_text(word.doc);
+                explained(value_entry(ui, &mut new, at, word.title), word.doc);
             }
         });
         combo.response.labelled_by(label);

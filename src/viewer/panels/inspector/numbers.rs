@@ -1,9 +1,16 @@
 //! Sliders and fields for numbers. They accept only values that the reader accepts.
-use egui::{Id, Slider, SliderClamping, Ui};
+use std::cell::Cell;
+
+use egui::{Id, Response, Slider, SliderClamping, Ui};
 use glam::DVec3;
 use noisefall::declare::{CountRange, Parameter, Problem, Range, SliderScale, Value, check_value, short};
 
-use crate::viewer::widgets::{number::tidy, refusal, typed_number::TypedNumber};
+use crate::viewer::widgets::{
+    number::tidy,
+    refusal,
+    slider::{self, Scale},
+    typed_number::TypedNumber,
+};
 
 /// Largest range of a slider in powers of ten. Its field takes all numbers.
 const SLIDER_LEAST: f64 = 1e-3;
@@ -23,6 +30,8 @@ const FEW: u32 = 256;
 pub struct Numbers<'a> {
     pub parameter: &'a Parameter,
     pub label: Id,
+    /// Whether the default value is asked for.
+    pub resets: &'a Cell<bool>,
 }
 
 impl Numbers<'_> {
@@ -33,9 +42,13 @@ impl Numbers<'_> {
         if *range != Range::FINITE {
             ui.spacing_mut().slider_width = SLIDER_WIDTH;
             let [least, most] = slider_ends(range);
-            let slider = Slider::new(&mut new, least..=most).show_value(false).clamping(SliderClamping::Edits);
-            let slider = slider.logarithmic(range.scale == SliderScale::Log).smallest_positive(SLIDER_LEAST);
-            ui.add(slider).labelled_by(self.label);
+            let is_logarithmic = range.scale == SliderScale::Log;
+            let scale = Scale { range: least..=most, is_logarithmic };
+            self.slider(ui, &mut new, &scale, |ui, new| {
+                let slider = Slider::new(new, least..=most).show_value(false).clamping(SliderClamping::Edits);
+                let slider = slider.logarithmic(is_logarithmic).smallest_positive(SLIDER_LEAST);
+                ui.add(slider).labelled_by(self.label)
+            });
             if new != old {
                 new = tidy(new).clamp(range.least, range.most);
             }
@@ -53,12 +66,19 @@ impl Numbers<'_> {
         let (least, most) = (f64::from(range.least), f64::from(range.most));
         if range.most <= FEW {
             ui.spacing_mut().slider_width = SLIDER_WIDTH;
-            let slider = Slider::new(&mut new, least..=most).integer().show_value(false).clamping(SliderClamping::Edits);
-            ui.add(slider).labelled_by(self.label);
+            self.slider(ui, &mut new, &Scale::linear(least..=most), |ui, new| {
+                let slider = Slider::new(new, least..=most).integer().show_value(false).clamping(SliderClamping::Edits);
+                ui.add(slider).labelled_by(self.label)
+            });
         }
         let check = |x: f64| check_count(parameter, x, range);
         self.field(ui, &mut new, (least, most), 0.2, Look::WHOLE, &check);
         Some(new.round() as u32).filter(|new| *new != old)
+    }
+
+    fn slider(&self, ui: &mut Ui, value: &mut f64, scale: &Scale, add: impl FnOnce(&mut Ui, &mut f64) -> Response) {
+        let (_, resets) = slider::show_resettable(ui, value, scale, add);
+        self.resets.set(self.resets.get() || resets);
     }
 
     /// Two whole numbers, at least 1. Returns the new ones.

@@ -25,6 +25,8 @@ pub enum Drag {
 pub enum Request {
     /// Set a value.
     Set { path: Path, value: OwnedValue },
+    /// Give a value its default.
+    Reset { path: Path },
     /// Choose another alternative of a choice, whose keys stand in the table at the path.
     Choose { path: Path, choice: &'static str, name: &'static str },
     /// Give an optional value or table, or an item of a list, its defaults.

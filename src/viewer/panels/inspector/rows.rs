@@ -9,7 +9,7 @@ use super::{
     references,
     row::{Heading, Mark},
 };
-use crate::viewer::widgets::list::value_entry;
+use crate::viewer::widgets::list::{explained, value_entry};
 
 /// The visited tables, and the requests so far.
 pub struct Rows<'u> {
@@ -69,9 +69,13 @@ impl Parameters for Rows<'_> {
         let heading = heading(parameter, if is_optional_name { Mark::None } else { mark });
         let surroundings = self.surroundings;
         let row = self.ui.push_id(&path, |ui| {
-            let mut cell = Cell { parameter, path: &path, surroundings, is_optional_name, request: None };
+            let mut cell = Cell { parameter, path: &path, surroundings, is_optional_name, request: None, resets: false.into() };
             let is_removed = heading.row(ui, |ui, label| cell.show(ui, label, &value));
-            if is_removed { Some(Request::Remove { path: path.clone() }) } else { cell.request }
+            match is_removed {
+                true => Some(Request::Remove { path: path.clone() }),
+                false if cell.resets.get() => Some(Request::Reset { path: path.clone() }),
+                false => cell.request,
+            }
         });
         self.requests.extend(row.inner);
     }
@@ -130,7 +134,7 @@ impl Parameters for Rows<'_> {
                     for (at, alternative) in choice.alternatives.iter().enumerate() {
                         let entry = value_entry(ui, &mut place, at, name(at));
                         if let [only] = &alternative.outline[..] {
-                            entry.on_hover_text(only.parameter.doc);
+                            explained(entry, only.parameter.doc);
                         }
                     }
                 });

@@ -9,15 +9,15 @@ use noisefall::{
     texture::TextureKind,
 };
 
-use super::entries::Entry;
-use crate::viewer::panels::subject::Subject;
+use super::entries::{Entry, groups};
+use crate::viewer::{panels::subject::Subject, widgets::list::explained};
 
 /// An action on a part.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Action {
     /// Move the camera so that the part fills the image.
     LookAt,
-    /// Move the object down until it rests on something.
+    /// Move the object down, or up if it has sunk in, until it rests on something.
     DropToFloor,
     Duplicate,
     Delete,
@@ -57,6 +57,8 @@ pub enum New {
     Texture,
 }
 
+const RESTS: &str = "Lowers the object until it stands on what is below. Raises it if it has sunk in.";
+
 /// The choices of menus.
 pub struct Menu {
     materials: Vec<String>,
@@ -80,7 +82,7 @@ impl Menu {
         match &entry.subject {
             Subject::Object(_) => actions.extend([
                 ("Look at", Action::LookAt),
-                ("Drop to floor", Action::DropToFloor),
+                ("Rest on floor", Action::DropToFloor),
                 ("Duplicate", Action::Duplicate),
             ]),
             Subject::Lamp(_) | Subject::Material(_) | Subject::Texture(_) => actions.push(("Duplicate", Action::Duplicate)),
@@ -93,7 +95,9 @@ impl Menu {
         }
         let mut chosen = None;
         for (name, action) in actions {
-            if ui.button(name).clicked() {
+            let button = ui.button(name);
+            let rests = action == Action::DropToFloor;
+            if (if rests { explained(button, RESTS) } else { button }).clicked() {
                 chosen = Some(action);
             }
         }
@@ -133,6 +137,13 @@ impl Menu {
         }
         chosen
     }
+}
+
+/// Shows the menu of a part of a scene. Returns what was chosen.
+pub fn part_menu(ui: &mut Ui, description: &SceneDescription, subject: &Subject) -> Option<Action> {
+    let all = groups(description, "").into_iter().flat_map(|group| group.entries);
+    let entry = all.into_iter().find(|entry| entry.subject == *subject)?;
+    Menu::of(description).show(ui, &entry)
 }
 
 /// Whether a part has a name.

@@ -16,13 +16,13 @@ use std::ops::Range;
 use egui::{CollapsingHeader, Rect, RichText, ScrollArea, Sense, TextEdit, Ui, UiBuilder, pos2, vec2};
 use noisefall::scene::description::SceneDescription;
 
-pub use self::menu::{Action, New, can_rename};
+pub use self::menu::{Action, New, can_rename, part_menu};
 use self::{
     entries::{Entry, EntryGroup},
     menu::Menu,
 };
 use super::subject::Subject;
-use crate::viewer::widgets::{committed_text, palette::Palette};
+use crate::viewer::widgets::{committed_text, palette::Palette, style::leave_room_for_bar};
 
 /// The requests of one frame.
 #[derive(Debug, Default, PartialEq)]
@@ -83,6 +83,7 @@ impl Outliner {
             menu: Menu::of(description),
         });
         ScrollArea::vertical().id_salt("parts").auto_shrink(false).show(ui, |ui| {
+            leave_room_for_bar(ui);
             for group in &listed.groups {
                 self.group(ui, group, &listed.menu, selected, &mut asked);
             }
@@ -90,6 +91,12 @@ impl Outliner {
         self.listed = Some(listed);
         self.selected = Some(selected.cloned());
         asked
+    }
+
+    /// Shows the field for the name of a part in place of its row, and scrolls to it.
+    pub fn rename(&mut self, subject: Subject) {
+        self.search.clear();
+        (self.renamed, self.selected) = (Some(subject), Some(None));
     }
 
     fn group(&mut self, ui: &mut Ui, group: &EntryGroup, menu: &Menu, selected: Option<&Subject>, asked: &mut OutlinerRequests) {
