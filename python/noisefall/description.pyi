@@ -182,7 +182,7 @@ class Projector:
     aspect: float | None = None
     """Width of the image divided by its height; 0 takes that of the file."""
     encoding: Literal['srgb', 'linear'] | None = None
-    """Encoding of the file's numbers; EXR and HDR are always linear."""
+    """Encoding of the file's numbers; EXR, HDR and PFM are always linear."""
     filter: Literal['bilinear', 'nearest'] | None = None
     """Interpolation between texels."""
     flat: bool | None = None
@@ -764,13 +764,13 @@ class Image:
     channel: Literal['rgb', 'red', 'green', 'blue', 'alpha'] | None = None
     """The channels that are used."""
     encoding: Literal['srgb', 'linear'] | None = None
-    """Encoding of the file's numbers; EXR and HDR are always linear."""
+    """Encoding of the file's numbers; EXR, HDR and PFM are always linear."""
     filter: Literal['bilinear', 'nearest'] | None = None
     """Interpolation between texels."""
     offset: Sequence[float] | None = None
     """Offset that is added to u and v, applied last."""
     path: str
-    """PNG, JPEG, TGA, WebP, EXR or HDR file."""
+    """PNG, JPEG, TGA, WebP, BMP, EXR, HDR or PFM file."""
     rotate: float | None = None
     """Rotation from u towards v, applied after the shear. (°)"""
     scale: Sequence[float] | None = None

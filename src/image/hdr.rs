@@ -18,20 +18,68 @@ type Rgbe = [u8; 4];
 pub(super) fn decode<P: Pixel>(file: &mut dyn Source) -> Result<Picture<P>, ImageFormatError> {
     let length = length(file)?;
     let exposure = exposure(file)?;
-    let (width, height) = size(&text_line(file)?)?;
+    let layout = Layout::read(&text_line(file)?)?;
+    let [width, height] = layout.size();
     check_size(width.into(), height.into())?;
-    // A row has a pixel or more, and old runs are of any length.
-    if 4 * u64::from(height) > length {
+    // A line has a pixel or more, and old runs are of any length.
+    if 4 * u64::from(layout.lines) > length {
         return Err(ImageFormatError::broken("the file ends within its pixels"));
     }
     let _room = room::<P>(width, height, 0)?;
-    let mut radiance = pixels(width as usize * height as usize)?;
-    let mut row = vec![[0; 4]; width as usize];
-    for _ in 0..height {
-        read_row(file, &mut row)?;
-        radiance.extend(row.iter().map(|rgbe| P::of(linear(*rgbe, exposure))));
+    let count = width as usize * height as usize;
+    let mut radiance = pixels(count)?;
+    radiance.resize(count, P::default());
+    let mut line = vec![[0; 4]; layout.length as usize];
+    for number in 0..layout.lines {
+        read_line(file, &mut line)?;
+        for (at, rgbe) in (0..).zip(&line) {
+            radiance[layout.pixel(number, at)] = P::of(linear(*rgbe, exposure));
+        }
     }
     Ok(Picture { width, height, radiance })
+}
+
+/// How lines of pixels lie in the image.
+struct Layout {
+    lines: u32,
+    /// Pixels of a line.
+    length: u32,
+    /// Whether lines are columns.
+    are_columns: bool,
+    /// Whether lines run from the end of their axis, and their pixels.
+    is_reversed: [bool; 2],
+}
+
+impl Layout {
+    /// Reads a line like `-Y 512 +X 1024`: lines from the top, pixels from the left. The first axis is that from line to line. Y points
+    /// upwards, and X to the right.
+    fn read(line: &str) -> Result<Layout, ImageFormatError> {
+        let words: Vec<&str> = line.split_whitespace().collect();
+        let layout = || {
+            let [first, lines, second, length] = words[..] else { return None };
+            let axes = [first, second].map(str::as_bytes);
+            let is_reversed = match axes {
+                [[y @ (b'+' | b'-'), b'Y'], [x @ (b'+' | b'-'), b'X']] => [*y == b'+', *x == b'-'],
+                [[x @ (b'+' | b'-'), b'X'], [y @ (b'+' | b'-'), b'Y']] => [*x == b'-', *y == b'+'],
+                _ => return None,
+            };
+            let are_columns = axes[0][1] == b'X';
+            Some(Layout { lines: lines.parse().ok()?, length: length.parse().ok()?, are_columns, is_reversed })
+        };
+        layout().ok_or_else(|| ImageFormatError::broken(format!("its size is `{line}`, not such as `-Y height +X width`")))
+    }
+
+    /// Width and height.
+    fn size(&self) -> [u32; 2] {
+        if self.are_columns { [self.lines, self.length] } else { [self.length, self.lines] }
+    }
+
+    /// Index of a pixel of a line.
+    fn pixel(&self, line: u32, at: u32) -> usize {
+        let [line, at] = [(line, self.lines, self.is_reversed[0]), (at, self.length, self.is_reversed[1])]
+            .map(|(number, count, is_reversed)| if is_reversed { count - 1 - number } else { number } as usize);
+        if self.are_columns { at * self.lines as usize + line } else { line * self.length as usize + at }
+    }
 }
 
 /// Reads the header up to its empty line, and returns the factor by which the values were multiplied.
@@ -54,15 +102,6 @@ fn exposure(file: &mut dyn Source) -> Result<f64, ImageFormatError> {
     }
 }
 
-/// Width and height of a line like `-Y 512 +X 1024`: rows from the top, columns from the left.
-fn size(line: &str) -> Result<(u32, u32), ImageFormatError> {
-    let size = match line.split_whitespace().collect::<Vec<_>>()[..] {
-        ["-Y", height, "+X", width] => width.parse().ok().zip(height.parse().ok()),
-        _ => None,
-    };
-    size.ok_or_else(|| ImageFormatError::broken(format!("its size is `{line}`, not `-Y height +X width`")))
-}
-
 fn text_line(file: &mut dyn Source) -> Result<String, ImageFormatError> {
     let mut line = Vec::new();
     file.take(LONGEST_LINE).read_until(b'\n', &mut line)?;
@@ -82,7 +121,7 @@ fn read(file: &mut dyn Source, bytes: &mut [u8]) -> Result<(), ImageFormatError>
     file.read_exact(bytes).map_err(|_| ImageFormatError::broken("the file ends within its pixels"))
 }
 
-fn read_row(file: &mut dyn Source, row: &mut [Rgbe]) -> Result<(), ImageFormatError> {
+fn read_line(file: &mut dyn Source, row: &mut [Rgbe]) -> Result<(), ImageFormatError> {
     let first: Rgbe = bytes(file)?;
     match first {
         [2, 2, high, low] if high < 128 && PACKED_WIDTHS.contains(&row.len()) => {

@@ -4,14 +4,16 @@
 //! |---|---|---|
 //! | PNG | `decoded.rs` | 8 or 16 bits per channel, sRGB or linear |
 //! | JPEG, TGA, WebP, BMP | `decoded.rs` | 8 bits per channel, sRGB or linear |
-//! | OpenEXR | `exr.rs` | linear; the layer's R, G, B and A |
+//! | OpenEXR | `exr/` | linear; the R, G, B and A of a layer, or what stands for them |
 //! | Radiance HDR | `hdr.rs` | linear; one common exponent per pixel |
+//! | PFM | `pfm.rs` | linear; grey or in three channels |
 //!
 //! Opacity (alpha) is linear in all formats. It is read on its own, by [`read_opacity_of`], and ignored otherwise.
 mod carried;
 mod decoded;
 mod exr;
 mod hdr;
+mod pfm;
 #[cfg(test)]
 mod tests;
 
@@ -36,6 +38,8 @@ pub const MOST_PIXELS: u64 = 1 << 27;
 /// Maximum number of pixels per byte of a file: those of a PNG with one bit per pixel, whose data unpack to at most 1032 times their
 /// size. WebP has no such limit.
 const DENSEST: u64 = 8 * 1032;
+/// Ends of the names of image files that are read.
+pub const EXTENSIONS: [&str; 10] = ["png", "jpg", "jpeg", "tga", "webp", "bmp", "exr", "hdr", "pic", "pfm"];
 /// Maximum radiance.
 const BRIGHTEST: f32 = 1e15;
 
@@ -52,6 +56,13 @@ pub struct Picture<P = [f32; 3]> {
 
 /// An image for lookups by the renderer: red, green, blue, and padding.
 pub type Texels = Picture<[f32; 4]>;
+
+impl Texels {
+    /// Whether all pixels are black: a light of this image gives no light.
+    pub fn is_black(&self) -> bool {
+        self.radiance.iter().all(|pixel| pixel[..3] == [0.0; 3])
+    }
+}
 
 /// The in-memory format of a pixel.
 trait Pixel: Copy + Default {
@@ -103,7 +114,7 @@ impl From<&Picture> for Texels {
 }
 
 crate::declare::words! {
-    /// Encoding of the numbers of a PNG, JPEG, TGA, WebP or BMP. EXR and HDR are always linear.
+    /// Encoding of the numbers of a PNG, JPEG, TGA, WebP or BMP. EXR, HDR and PFM are always linear.
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
     pub enum Encoding {
         #[default]
@@ -132,7 +143,7 @@ pub enum ImageFormatError {
     #[error("cannot be read: {0}")]
     Unreadable(String),
     /// The format is not known.
-    #[error("not an image: expected PNG, JPEG, TGA, WebP, BMP, OpenEXR or Radiance HDR")]
+    #[error("not an image: expected PNG, JPEG, TGA, WebP, BMP, OpenEXR, Radiance HDR or PFM")]
     NotAPicture,
     /// Width or height is 0.
     #[error("the image is {0} × {1}: it has no pixels")]
@@ -249,6 +260,7 @@ fn decode<P: Pixel>(file: &mut dyn Source, encoding: Encoding) -> Result<Picture
         [b'B', b'M', ..] => decoded::bmp(file, encoding),
         [0x76, 0x2f, 0x31, 0x01, ..] => exr::decode(file),
         [b'#', b'?', ..] => hdr::decode(file),
+        [b'P', b'F' | b'f', space, ..] if space.is_ascii_whitespace() => pfm::decode(file),
         // A TGA has no signature, but few of its values are valid: kind of palette, kind of image, bits per pixel.
         [_, 0 | 1, 1..=3 | 9..=11, .., 8 | 15 | 16 | 24 | 32, _] if start.len() == 18 => decoded::tga(file, encoding),
         _ => Err(ImageFormatError::NotAPicture),

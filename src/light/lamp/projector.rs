@@ -19,7 +19,7 @@ pub struct Projector {
     pub up: DVec3,
     /// The image file, relative to the scene; a white square if it is empty.
     pub image: String,
-    /// Encoding of the file's numbers; EXR and HDR are always linear.
+    /// Encoding of the file's numbers; EXR, HDR and PFM are always linear.
     pub encoding: Encoding,
     /// What continues the image at its edges.
     pub wrap: Wrap,
@@ -72,7 +72,8 @@ impl Declare for Projector {
         const TARGET: Parameter = Parameter::new("target", "Point that the lamp is aimed at.").unit("m");
         const UP: Parameter = Parameter::new("up", "Direction that points up in the image.");
         const IMAGE: Parameter = Parameter::new("image", "The image file, relative to the scene; a white square if it is empty.");
-        const ENCODING: Parameter = Parameter::new("encoding", "Encoding of the file's numbers; EXR and HDR are always linear.");
+        const ENCODING: Parameter =
+            Parameter::new("encoding", "Encoding of the file's numbers; EXR, HDR and PFM are always linear.");
         const WRAP: Parameter =
             Parameter::new("wrap", "What continues the image at its edges, where texels blend over half their width.");
         const FILTER: Parameter = Parameter::new("filter", "Interpolation between texels.");

@@ -81,8 +81,9 @@ impl Kind for Image {
 impl Declare for Image {
     fn parameters(&mut self, p: &mut dyn Parameters) {
         const PATH: Parameter =
-            Parameter::new("path", "PNG, JPEG, TGA, WebP, EXR or HDR file.").required().aliases("file filename src");
-        const ENCODING: Parameter = Parameter::new("encoding", "Encoding of the file's numbers; EXR and HDR are always linear.");
+            Parameter::new("path", "PNG, JPEG, TGA, WebP, BMP, EXR, HDR or PFM file.").required().aliases("file filename src");
+        const ENCODING: Parameter =
+            Parameter::new("encoding", "Encoding of the file's numbers; EXR, HDR and PFM are always linear.");
         const CHANNEL: Parameter = Parameter::new("channel", "The channels that are used.");
         const WRAP_U: Parameter = Parameter::new("wrap_u", "How the image continues beyond 0 and 1 in u.");
         const WRAP_V: Parameter = Parameter::new("wrap_v", "How the image continues beyond 0 and 1 in v.");

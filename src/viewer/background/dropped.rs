@@ -97,13 +97,13 @@ fn purpose(path: PathBuf, resolution: [u32; 2]) -> Result<DroppedFile, String> {
             Ok(DroppedFile::Mesh(path, bounds(&model)))
         }
         Some("png") if carries_scene(&path) => Ok(DroppedFile::Scene(path)),
-        Some("png" | "jpg" | "jpeg" | "tga" | "webp") => {
+        Some("png" | "jpg" | "jpeg" | "tga" | "webp" | "bmp") => {
             image(&path)?;
             Ok(DroppedFile::Texture(path))
         }
         // What this program has rendered is a reference; so is what another one has rendered of the same size.
         Some("exr") if carries_scene(&path) => Ok(DroppedFile::Reference(path)),
-        Some("exr" | "hdr") => {
+        Some("exr" | "hdr" | "pfm") => {
             let Picture { width, height, .. } = image(&path)?;
             let is_sky = width == 2 * height && [width, height] != resolution;
             Ok(if is_sky { DroppedFile::Sky(path) } else { DroppedFile::Reference(path) })
@@ -111,8 +111,8 @@ fn purpose(path: PathBuf, resolution: [u32; 2]) -> Result<DroppedFile, String> {
         _ => {
             let name = path.file_name().unwrap_or_default().to_string_lossy();
             Err(format!(
-                "{name} cannot be used. Drop a scene (TOML, glTF, GLB, XML, PBRT), a mesh (OBJ, PLY, STL), a texture (PNG, JPEG, TGA, WebP), or a sky or \
-                 reference (EXR, HDR)."
+                "{name} cannot be used. Drop a scene (TOML, glTF, GLB, XML, PBRT), a mesh (OBJ, PLY, STL), a texture (PNG, JPEG, TGA, WebP, BMP), or a sky or \
+                 reference (EXR, HDR, PFM)."
             ))
         }
     }

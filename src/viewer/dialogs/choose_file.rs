@@ -4,6 +4,7 @@ use std::path::{Path as FilePath, PathBuf};
 use noisefall::{
     declare::{OwnedValue, Path, Step, Textured},
     edit::{Document, Edit, Tree},
+    image::EXTENSIONS,
     texture::{TextureKind, image::Image},
 };
 
@@ -49,11 +50,10 @@ impl FilePurpose {
 
     /// What is chosen, and the extensions of its files.
     fn kind(&self) -> (&'static str, &'static [&'static str]) {
-        const IMAGE: &[&str] = &["png", "jpg", "jpeg", "tga", "webp", "exr", "hdr"];
         const MESH: &[&str] = &["obj", "ply", "stl"];
         let (FilePurpose::Value(path) | FilePurpose::After(_, path) | FilePurpose::Texture(path)) = self;
         let is_mesh = path.0.iter().any(|step| matches!(step, Step::Key(key) if key == "mesh"));
-        if is_mesh { ("a mesh", MESH) } else { ("an image", IMAGE) }
+        if is_mesh { ("a mesh", MESH) } else { ("an image", &EXTENSIONS) }
     }
 }
 

@@ -49,7 +49,7 @@ pub fn show(ctx: &egui::Context, dialog: &mut Option<OpenDialog>) -> Option<Path
 
 /// Whether a file may be a scene, a mesh or a saved image, by its name. A scene of our own may have any extension that no program claims.
 fn can_be_scene(path: &Path) -> bool {
-    const OTHERS: [&str; 12] = ["avif", "bmp", "csv", "gif", "hdr", "jpeg", "jpg", "mtl", "pdf", "tga", "tiff", "webp"];
+    const OTHERS: [&str; 13] = ["avif", "bmp", "csv", "gif", "hdr", "jpeg", "jpg", "mtl", "pdf", "pfm", "tga", "tiff", "webp"];
     let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
     !OTHERS.contains(&&*extension)
 }

@@ -1,4 +1,7 @@
 //! Hand-made image files, byte by byte.
+mod exr;
+mod pfm;
+
 use std::io::Cursor;
 
 use super::{Encoding, ImageFormatError, Opacity, Picture, Texels, check_length, decode, read_opacity_of};
@@ -53,6 +56,26 @@ fn new_runs_fill_channel_by_channel() {
 }
 
 #[test]
+fn hdrs_are_upright_whatever_the_order_of_their_pixels() {
+    // Two rows of three, as greys: 1 2 3 above 4 5 6.
+    for (size, order) in [
+        ("-Y 2 +X 3", [1, 2, 3, 4, 5, 6]),
+        ("-Y 2 -X 3", [3, 2, 1, 6, 5, 4]),
+        ("+Y 2 +X 3", [4, 5, 6, 1, 2, 3]),
+        ("+Y 2 -X 3", [6, 5, 4, 3, 2, 1]),
+        ("+X 3 -Y 2", [1, 4, 2, 5, 3, 6]),
+        ("-X 3 -Y 2", [3, 6, 2, 5, 1, 4]),
+        ("+X 3 +Y 2", [4, 1, 5, 2, 6, 3]),
+        ("-X 3 +Y 2", [6, 3, 5, 2, 4, 1]),
+    ] {
+        let pixels: Vec<u8> = order.iter().flat_map(|grey| [2 * grey, 2 * grey, 2 * grey, 135]).collect();
+        let picture = read(&hdr(&format!("{HEADER}\n{size}\n"), &pixels)).expect("it is a picture");
+        let greys: Vec<f32> = picture.radiance.iter().map(|pixel| pixel[0]).collect();
+        assert_eq!((picture.width, picture.height, greys), (3, 2, vec![1.0, 2.0, 3.0, 4.0, 5.0, 6.0]), "{size}");
+    }
+}
+
+#[test]
 fn broken_hdrs_are_refused() {
     let refuses = |header: &str, pixels: &[u8], reason: &str| {
         let error = read(&hdr(header, pixels)).expect_err("it is broken").to_string();
@@ -65,7 +88,9 @@ fn broken_hdrs_are_refused() {
     refuses(&sized("-Y 1 +X 8"), &[2, 2, 0, 8, 137, 1], "a run leaves");
     refuses(&sized("-Y 1 +X 8"), &[2, 2, 0, 8, 0], "a run leaves");
     refuses(&sized("-Y 1 +X 8"), &[2, 2, 0, 9, 136, 1], "another width");
-    refuses(&sized("+X 8 -Y 1"), &[], "not `-Y height +X width`");
+    for size in ["+X 8 -X 1", "-Y 1", "-Y 1 +X 8 1", "Y 1 X 8", "-Y 1 +Z 8", "-Y 1 +X eight"] {
+        refuses(&sized(size), &[], "not such as `-Y height +X width`");
+    }
     refuses(&sized("-Y 0 +X 8"), &[], "no pixels");
     refuses(&sized("-Y 60000 +X 8"), &[], "8 × 60000");
     refuses(&sized("-Y 16384 +X 16384"), &[], "16384 × 16384");

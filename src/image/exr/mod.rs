@@ -1,8 +1,12 @@
 //! OpenEXR, by the `exr` crate.
+mod channels;
+
 use ::exr::{
     meta::{BlockDescription, MetaData, header::Header},
-    prelude::{ReadChannels, ReadLayers, read},
+    prelude::{ReadChannels, ReadLayers, ReadSpecificChannel, Vec2, read},
 };
+
+use self::channels::{Channels, choose};
 
 use super::{ImageFormatError, Picture, Pixel, Source, check_length, check_size, length, room};
 
@@ -21,23 +25,34 @@ pub(super) fn decode<P: Pixel>(file: &mut dyn Source) -> Result<Picture<P>, Imag
         return Err(ImageFormatError::broken("the file has no layers"));
     };
     check_length(largest.width() as u64, largest.height() as u64, length)?;
+    let channels = choose(&headers).map_err(ImageFormatError::broken)?;
     let _room = room::<P>(largest.width() as u32, largest.height() as u32, UNPACKING)?;
     file.rewind()?;
-    let image = read()
-        .no_deep_data()
-        .largest_resolution_level()
-        .rgba_channels(
-            |size, _| (size.width(), vec![P::default(); size.area()]),
-            |(width, pixels), at, (r, g, b, a): (f32, f32, f32, f32)| {
-                pixels[at.y() * *width + at.x()] = P::with_opacity([r, g, b], a);
-            },
-        )
-        .first_valid_layer()
-        .all_attributes()
-        .from_buffered(file)
-        .map_err(ImageFormatError::broken)?;
-    let size = image.layer_data.size;
-    let (_, radiance) = image.layer_data.channel_data.pixels;
+    let reader = || read().no_deep_data().largest_resolution_level();
+    let create = |size: Vec2<usize>| (size.width(), vec![P::default(); size.area()]);
+    let set = |(width, pixels): &mut (usize, Vec<P>), at: Vec2<usize>, rgb, opacity| {
+        pixels[at.y() * *width + at.x()] = P::with_opacity(rgb, opacity);
+    };
+    let (size, (_, radiance)) = match channels {
+        Channels::Grey { value, opacity } => {
+            let channels = reader()
+                .specific_channels()
+                .required(value)
+                .optional(opacity, 1.0)
+                .collect_pixels(|size, _| create(size), move |pixels, at, (x, a): (f32, f32)| set(pixels, at, [x; 3], a));
+            let layer = channels.first_valid_layer().all_attributes().from_buffered(file).map_err(ImageFormatError::broken)?;
+            (layer.layer_data.size, layer.layer_data.channel_data.pixels)
+        }
+        Channels::Colour { red, green, blue, opacity } => {
+            let channels = reader().specific_channels().required(red).required(green);
+            let channels = channels.optional(blue, 0.0).optional(opacity, 1.0).collect_pixels(
+                |size, _| create(size),
+                move |pixels, at, (r, g, b, a): (f32, f32, f32, f32)| set(pixels, at, [r, g, b], a),
+            );
+            let layer = channels.first_valid_layer().all_attributes().from_buffered(file).map_err(ImageFormatError::broken)?;
+            (layer.layer_data.size, layer.layer_data.channel_data.pixels)
+        }
+    };
     Ok(Picture { width: size.width() as u32, height: size.height() as u32, radiance })
 }
 
