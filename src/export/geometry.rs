@@ -32,6 +32,7 @@ pub fn model_of(data: &MeshData) -> Model {
         uvs: (!data.uvs.is_empty()).then(|| data.uvs.clone()),
         colours: (!data.colours.is_empty()).then(|| data.colours.clone()),
         tangents: (!data.tangents.is_empty()).then(|| data.tangents.clone()),
+        ..Model::default()
     }
 }
 

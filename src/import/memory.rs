@@ -28,6 +28,7 @@ mod tests {
             uvs: Some(vec![[0.0; 2]; 4]),
             colours: Some(vec![[0.0; 4]; 4]),
             tangents: Some(vec![[0.0; 4]; 4]),
+            ..Model::default()
         };
         assert_eq!(model.bytes(), 4 * (12 + 12 + 8 + 16 + 16) + 2 * 12);
         let mut assets = Assets::default();

@@ -17,8 +17,10 @@ pub mod pictures;
 mod remark;
 pub mod remarks;
 pub mod spectrum;
+mod spelling;
 pub mod studio;
 mod tube;
+mod unit;
 
 use std::path::Path;
 

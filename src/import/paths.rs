@@ -9,6 +9,7 @@ use std::{
 use super::{
     ImportOptions,
     missing::{Missing, Unresolved},
+    spelling,
 };
 use crate::{progress::Progress, quote};
 
@@ -45,6 +46,11 @@ impl Folder {
         self.resolve_beside(&self.typed, named)
     }
 
+    /// The file whose path differs in upper and lower case only from one that does not exist.
+    pub fn resolve_in_any_case(&self, named: &str) -> Option<PathBuf> {
+        self.resolve(&spelling::on_disk(&self.root, named)?).ok()
+    }
+
     /// The same for a path that a file in `folder` names, such as a material library.
     pub fn resolve_beside(&self, folder: &Path, named: &str) -> Result<PathBuf, Unresolved> {
         let shown = quote::path(Path::new(named));
@@ -65,6 +71,11 @@ impl Folder {
             return Ok(full);
         }
         Err(Unresolved::refused(format!("`{shown}` lies outside the folder of the scene; {ADVICE}")))
+    }
+
+    /// The folder without links.
+    pub fn root(&self) -> &Path {
+        &self.root
     }
 
     /// Notes a file that was found elsewhere.

@@ -37,8 +37,7 @@ impl TubeMesh {
             triangles: Vec::with_capacity(2 * vertices),
             normals: Some(Vec::with_capacity(vertices)),
             uvs: Some(Vec::with_capacity(vertices)),
-            colours: None,
-            tangents: None,
+            ..Model::default()
         };
         TubeMesh { model, sides }
     }

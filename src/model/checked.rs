@@ -1,7 +1,7 @@
 //! Meshes that do not come from a file.
 use rayon::prelude::*;
 
-use super::{Model, normals};
+use super::{Model, Smoothing, normals};
 
 impl Model {
     /// Memory of the lists, bytes.
@@ -11,7 +11,8 @@ impl Model {
         let uvs = self.uvs.as_deref().map_or(0, size_of_val);
         let colours = self.colours.as_deref().map_or(0, size_of_val);
         let tangents = self.tangents.as_deref().map_or(0, size_of_val);
-        (vertices + normals + uvs + colours + tangents) as u64
+        let groups = if let Smoothing::Groups(groups) = &self.smoothing { size_of_val(&groups[..]) } else { 0 };
+        (vertices + normals + uvs + colours + tangents + groups) as u64
     }
 
     /// The mesh as a reader returns it: with unit normals and finite coordinates. An error is the end of a sentence about the mesh.
@@ -31,6 +32,9 @@ impl Model {
         let lengths = [self.normals.as_ref().map(Vec::len), self.uvs.as_ref().map(Vec::len), fours[0], fours[1]];
         if let Some(length) = lengths.into_iter().flatten().find(|length| *length != count) {
             return Err(format!("there are {count} vertices, and {length} values for them"));
+        }
+        if matches!(&self.smoothing, Smoothing::Groups(groups) if groups.len() != self.triangles.len()) {
+            return Err("there is not one smoothing group for each triangle".to_owned());
         }
         let finite = |x: &mut f32| *x = if x.is_finite() { *x } else { 0.0 };
         self.uvs.iter_mut().flatten().flatten().for_each(finite);

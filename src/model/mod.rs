@@ -13,6 +13,7 @@ pub mod number;
 mod obj;
 mod ply;
 mod polygon;
+mod smoothing;
 mod stl;
 #[cfg(test)]
 mod tests;
@@ -27,6 +28,7 @@ use std::{
 
 pub use normals::{smooth_normals, smooth_normals_watched, turn_normals, turn_triangles};
 pub use ply::encode as encode_ply;
+pub use smoothing::Smoothing;
 
 use crate::{
     file::open_regular,
@@ -53,6 +55,8 @@ pub struct Model {
     pub colours: Option<Vec<[f32; 4]>>,
     /// One per vertex: a direction in the surface and a handedness; see [`crate::geometry::MeshData::tangents`].
     pub tangents: Option<Vec<[f32; 4]>>,
+    /// How the surface is smoothed where the file has no normals.
+    pub smoothing: Smoothing,
 }
 
 /// Error of reading a mesh file.
@@ -86,6 +90,9 @@ pub enum ModelFormatError {
     /// There are no triangles.
     #[error("the mesh is empty: it has no faces")]
     Empty,
+    /// There are points, but no triangles.
+    #[error("it is a point cloud: it has {0} points and no faces; make a surface of them with another program, such as MeshLab")]
+    Points(usize),
     /// The size exceeds the memory that is left.
     #[error(transparent)]
     TooMuch(#[from] TooMuch),
@@ -131,12 +138,16 @@ pub struct ObjParts {
     pub libraries: Vec<String>,
     /// One mesh per material that has faces, in the order in which they come first.
     pub list: Vec<Part>,
+    /// Whether faces without normals are flat where the file says nothing about smoothing.
+    pub is_flat: bool,
+    /// Corners whose texture coordinates, and whose normals, do not exist in the file.
+    pub missing: [usize; 2],
 }
 
 /// A file without materials.
 impl From<Model> for ObjParts {
     fn from(model: Model) -> ObjParts {
-        ObjParts { libraries: Vec::new(), list: vec![Part { material: None, model }] }
+        ObjParts { list: vec![Part { material: None, model }], ..ObjParts::default() }
     }
 }
 
@@ -163,11 +174,6 @@ impl Named {
     }
 }
 
-/// Whether the mesh of a file is flat unless a scene says that it is smooth: STL files state a normal per triangle.
-pub fn is_flat(path: &Path) -> bool {
-    Named::of(path) == Some(Named::Stl)
-}
-
 /// Reads a mesh file of any supported format.
 pub fn read(path: &Path) -> Result<Model, ModelError> {
     read_watched(path, &Progress::default())
@@ -181,6 +187,14 @@ pub fn read_watched(path: &Path, progress: &Progress) -> Result<Model, ModelErro
 /// Reads a mesh file as one mesh per material. Only OBJ files have several.
 pub fn read_parts(path: &Path, progress: &Progress) -> Result<ObjParts, ModelError> {
     read_file(path, progress, decode_parts).map_err(|problem| ModelError { path: path.to_owned(), problem })
+}
+
+/// The images that the header of a PLY file names for its texture coordinates.
+pub fn images_of(path: &Path) -> Vec<String> {
+    const LONGEST_HEADER: u64 = 1 << 16;
+    let mut start = Vec::new();
+    let read = open_regular(path).and_then(|file| file.take(LONGEST_HEADER).read_to_end(&mut start));
+    if read.is_ok() { ply::images(&start) } else { Vec::new() }
 }
 
 /// Reads a file: while its bytes come, if its format allows that, or else as a whole by `decode`.
@@ -231,18 +245,23 @@ fn decode_parts(bytes: &[u8], named: Option<Named>, progress: &Progress) -> Resu
     if named != Some(Named::Obj) || ply::is_ply(bytes) {
         return decode(bytes, named, progress).map(ObjParts::from);
     }
-    let ObjParts { libraries, list } = obj::decode_parts(bytes, progress)?;
+    let mut parts = obj::decode_parts(bytes, progress)?;
     let complete = |part: Part| completed(part.model).map(|model| Part { material: part.material, model });
-    let list: Vec<Part> = list.into_iter().map(complete).collect::<Result<_, _>>()?;
-    if list.is_empty() { Err(ModelFormatError::Empty) } else { Ok(ObjParts { libraries, list }) }
+    parts.list = parts.list.into_iter().map(complete).collect::<Result<_, _>>()?;
+    Ok(parts)
 }
 
 fn completed(mut model: Model) -> Result<Model, ModelFormatError> {
     if model.triangles.is_empty() {
-        return Err(ModelFormatError::Empty);
+        return Err(without_faces(model.vertices.len()));
     }
     if let Some(normals) = &mut model.normals {
         normals::complete(normals, &model.vertices, &model.triangles);
     }
     Ok(model)
+}
+
+/// The error of a mesh without triangles that has this many points.
+fn without_faces(points: usize) -> ModelFormatError {
+    if points == 0 { ModelFormatError::Empty } else { ModelFormatError::Points(points) }
 }

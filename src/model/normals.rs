@@ -27,7 +27,16 @@ pub fn smooth_normals_watched(
     progress: &Progress,
 ) -> Result<Vec<[f32; 3]>, Cancelled> {
     progress.expect(Stage::Meshes, triangles.len() as u64);
-    let places = weld::firsts(vertices);
+    smooth_at(&weld::firsts(vertices), vertices, triangles, progress)
+}
+
+/// The same, for vertices that share a normal with the first of those at their place: `places` has its index for each vertex.
+pub(super) fn smooth_at(
+    places: &[u32],
+    vertices: &[[f32; 3]],
+    triangles: &[[u32; 3]],
+    progress: &Progress,
+) -> Result<Vec<[f32; 3]>, Cancelled> {
     progress.check()?;
     let mut sums = vec![(DVec3::ZERO, 0.0); vertices.len()];
     for_each_corner(vertices, triangles, progress, |vertex, normal, angle| {

@@ -49,8 +49,13 @@ pub const WELDING: u64 = 28;
 
 /// Returns for each position the index of the first one that equals it. −0 equals 0.
 pub fn firsts(all: &[[f32; 3]]) -> Vec<u32> {
-    let key = |(index, position): (usize, &[f32; 3])| (position.map(|x| (x + 0.0).to_bits()), index as u32);
-    let mut keys: Vec<([u32; 3], u32)> = all.par_iter().enumerate().map(key).collect();
+    firsts_within(all, |_| ())
+}
+
+/// The same for positions whose groups are equal too.
+pub fn firsts_within<G: Ord + Send>(all: &[[f32; 3]], group: impl Fn(usize) -> G + Sync) -> Vec<u32> {
+    let key = |(index, position): (usize, &[f32; 3])| ((position.map(|x| (x + 0.0).to_bits()), group(index)), index as u32);
+    let mut keys: Vec<(([u32; 3], G), u32)> = all.par_iter().enumerate().map(key).collect();
     keys.par_sort_unstable();
     let mut firsts = vec![0; all.len()];
     for same in keys.chunk_by(|a, b| a.0 == b.0) {

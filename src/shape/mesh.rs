@@ -1,7 +1,6 @@
 //! A triangle mesh: from a file, from lists, or procedural.
 use std::{
     hash::{DefaultHasher, Hash, Hasher},
-    path::Path,
     sync::Arc,
 };
 
@@ -13,7 +12,8 @@ use crate::{
         mesh::generate::{heightfield, torus_knot},
     },
     memory,
-    model::{Model, is_flat, read_watched, smooth_normals, smooth_normals_watched, turn_triangles},
+    model::{Model, Smoothing, read_watched, smooth_normals, smooth_normals_watched, turn_triangles},
+    progress::Progress,
     quote,
 };
 
@@ -33,7 +33,7 @@ const MOST_QUADS: u32 = (MOST_TRIANGLES / 2).isqrt();
 pub struct Mesh {
     /// The triangles.
     pub source: MeshSource,
-    /// Whether normals are interpolated. `None` means yes, except for lists and STL files.
+    /// Whether normals are interpolated. `None` means what the file states, and else yes, except for lists.
     pub smooth: Option<bool>,
 }
 
@@ -173,15 +173,14 @@ impl Mesh {
     /// The mesh in its own space. Objects with the same file or formula share it.
     fn shape(&self, builder: &mut ShapeBuilder) -> Result<Arc<Shape>, Problem> {
         let resources = builder.resources;
-        let is_flat = matches!(&self.source, MeshSource::File(path) if is_flat(Path::new(path)));
-        let smooth = self.smooth.unwrap_or(!is_flat);
+        let smooth = self.smooth.unwrap_or(true);
         let known = |key: String, make: &dyn Fn() -> Result<MeshData, Problem>| {
             resources.once(MESHES, key, || make().map(|data| Shape::mesh(Arc::new(data))))
         };
         match &self.source {
             MeshSource::File(path) => {
                 let file = resources.file(path);
-                known(format!("mesh {} {smooth}", file.key()), &|| from_file(resources, &file, smooth))
+                known(format!("mesh {} {:?}", file.key(), self.smooth), &|| from_file(resources, &file, self.smooth))
             }
             MeshSource::Lists { vertices, triangles } => {
                 let smooth = self.smooth.unwrap_or(false);
@@ -222,7 +221,7 @@ fn reserve(resources: &Resources, key: &str, triangles: u64) -> Result<(), Probl
     resources.reserve(key, format_args!("{triangles} triangles"), MADE_TRIANGLE * triangles)
 }
 
-fn from_file(resources: &Resources, file: &NamedFile, smooth: bool) -> Result<MeshData, Problem> {
+fn from_file(resources: &Resources, file: &NamedFile, smooth: Option<bool>) -> Result<MeshData, Problem> {
     let progress = resources.progress();
     let model = match (file.content::<Model>(), file.take_loaded()) {
         (Some(model), _) => Model::clone(&model).checked().map_err(|problem| format!("{}: {problem}", quote::path(file.path()))),
@@ -230,7 +229,9 @@ fn from_file(resources: &Resources, file: &NamedFile, smooth: bool) -> Result<Me
         (None, None) => read_watched(file.path(), progress).map_err(|error| error.to_string()),
     };
     let model = model.map_err(|message| Problem::at("path", message, "this mesh cannot be used"))?;
-    let Model { vertices, mut triangles, normals, uvs, colours, tangents } = model;
+    let model = if smooth.is_none() { grouped(model, progress)? } else { model };
+    let Model { vertices, mut triangles, normals, uvs, colours, tangents, smoothing } = model;
+    let smooth = smooth.unwrap_or(smoothing != Smoothing::Flat || normals.is_some());
     let fours = u64::from(colours.is_some()) + u64::from(tangents.is_some());
     let bytes = (VERTEX + FOUR * fours) * vertices.len() as u64 + TRIANGLE * triangles.len() as u64;
     resources.reserve("path", format_args!("{} vertices and {} triangles", vertices.len(), triangles.len()), bytes)?;
@@ -250,6 +251,13 @@ fn from_file(resources: &Resources, file: &NamedFile, smooth: bool) -> Result<Me
     colours.as_flattened_mut().iter_mut().for_each(|x| *x = if *x > 0.0 { x.min(1.0) } else { 0.0 });
     let (normals, uvs, tangents) = (normals.unwrap_or_default(), uvs.unwrap_or_default(), tangents.unwrap_or_default());
     Ok(MeshData { vertices, triangles, normals, uvs, colours, tangents })
+}
+
+/// The mesh with edges between its smoothing groups.
+fn grouped(model: Model, progress: &Progress) -> Result<Model, Problem> {
+    let room = memory::reserve(format_args!("smoothing groups of {} triangles", model.triangles.len()), model.grouping());
+    let _room = room.map_err(|error| Problem::at("path", error.to_string(), "too much memory"))?;
+    model.grouped(progress).map_err(Problem::cancelled)
 }
 
 fn from_lists(resources: &Resources, vertices: &[[f64; 3]], triangles: &[[u32; 3]], smooth: bool) -> Result<MeshData, Problem> {
@@ -320,7 +328,7 @@ mod tests {
         );
         std::fs::write(&path, text).expect("it is written");
         let resources = Resources::new("");
-        let data = from_file(&resources, &resources.file(&path.display().to_string()), true).expect("it is a mesh");
+        let data = from_file(&resources, &resources.file(&path.display().to_string()), Some(true)).expect("it is a mesh");
         assert_eq!(data.colours, [[0.5, 1.0, 0.0, 1.0], [0.0, 0.0, 0.0, 1.0], [1.0; 4]]);
     }
 }

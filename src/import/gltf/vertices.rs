@@ -112,11 +112,10 @@ impl<'a> Vertices<'a> {
         let colours = attributes.color.map(|index| self.colours(index, count, picks));
         Ok(Model {
             vertices: positions.reals(picks)?,
-            triangles: Vec::new(),
             normals: normals.transpose()?,
             uvs: uvs.transpose()?,
             colours: colours.transpose()?,
-            tangents: None,
+            ..Model::default()
         })
     }
 

@@ -61,12 +61,16 @@ impl Library {
 }
 
 /// The file at a path as exporters write it: with the separators of any system, perhaps in quotes. Where an absolute path leads nowhere,
-/// the file of the same name beside the scene is meant.
+/// the file of the same name beside the scene is meant; and one whose name differs in case, since other systems do not care.
 pub fn locate(named: &str, folder: &Folder) -> Result<std::path::PathBuf, Unresolved> {
     let named = named.trim().trim_matches('"');
     let slashed = named.replace('\\', "/");
+    let in_any_case = || folder.resolve_in_any_case(&slashed);
     let beside = || slashed.rsplit('/').next().filter(|name| *name != slashed).and_then(|name| folder.resolve(name).ok());
-    folder.resolve(&slashed).or_else(|error| folder.resolve(named).map_err(|_| error)).or_else(|error| beside().ok_or(error))
+    folder
+        .resolve(&slashed)
+        .or_else(|error| folder.resolve(named).map_err(|_| error))
+        .or_else(|error| beside().or_else(in_any_case).ok_or(error))
 }
 
 fn bytes(path: &Path) -> std::io::Result<Vec<u8>> {

@@ -42,8 +42,15 @@ impl Map {
         while let Some(option) = rest.option() {
             map.set(option, &mut rest);
         }
-        map.path = rest.0.trim().to_owned();
+        map.path = rest.0.trim().trim_matches('"').to_owned();
         (!map.path.is_empty()).then_some(map)
+    }
+
+    /// The file name as it stands there, and without what may be a comment, the longest first.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        const MOST: usize = 8;
+        let before = self.path.rmatch_indices('#').map(|(at, _)| self.path[..at].trim().trim_matches('"'));
+        [self.path.as_str()].into_iter().chain(before.filter(|name| !name.is_empty()).take(MOST))
     }
 
     fn set(&mut self, option: &str, rest: &mut Rest) {

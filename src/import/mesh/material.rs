@@ -83,10 +83,26 @@ impl MtlImport<'_> {
         }
     }
 
-    /// The opacity without its map. Exporters that write both state the transparency as `Tr`.
+    /// The opacity without its map. Exporters that write both state the transparency as `Tr`. MeshLab writes an opacity as `Tr`, so 1
+    /// alone makes nothing invisible.
     fn dissolve(&self) -> f64 {
-        let from_transparency = || self.mtl.number("Tr").map(|transparency| 1.0 - transparency);
+        let from_transparency = || self.mtl.number("Tr").filter(|_| !self.is_tr_opacity()).map(|transparency| 1.0 - transparency);
         self.mtl.number("d").or_else(from_transparency).unwrap_or(1.0).clamp(0.0, 1.0)
+    }
+
+    /// Whether `Tr` must be an opacity.
+    fn is_tr_opacity(&self) -> bool {
+        let has_map = ["map_d", "map_tr"].iter().any(|key| self.mtl.map(key).is_some());
+        !has_map && self.mtl.number("d").is_none() && self.mtl.number("Tr").is_some_and(|tr| tr >= 1.0)
+    }
+
+    /// Adds a remark on numbers that are cut at 1.
+    fn remark_above_1(&mut self, keys: &[&str]) {
+        for key in keys {
+            if self.mtl.number(key).is_some_and(|number| number > 1.0) {
+                self.remark(&format!("`{key}` above 1"), "1", "it is a part of the whole");
+            }
+        }
     }
 
     fn index(&self) -> f64 {
@@ -164,6 +180,7 @@ impl MtlImport<'_> {
     }
 
     fn principled(&mut self, is_glass: bool) -> Material {
+        self.remark_above_1(&["Pm", "Pr", "Ps", "Pc", "Pcr", "aniso"]);
         let base_color = self.diffuse();
         let tint = self.mtl.colour("Tf").filter(|tint| *tint != [0.0; 3]).unwrap_or([1.0; 3]).map(|x| x.min(1.0));
         Principled {
@@ -192,11 +209,16 @@ impl MtlImport<'_> {
             Some(_) => number.filter(|number| *number > 0.0).unwrap_or(1.0),
             None => number.unwrap_or(default),
         };
-        self.textures.number(self.to, self.place, factor, map, Channel::Rgb)
+        let number = self.textures.number(self.to, self.place, factor, map, Channel::Rgb);
+        self.textures.part_of_whole(self.to, self.place, number)
     }
 
     /// The opacity; `None` is 1. A map that is the image of the colours means the opacity of that image.
     fn opacity(&mut self) -> Option<Textured<f64>> {
+        self.remark_above_1(&["d"]);
+        if self.is_tr_opacity() && !self.is_glass() {
+            self.remark("`Tr 1` without `d`", "an opaque surface, as MeshLab means it", "an invisible one would not be shown");
+        }
         let map = self.mtl.map("map_d").or_else(|| {
             let inverse = self.mtl.map("map_tr");
             if inverse.is_some() {
@@ -211,6 +233,7 @@ impl MtlImport<'_> {
         let is_of_colour = map.is_some_and(|map| self.mtl.map("map_kd").is_some_and(|colour| colour.path == map.path));
         let channel = if is_of_colour { Channel::Alpha } else { Channel::Rgb };
         let opacity = self.textures.number(self.to, self.place, factor, map, channel);
+        let opacity = self.textures.part_of_whole(self.to, self.place, opacity);
         (opacity != Textured::Constant(1.0)).then_some(opacity)
     }
 
@@ -236,6 +259,10 @@ impl MtlImport<'_> {
         let map = self.mtl.map("map_ke");
         let stated = self.mtl.colour("Ke").filter(|colour| *colour != [0.0; 3]);
         let radiance = stated.or(map.map(|_| [1.0; 3]))?.map(|x| x.min(1e15));
+        if map.is_some_and(|map| self.textures.is_black(map)) {
+            self.remark("a black image of `Ke`", "no emission", "it gives no light");
+            return None;
+        }
         let source: EmissionSource = match self.textures.colour(self.to, self.place, radiance, map) {
             // The map is missing, and the file states no radiance.
             Textured::Constant(_) if stated.is_none() => return None,

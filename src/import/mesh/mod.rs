@@ -22,13 +22,14 @@ use std::path::Path;
 
 use glam::DVec3;
 
-use self::{library::Library, material::Appearance, textures::Textures};
-use super::{Folder, ImportOptions, Imported, Names, studio};
+use self::{library::Library, map::Map, material::Appearance, textures::Textures};
+use super::{Folder, ImportOptions, Imported, Names, Remarks, studio};
 use crate::{
     declare::{Textured, key_of_file},
     material::Lambertian,
-    memory::{Size, TooMuch, reserve},
-    model::{Model, Part, is_flat, read_parts},
+    memory::{Size, reserve},
+    model::{Model, ModelFormatError, Part, Smoothing, images_of, read_parts},
+    progress::Progress,
     quote,
     scene::{
         SceneError,
@@ -40,13 +41,13 @@ use crate::{
 
 /// Reads the file.
 pub fn read(path: &Path, options: &ImportOptions, folder: &Folder) -> Result<Imported, SceneError> {
-    const HELP: &str = "a mesh is an OBJ, PLY or STL file";
     let key = key_of_file(&path.with_file_name(path.file_name().unwrap_or_default()));
-    let parts =
-        read_parts(path, &options.progress).map_err(|error| SceneError::of_file(path, error.problem.to_string(), HELP))?;
+    let parts = read_parts(path, &options.progress)
+        .map_err(|error| SceneError::of_file(path, error.problem.to_string(), help(&error.problem)))?;
     let file = path.file_name().map_or_else(|| "mesh".to_owned(), |name| quote::piece(&name.to_string_lossy()));
     let mut to = Imported::default();
     to.description.title = path.file_stem().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    remark_missing(parts.missing, &file, &mut to.remarks);
     let library = Library::read(&parts.libraries, folder, &file, &mut to.remarks);
     let bounds = parts.list.iter().map(|part| bounds(&part.model)).reduce(|[a, b], [c, d]| [a.min(c), b.max(d)]);
     let bounds = bounds.unwrap_or([DVec3::ZERO; 2]);
@@ -56,6 +57,9 @@ pub fn read(path: &Path, options: &ImportOptions, folder: &Folder) -> Result<Imp
         file: &file,
         size: bounds[0].distance(bounds[1]),
         is_alone: parts.list.len() == 1,
+        is_flat: parts.is_flat,
+        images: images_of(path),
+        progress: options.progress.clone(),
         library,
         textures: Textures::new(folder.clone()),
         names: Names::default(),
@@ -70,6 +74,27 @@ pub fn read(path: &Path, options: &ImportOptions, folder: &Folder) -> Result<Imp
         studio::light(&mut to.description, &mut to.assets, &mut to.remarks, &file);
     }
     Ok(to)
+}
+
+/// What to do about a file that is not read.
+fn help(problem: &ModelFormatError) -> &'static str {
+    match problem {
+        ModelFormatError::Points(_) => "only surfaces are rendered",
+        ModelFormatError::TooMuch(_) => "raise the memory limit",
+        _ => "a mesh is an OBJ, PLY or STL file",
+    }
+}
+
+/// Remarks on texture coordinates and normals that corners name, and the file does not have.
+fn remark_missing([uvs, normals]: [usize; 2], file: &str, remarks: &mut Remarks) {
+    if uvs > 0 {
+        let found = format!("{uvs} corners with texture coordinates that do not exist");
+        remarks.add(file, found, "(0, 0)", "textures have one colour there");
+    }
+    if normals > 0 {
+        let found = format!("{normals} corners with normals that do not exist");
+        remarks.add(file, found, "normals of the surface", "the shading differs there");
+    }
 }
 
 /// The least and the greatest coordinates of the vertices, all of which belong to triangles in OBJ files.
@@ -87,6 +112,12 @@ struct Objects<'a> {
     /// Diagonal of the bounding box, metres.
     size: f64,
     is_alone: bool,
+    /// Whether faces are flat where the file says nothing.
+    is_flat: bool,
+    /// Images of the texture coordinates of a PLY file.
+    images: Vec<String>,
+    /// Stops work on meshes.
+    progress: Progress,
     library: Library,
     textures: Textures,
     names: Names,
@@ -94,7 +125,7 @@ struct Objects<'a> {
 }
 
 impl Objects<'_> {
-    fn add(&mut self, part: Part, to: &mut Imported) -> Result<(), TooMuch> {
+    fn add(&mut self, part: Part, to: &mut Imported) -> Result<(), ModelFormatError> {
         let wanted = part.material.as_deref().unwrap_or_default();
         let name = self.names.unique(wanted, "material");
         let Appearance { material, emission } = match self.library.find(wanted) {
@@ -102,21 +133,27 @@ impl Objects<'_> {
             None => Appearance { material: self.plain(&part, to), emission: None },
         };
         to.description.materials.insert(name.clone(), material);
-        let is_faceted = is_flat(self.path);
-        let (file, smooth) = match self.path.file_name().and_then(|name| name.to_str()).filter(|_| self.is_alone) {
+        let is_flat = match part.model.smoothing {
+            Smoothing::Unstated => self.is_flat && part.model.normals.is_none(),
+            Smoothing::Flat => part.model.normals.is_none(),
+            Smoothing::Smooth | Smoothing::Groups(_) => false,
+        };
+        let file = match self.path.file_name().and_then(|name| name.to_str()).filter(|_| self.is_alone) {
             Some(file) => {
                 let bytes = part.model.bytes();
                 let memory = reserve(format_args!("{} of a mesh", Size(bytes)), bytes)?;
                 to.assets.hand_over(std::mem::take(&mut self.key), part.model, memory);
-                (file.to_owned(), None)
+                file.to_owned()
             }
             None => {
                 let path = format!("meshes/{}.ply", self.meshes.unique(&file_name(wanted), "mesh"));
-                to.assets.insert(path.clone(), part.model);
-                (path, is_faceted.then_some(false))
+                let triangles = part.model.triangles.len();
+                let _room = reserve(format_args!("smoothing groups of {triangles} triangles"), part.model.grouping())?;
+                to.assets.insert(path.clone(), part.model.grouped(&self.progress)?);
+                path
             }
         };
-        let shape = Mesh { source: MeshSource::File(file), smooth }.into();
+        let shape = Mesh { source: MeshSource::File(file), smooth: is_flat.then_some(false) }.into();
         to.description.objects.push(ObjectDescription {
             name: if wanted.is_empty() { to.description.title.clone() } else { name.clone() },
             shape,
@@ -127,9 +164,23 @@ impl Objects<'_> {
         Ok(())
     }
 
-    /// The material of faces without one: grey, or the colours of the vertices.
+    /// The image that a PLY file names, if the mesh has texture coordinates.
+    fn image(&mut self, part: &Part, to: &mut Imported) -> Option<Textured> {
+        let map = Map::read(self.images.first()?).filter(|_| part.model.uvs.is_some())?;
+        if self.images.len() > 1 {
+            let found = format!("{} images", self.images.len());
+            to.remarks.add(self.file, found, "the first one", "faces of the other ones show parts of the first");
+        }
+        let albedo = self.textures.colour(to, self.file, [1.0; 3], Some(&map));
+        matches!(albedo, Textured::Texture(_)).then_some(albedo)
+    }
+
+    /// The material of faces without one: grey, an image, or the colours of the vertices.
     fn plain(&mut self, part: &Part, to: &mut Imported) -> MaterialDescription {
         let grey = Textured::grey(0.5);
+        if let Some(albedo) = self.image(part, to) {
+            return MaterialDescription { kind: Lambertian { albedo }.into(), ..MaterialDescription::default() };
+        }
         if let Some(colours) = &part.model.colours {
             let name = self.textures.add(to, VertexColor::default().into(), "vertex color");
             let is_opaque = colours.iter().all(|[.., opacity]| *opacity >= 1.0);

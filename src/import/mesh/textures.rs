@@ -1,11 +1,14 @@
 //! Images of materials, with their transforms and factors.
-use std::{collections::HashMap, path::Path};
+use std::{
+    collections::HashMap,
+    path::{Path, PathBuf},
+};
 
 use super::{library::locate, map::Map};
 use crate::{
     declare::Textured,
-    image::Encoding,
-    import::{Folder, Imported, Names},
+    image::{EXTENSIONS, Encoding, read_light},
+    import::{Folder, Imported, Names, unit},
     quote,
     texture::{
         TextureKind,
@@ -13,9 +16,6 @@ use crate::{
         product::Product,
     },
 };
-
-/// Ends of the names of images that are read.
-const READABLE: [&str; 9] = ["bmp", "png", "jpg", "jpeg", "tga", "webp", "exr", "hdr", "pic"];
 
 /// The textures of a scene.
 pub struct Textures {
@@ -48,6 +48,19 @@ impl Textures {
         let Some(image) = self.image(to, place, map, encoding) else { return Textured::Constant(factor) };
         let name = self.add(to, Image { channel, ..image }.into(), stem(&map.path));
         self.times(to, [factor * map.range[1]; 3], name).map(|[grey, ..]| grey)
+    }
+
+    /// A part of a whole, cut at 1.
+    pub fn part_of_whole(&mut self, to: &mut Imported, place: &str, value: Textured<f64>) -> Textured<f64> {
+        let Textured::Texture(name) = value else { return value };
+        let most = unit::largest(&to.description, &to.assets, self.folder.root(), &name);
+        if most <= 1.0 {
+            return Textured::Texture(name);
+        }
+        to.remarks.add(place, format!("values of `{}` above 1", quote::piece(&name)), "1", "it is a part of the whole");
+        let (scaled, ramp) = unit::cut(name.clone(), most);
+        let scaled = self.add(to, scaled.into(), &format!("{name} scaled"));
+        Textured::Texture(self.add(to, ramp(scaled).into(), &format!("{name} cut")))
     }
 
     /// The name of a texture, for bump maps.
@@ -85,14 +98,29 @@ impl Textures {
         Textured::Texture(self.add(to, product.into(), &wanted))
     }
 
+    /// Whether the image of a statement is there, and black.
+    pub fn is_black(&self, map: &Map) -> bool {
+        map.range[1] == 0.0
+            || self.found(map).is_ok_and(|path| read_light(&path, Encoding::Srgb).is_ok_and(|image| image.is_black()))
+    }
+
+    /// The file of a statement.
+    fn found(&self, map: &Map) -> Result<PathBuf, String> {
+        let found = |name: &str| {
+            let extension = name.rsplit('.').next().unwrap_or_default().to_ascii_lowercase();
+            match EXTENSIONS.contains(&extension.as_str()) {
+                true => locate(name, &self.folder).map_err(String::from),
+                false => Err(format!("`{}` is not of a supported format", quote::path(Path::new(name)))),
+            }
+        };
+        // The first name is the whole one, whose error counts.
+        let all = map.names().map(found).reduce(|whole, short| if whole.is_ok() || short.is_err() { whole } else { short });
+        all.unwrap_or_else(|| Err("a texture without a name".to_owned()))
+    }
+
     /// The image of a statement. v points upwards in the file and downwards in ours.
     fn image(&self, to: &mut Imported, place: &str, map: &Map, encoding: Encoding) -> Option<Image> {
-        let extension = map.path.rsplit('.').next().unwrap_or_default().to_ascii_lowercase();
-        let located = match READABLE.contains(&extension.as_str()) {
-            true => locate(&map.path, &self.folder).map_err(String::from),
-            false => Err(format!("`{}` is not of a supported format", quote::path(Path::new(&map.path)))),
-        };
-        let path = match located {
+        let path = match self.found(map) {
             Ok(path) => self.folder.described(&path),
             Err(reason) => {
                 to.remarks.add(place, format!("texture: {reason}"), "its factor alone", "the texture is missing");

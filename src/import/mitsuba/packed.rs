@@ -125,7 +125,7 @@ impl Stream<'_> {
         let normals = normals.filter(|_| flags & FACE_NORMALS == 0);
         let normals = normals.and_then(|normals| normals.into_iter().map(unit).collect::<Option<Vec<_>>>());
         let colours = colors.map(|colors| colors.into_iter().map(|[r, g, b]| [r, g, b, 1.0]).collect());
-        Some(Ok(Model { vertices: places, triangles, normals, uvs, colours, tangents: None }))
+        Some(Ok(Model { vertices: places, triangles, normals, uvs, colours, ..Model::default() }))
     }
 
     fn take<const N: usize>(&mut self) -> Option<[u8; N]> {

@@ -13,19 +13,25 @@ pub struct Corner {
     pub normal: u32,
 }
 
-/// Reads `place`, `place/uv`, `place//normal` or `place/uv/normal`.
-pub fn corner(lists: &Lists, before: &Counts, word: &str) -> Result<Corner, String> {
+/// Reads `place`, `place/uv`, `place//normal` or `place/uv/normal`. Texture coordinates and normals that do not exist are missing, and
+/// are counted: programs that write files without them still name them.
+pub fn corner(lists: &Lists, before: &Counts, word: &str, missing: &mut [usize; 2]) -> Result<Corner, String> {
     let mut rest = Some(word);
     let mut index = |what, count, before| match next_part(&mut rest) {
-        None | Some("") => Ok(NONE),
-        Some(part) => position(part, what, count, before),
+        None | Some("") => Ok(Some(NONE)),
+        Some(part) => number(part, what).map(|number| resolved(number, count, before)),
     };
     let place = index("vertex", lists.places.len(), before.places)?;
     let uv = index("texture coordinate", lists.uvs.len(), before.uvs)?;
     let normal = index("normal", lists.normals.len(), before.normals)?;
-    if place == NONE || rest.is_some() {
+    if place == Some(NONE) || rest.is_some() {
         return Err(format!("{} is not a corner: `vertex/texture coordinate/normal`", quote::bytes(word.as_bytes())));
     }
+    let place = place.ok_or_else(|| no_vertex(word, lists.places.len(), before.places))?;
+    let [uv, normal] = [(uv, 0), (normal, 1)].map(|(index, which)| {
+        missing[which] += usize::from(index.is_none());
+        index.unwrap_or(NONE)
+    });
     Ok(Corner { place, uv, normal })
 }
 
@@ -37,15 +43,15 @@ fn next_part<'w>(rest: &mut Option<&'w str>) -> Option<&'w str> {
     Some(&text[..slash.unwrap_or(text.len())])
 }
 
-/// Resolves an index into a list of `count`. The file counts from 1, or with negative numbers back from the `before` elements of
-/// earlier lines.
-fn position(index: &str, what: &str, count: usize, before: usize) -> Result<u32, String> {
-    let number: i64 = index.parse().map_err(|_| format!("{} is not a {what}'s number", quote::bytes(index.as_bytes())))?;
-    if let Some(position) = resolved(number, count, before) {
-        return Ok(position);
-    }
-    let there = if number < 0 { format!("{before} before this line") } else { format!("{count}, counted from 1") };
-    Err(format!("{what} {number} does not exist: there are {there}"))
+fn number(index: &str, what: &str) -> Result<i64, String> {
+    index.parse().map_err(|_| format!("{} is not a {what}'s number", quote::bytes(index.as_bytes())))
+}
+
+/// The error of a corner whose vertex is not in the list of `count`, of which `before` stand in earlier lines.
+fn no_vertex(word: &str, count: usize, before: usize) -> String {
+    let number = next_part(&mut Some(word)).unwrap_or_default();
+    let there = if number.starts_with('-') { format!("{before} before this line") } else { format!("{count}, counted from 1") };
+    format!("vertex {number} does not exist: there are {there}")
 }
 
 /// The corner at the beginning of a line and the bytes after it, if it is written in digits, slashes and minus signs, and exists. This
@@ -113,13 +119,24 @@ mod tests {
         for word in words {
             let line = format!("{word} 1");
             let (found, rest) = plain_corner(&lists, &before, line.as_bytes()).unwrap_or_else(|| panic!("{word} is plain"));
-            assert!(corner(&lists, &before, word) == Ok(found) && rest == b" 1", "{word}");
+            assert!(corner(&lists, &before, word, &mut [0; 2]) == Ok(found) && rest == b" 1", "{word}");
         }
         let unusual =
             ["0", "13", "-6", "/1", "3/4", "3//-1", "3/2/1/", "3/2/1/1", "-", "3/-", "+3", "3a", "3#", "3\\", "0000000001"];
         for word in unusual {
             assert!(plain_corner(&lists, &before, word.as_bytes()).is_none(), "{word}");
         }
-        assert!(corner(&lists, &before, "+3") == Ok(Corner { place: 2, uv: NONE, normal: NONE }));
+        assert!(corner(&lists, &before, "+3", &mut [0; 2]) == Ok(Corner { place: 2, uv: NONE, normal: NONE }));
+    }
+
+    #[test]
+    fn attributes_that_do_not_exist_are_missing_and_counted() {
+        let (lists, before) = (Lists { places: vec![[0.0; 3]; 2], uvs: vec![[0.0; 2]], ..Lists::default() }, Counts::default());
+        let mut missing = [0; 2];
+        let mut read = |word| corner(&lists, &before, word, &mut missing);
+        assert!(read("1/1/1") == Ok(Corner { place: 0, uv: 0, normal: NONE }));
+        assert!(read("2/0/-4") == Ok(Corner { place: 1, uv: NONE, normal: NONE }));
+        assert!(read("3/1").is_err() && read("1/x").is_err());
+        assert_eq!(missing, [1, 2]);
     }
 }

@@ -4,6 +4,7 @@ use rayon::prelude::*;
 use super::{
     super::{ModelFormatError, polygon::Polygon},
     corner::{Corner, corner, plain_corner},
+    groups,
     lists::{Counts, Lists},
     text::{ChunkError, Chunks, Words, rest, words},
 };
@@ -28,6 +29,10 @@ pub struct Faces<'a> {
     /// Faces with more than three corners.
     pub polygons: Vec<Polygon>,
     pub switches: Vec<Switch<'a>>,
+    /// Lines `s`: the number of triangles before each one, and the number of the group, 0 for none.
+    pub groups: Vec<(u32, u32)>,
+    /// Corners whose texture coordinates, and whose normals, do not exist.
+    pub missing: [usize; 2],
     /// What stands after `mtllib`.
     pub libraries: Vec<&'a str>,
 }
@@ -76,6 +81,10 @@ impl<'a> Faces<'a> {
                 Some("vn") => before.normals += 1,
                 Some("f") => faces.add(lists, &before, words, &mut room).map_err(|reason| ChunkError::Line(number, reason))?,
                 Some("usemtl") => faces.switch(rest(line)),
+                Some("s") => {
+                    let set = faces.set_group(groups::number(words.next()), &mut room);
+                    set.map_err(|error| ChunkError::Line(number, error.to_string()))?;
+                }
                 Some("mtllib") => faces.libraries.push(rest(line)),
                 _ => {}
             }
@@ -94,7 +103,19 @@ impl<'a> Faces<'a> {
             polygon: polygon + of.polygon,
             ..*of
         }));
+        self.groups.extend(part.groups.iter().map(|(of, group)| (triangle + of, *group)));
         self.libraries.extend(part.libraries);
+        self.missing = [0, 1].map(|which| self.missing[which] + part.missing[which]);
+    }
+
+    fn set_group(&mut self, group: u32, room: &mut Reservation) -> Result<(), TooMuch> {
+        let triangle = self.triangles.len() as u32;
+        // Groups without faces, and lines that change nothing, take no memory.
+        self.groups.pop_if(|(last, _)| *last == triangle);
+        if self.groups.last().is_some_and(|(_, last)| *last == group) {
+            return Ok(());
+        }
+        room.push(&mut self.groups, (triangle, group), "smoothing groups")
     }
 
     fn switch(&mut self, material: &'a str) {
@@ -109,7 +130,7 @@ impl<'a> Faces<'a> {
         if !self.add_plain(lists, before, words.rest, room).map_err(|error| error.to_string())? {
             self.corners.truncate(first as usize);
             for word in words {
-                let corner = corner(lists, before, word)?;
+                let corner = corner(lists, before, word, &mut self.missing)?;
                 room.push(&mut self.corners, corner, "corners").map_err(|error| error.to_string())?;
             }
         }

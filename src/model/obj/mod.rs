@@ -1,4 +1,4 @@
-//! Wavefront OBJ: reads all polygons, by material if that is asked for, and ignores groups, objects, points and lines.
+//! Wavefront OBJ: reads all polygons, by material if that is asked for, and ignores objects, groups of elements, points and lines.
 //!
 //! Wavefront Technologies, "Appendix B1. Object Files (.obj)", Advanced Visualizer manual, 1995. A corner of a face refers to a
 //! position, a texture coordinate and a normal separately; each distinct combination becomes a vertex. Colours after a position,
@@ -8,6 +8,7 @@
 //! then their faces. The result does not depend on the chunks.
 mod corner;
 mod faces;
+mod groups;
 mod lists;
 mod parts;
 #[cfg(test)]
@@ -24,7 +25,7 @@ use self::{
     lists::{Lists, WHITE},
     text::Chunks,
 };
-use super::{Model, ModelFormatError, ObjParts, Part, polygon, weld::distinct};
+use super::{Model, ModelFormatError, ObjParts, Part, Smoothing, polygon, weld::distinct, without_faces};
 use crate::{
     memory::{Reservation, reserve},
     progress::{Progress, Stage},
@@ -49,7 +50,10 @@ pub(super) fn decode_parts(bytes: &[u8], progress: &Progress) -> Result<ObjParts
             let model = model(lists, part.faces, used.len(), |corner| local[corner.place as usize] as usize)?;
             list.push(Part { material: part.material.map(str::to_owned), model });
         }
-        Ok(ObjParts { libraries, list })
+        if list.is_empty() {
+            return Err(without_faces(lists.places.len()));
+        }
+        Ok(ObjParts { libraries, list, is_flat: true, missing: faces.missing })
     })
 }
 
@@ -78,7 +82,12 @@ fn model(lists: &Lists, faces: Faces, places: usize, place: impl Fn(&Corner) -> 
     /// Bytes per corner in the lists of distinct corners and their attributes.
     const CORNER: u64 = 48;
     const COLOUR: u64 = size_of::<[f32; 4]>() as u64;
-    let Faces { corners, mut triangles, polygons, .. } = faces;
+    let Faces { corners, mut triangles, polygons, groups, .. } = faces;
+    if triangles.is_empty() {
+        return Err(without_faces(lists.places.len()));
+    }
+    let has_normals = corners.par_iter().all(|corner| corner.normal != NONE);
+    let smoothing = if has_normals { Smoothing::Unstated } else { groups::smoothing(&groups, triangles.len())? };
     let bytes = CORNER + if lists.colours.is_empty() { 0 } else { COLOUR };
     let _more = reserve(format_args!("{} corners", corners.len()), bytes * corners.len() as u64)?;
     polygon::cut(&mut triangles, &polygons, |corner| lists.places[corners[corner as usize].place as usize]);
@@ -91,7 +100,7 @@ fn model(lists: &Lists, faces: Faces, places: usize, place: impl Fn(&Corner) -> 
     let vertices = distinct.iter().map(|corner| lists.places[corner.place as usize]).collect();
     let colour = |corner: &Corner| lists.colours.get(corner.place as usize).copied().unwrap_or(WHITE);
     let colours = (!lists.colours.is_empty()).then(|| distinct.iter().map(colour).collect());
-    Ok(Model { vertices, triangles, normals, uvs, colours, tangents: None })
+    Ok(Model { vertices, triangles, normals, uvs, colours, smoothing, ..Model::default() })
 }
 
 /// The result of [`distinct`] for corners that are positions only.

@@ -5,6 +5,7 @@ use super::{
     super::{ModelFormatError, polygon::Polygon},
     corner::Corner,
     faces::{Faces, Switch},
+    groups,
     lists::Lists,
 };
 use crate::memory::reserve;
@@ -59,6 +60,8 @@ pub fn split<'a>(faces: &Faces<'a>, ranges: Ranges<'a>) -> impl Iterator<Item = 
             part.triangles.extend(triangles.iter().map(|corners| corners.map(|id| id - from.corner + corner)));
             let polygons = &faces.polygons[from.polygon as usize..to.polygon as usize];
             part.polygons.extend(polygons.iter().map(|of| Polygon { first: of.first - from.triangle + triangle, ..*of }));
+            part.groups
+                .extend(groups::within(&faces.groups, [from.triangle, to.triangle]).map(|(at, group)| (triangle + at, group)));
         }
         PartFaces { material, faces: part }
     })

@@ -9,8 +9,10 @@ use crate::progress::{Cancelled, Progress};
 /// Bytes of a chunk, about.
 const CHUNK: usize = 1 << 22;
 
-/// Decodes the file. Comments and names may be in any superset of ASCII; bytes that are not UTF-8 are replaced.
+/// Decodes the file. Comments and names may be in any superset of ASCII; bytes that are not UTF-8 are replaced. Zeros at the end, which
+/// some programs write to fill a block, do not count.
 pub fn decode(bytes: &[u8]) -> Result<Cow<'_, str>, ModelFormatError> {
+    let bytes = &bytes[..bytes.iter().rposition(|byte| *byte != 0).map_or(0, |last| last + 1)];
     if let Some(at) = memchr(0, bytes) {
         let lines = bytes[..at].iter().filter(|byte| **byte == b'\n').count();
         return Err(FilePosition::Line(lines + 1).broken("this is not text in an encoding that extends ASCII"));

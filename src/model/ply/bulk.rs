@@ -110,7 +110,7 @@ pub fn vertices<V: Values>(
             && fill(part(&mut colours, from, to), block, size, |row| Some(decoded(colour(row))))
             && fill(part(&mut tangents, from, to), block, size, |row| Some(tangent(row).map(finite)))
     })?;
-    Ok(is_read.then_some(Model { vertices, triangles: Vec::new(), normals, uvs, colours, tangents }))
+    Ok(is_read.then_some(Model { vertices, normals, uvs, colours, tangents, ..Model::default() }))
 }
 
 /// Reads the faces of an element that has only triangles and no other property.

@@ -214,6 +214,19 @@ fn end_of_line(bytes: &[u8]) -> u8 {
 fn unknown(place: FilePosition, line: &[u8]) -> ModelFormatError {
     place.broken(format!("{} is not a line of a PLY 1.0 header", quote::bytes(line)))
 }
+
+/// The images that comments `TextureFile` of a header name, as MeshLab writes them.
+pub fn images(bytes: &[u8]) -> Vec<String> {
+    const MOST: usize = 256;
+    let header = bytes.split(|byte| matches!(byte, b'\r' | b'\n')).take_while(|line| *line != b"end_header");
+    let named = header.filter_map(|line| {
+        let line = String::from_utf8_lossy(line);
+        let name = line.strip_prefix("comment")?.trim_start().strip_prefix("TextureFile")?;
+        Some(name.trim().to_owned()).filter(|name| !name.is_empty())
+    });
+    if is_ply(bytes) { named.take(MOST).collect() } else { Vec::new() }
+}
+
 /// Whether the file begins with the signature of PLY.
 pub fn is_ply(bytes: &[u8]) -> bool {
     let line = bytes.split(|byte| matches!(byte, b'\r' | b'\n')).next();

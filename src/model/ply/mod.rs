@@ -1,21 +1,23 @@
 //! PLY: vertices and polygons as text or binary, in the layout that the header declares.
 //!
 //! G. Turk, "The PLY Polygon File Format", Stanford, 1994. Unknown elements and properties are skipped. Values of a text file may
-//! be spread over lines in any way. Strips of triangles (`tristrips`) are read too. Colours of whole numbers are sRGB, those of fractions are linear; opacity is linear.
+//! be spread over lines in any way. Strips of triangles (`tristrips`) and coordinates of corners (`texcoord`) are read too. Colours of whole numbers are sRGB, those of fractions are linear; opacity is linear.
 mod bulk;
 mod header;
 mod slots;
 mod stream;
 mod strips;
 mod values;
+mod wedges;
 mod write;
 
-pub(super) use self::header::is_ply;
+pub(super) use self::header::{images, is_ply};
 use self::{
     bulk::{BLOCK, Rows},
     header::{Element, Encoding, Header, Kind, Layout},
     slots::{FIRST_COLOUR, FIRST_TANGENT, NUMBERS, OPACITY, linear, reserve_vertices, slots},
     values::{Binary, Text, Values},
+    wedges::Wedges,
 };
 pub use self::{stream::read as read_rows, write::encode};
 use super::{
@@ -42,6 +44,7 @@ pub(super) fn decode(bytes: &[u8], progress: &Progress) -> Result<Model, ModelFo
 fn read(header: &Header, mut values: impl Values, progress: &Progress) -> Result<Model, ModelFormatError> {
     let mut model = Model::default();
     let mut polygons = Vec::new();
+    let mut wedges = None;
     let mut room = Reservation::none();
     let vertices = header.element("vertex").map_or(0, |element| element.count);
     for element in &header.elements {
@@ -50,13 +53,19 @@ fn read(header: &Header, mut values: impl Values, progress: &Progress) -> Result
             // Else any count of elements that are nothing would be counted through.
             _ if element.properties.is_empty() => {}
             "vertex" => read_vertices(element, &mut values, &mut model, &mut room, progress)?,
+            "face" if wedges::are_there(element) => {
+                wedges = Some(Wedges::read(element, vertices, &mut values, &mut room, progress)?);
+            }
             "face" => read_faces(element, vertices, &mut values, (&mut model.triangles, &mut polygons), &mut room, progress)?,
             "tristrips" => strips::read(element, vertices, &mut values, &mut model.triangles, &mut room)?,
             _ => skip(element, &mut values)?,
         }
     }
     polygon::cut(&mut model.triangles, &polygons, |vertex| model.vertices[vertex as usize]);
-    Ok(model)
+    match wedges {
+        Some(wedges) => wedges.joined(model),
+        None => Ok(model),
+    }
 }
 
 /// Rejects counts that do not fit into the rest of the file, before memory or time is spent on them.
@@ -179,29 +188,41 @@ fn read_faces<V: Values>(
 
 /// Reads a polygon as a fan of triangles around its first corner.
 fn read_polygon(
-    (count, kind): (Kind, Kind),
+    kinds: (Kind, Kind),
     vertices: u64,
     values: &mut impl Values,
     mut add: impl FnMut([u32; 3]) -> Result<(), TooMuch>,
+) -> Result<(), ModelFormatError> {
+    let mut before = None;
+    corners(kinds, vertices, values, |next| {
+        let Some((first, last)) = before else {
+            before = Some((next, None));
+            return Ok(());
+        };
+        before = Some((first, Some(next)));
+        last.map_or(Ok(()), |last| add([first, last, next]))
+    })
+}
+
+/// Reads the corners of a polygon.
+fn corners(
+    (count, kind): (Kind, Kind),
+    vertices: u64,
+    values: &mut impl Values,
+    mut add: impl FnMut(u32) -> Result<(), TooMuch>,
 ) -> Result<(), ModelFormatError> {
     let place = values.place();
     let corners = values.integer(count)?;
     if corners < 3 {
         return Err(place.broken(format!("it has {corners} corners, not 3 or more")));
     }
-    let mut corner = || {
+    for _ in 0..corners {
         let place = values.place();
         let vertex = values.integer(kind)?;
         let there = u64::try_from(vertex).ok().filter(|vertex| *vertex < vertices);
         // The file is too short for vertices beyond 32 bits.
         let missing = || place.broken(format!("vertex {vertex} does not exist: there are {vertices}, counted from 0"));
-        there.map(|vertex| vertex as u32).ok_or_else(missing)
-    };
-    let (first, mut last) = (corner()?, corner()?);
-    for _ in 2..corners {
-        let next = corner()?;
-        add([first, last, next])?;
-        last = next;
+        add(there.ok_or_else(missing)? as u32)?;
     }
     Ok(())
 }

@@ -65,8 +65,8 @@ mod tests {
             triangles: vec![[0, 1, 2], [2, 1, 0]],
             normals: Some(vec![[0.0, 0.6, 0.8]; 3]),
             uvs: Some(vec![[0.1, 0.7], [-3.5, 2.0], [0.0, 1.0]]),
-            colours: None,
             tangents: Some(vec![[0.8, -0.36, 0.48, -1.0]; 3]),
+            ..Model::default()
         };
         let read = decode(&encode(&model).expect("there is room"), &Progress::default()).expect("it is a mesh");
         let bits = |model: &Model| model.vertices.iter().flatten().map(|x| x.to_bits()).collect::<Vec<_>>();

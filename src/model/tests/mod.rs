@@ -69,9 +69,14 @@ fn meshes_without_faces_are_refused() {
     let empty = "the mesh is empty: it has no faces";
     assert_eq!(refusal(b""), empty);
     assert_eq!(refusal(b"# nothing\n\n"), empty);
-    assert_eq!(refusal(b"v 0 0 0\nv 1 0 0\nv 0 1 0\n"), empty);
+    let cloud = |points| {
+        format!(
+            "it is a point cloud: it has {points} points and no faces; make a surface of them with another program, such as MeshLab"
+        )
+    };
+    assert_eq!(refusal(b"v 0 0 0\nv 1 0 0\nv 0 1 0\np 1 2\n"), cloud(3));
     assert_eq!(refusal(b"ply\nformat ascii 1.0\nend_header\n"), empty);
-    let cloud =
+    let ply =
         "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n1 2 3\n";
-    assert_eq!(refusal(cloud.as_bytes()), empty);
+    assert_eq!(refusal(ply.as_bytes()), cloud(1));
 }

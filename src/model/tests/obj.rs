@@ -1,5 +1,6 @@
 //! OBJ files.
 use super::{model, refusal};
+use crate::model::Smoothing;
 
 const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
@@ -93,8 +94,34 @@ fn indices_without_a_vertex_are_refused_by_line() {
     refuses("f 1 2 5", "line 7: vertex 5 does not exist: there are 4, counted from 1");
     refuses("f 1 2 9000000000", "line 7: vertex 9000000000 does not exist: there are 4, counted from 1");
     refuses("f 1 2 -5", "line 7: vertex -5 does not exist: there are 4 before this line");
-    refuses("f 1/1 2/2 3/1", "line 7: texture coordinate 2 does not exist: there are 1, counted from 1");
-    refuses("f 1//1 2//-1 3//1", "line 7: normal -1 does not exist: there are 0 before this line");
+    refuses("f 1/1/1 2/1/1 5/1/1", "line 7: vertex 5 does not exist: there are 4, counted from 1");
+}
+
+#[test]
+fn coordinates_and_normals_that_do_not_exist_are_missing() {
+    let plain = model(&square("f 1 2 3\n"));
+    assert_eq!(model(&square("f 1/1/1 2/2/2 3/3/3\n")), plain);
+    assert_eq!(model(&square("vn 0 0 1\nf 1//-2 2//2 3//9\n")), plain);
+    let some = model(&square("vt 0.5 0.5\nf 1/1 2/2 3/0\n"));
+    assert_eq!(some.uvs, Some(vec![[0.5, 0.5], [0.0; 2], [0.0; 2]]));
+}
+
+#[test]
+fn smoothing_is_what_the_lines_say() {
+    let smoothing = |faces: &str| model(&square(faces)).smoothing;
+    assert_eq!(smoothing("f 1 2 3 4\n"), Smoothing::Unstated);
+    for off in ["s off\nf 1 2 3 4\n", "s 0\nf 1 2 3\n", "s\nf 1 2 3\n", "s 1\ns off\nf 1 2 3\n", "f 1 2 3\ns 1\n"] {
+        assert_eq!(smoothing(off), Smoothing::Flat, "{off}");
+    }
+    assert_eq!(smoothing("s 1\nf 1 2 3\ns 1\nf 1 3 4\n"), Smoothing::Smooth);
+    assert_eq!(smoothing("f 1 2 3\ns 2\nf 1 2 3 4\ns off\nf 1 3 4\n"), Smoothing::Groups(vec![0, 2, 2, 0]));
+    // Normals count, whatever the lines say.
+    assert_eq!(smoothing("vn 0 0 1\ns off\nf 1//1 2//1 3//1\n"), Smoothing::Unstated);
+}
+
+#[test]
+fn zeros_at_the_end_do_not_count() {
+    assert_eq!(model(&square("f 1 2 3\n\0\0\0")), model(&square("f 1 2 3\n")));
 }
 
 #[test]

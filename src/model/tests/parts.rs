@@ -16,7 +16,7 @@ fn faces_are_gathered_by_material_with_vertices_of_their_own() {
     let text = format!(
         "mtllib a b.mtl\n{SQUARE}usemtl red wood #2\nf 4 3 2\nusemtl none\nusemtl blue\nf 1 2 3 4\nusemtl red wood #2\nf 1 3 4\n"
     );
-    let ObjParts { libraries, list } = parts(&text);
+    let ObjParts { libraries, list, .. } = parts(&text);
     assert_eq!(libraries, ["a b.mtl"]);
     let names: Vec<_> = list.iter().map(|part| part.material.as_deref()).collect();
     assert_eq!(names, [Some("red wood #2"), Some("blue")]);
@@ -45,7 +45,7 @@ fn concave_polygons_are_cut_in_every_part() {
 fn other_formats_are_one_part() {
     let ply = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n\
         property list uchar int vertex_indices\nend_header\n0 0 0 1 0 0 0 1 0 3 0 1 2";
-    let ObjParts { libraries, list } = parts(ply);
+    let ObjParts { libraries, list, .. } = parts(ply);
     assert!(libraries.is_empty() && list.len() == 1 && list[0].material.is_none());
     assert!(decode_parts(b"v 0 0 0\nusemtl a\n", Some(Named::Obj), &Progress::default()).is_err());
 }

@@ -1,5 +1,5 @@
 //! PLY files.
-use super::{model, refusal};
+use super::{super::ply::images, model, refusal};
 
 const PLACES: &str = "property float x\nproperty float y\nproperty float z\n";
 const CORNERS: &str = "property list uchar int vertex_indices\n";
@@ -305,4 +305,42 @@ fn blocks_of_triangles_are_read_like_polygons() {
         |faces: &[&[u8]]| model(&file("binary_little_endian", &elements, &[places.as_flattened(), &faces.concat()].concat()));
     assert_eq!(with(&[&triangle, &triangle]).triangles, [[0, 1, 2]; 2]);
     assert_eq!(with(&[&triangle, &quad]).triangles, [[0, 1, 2], [0, 1, 2], [0, 2, 2]]);
+}
+
+/// A square of two triangles in the two halves of a texture, and a concave polygon.
+const WEDGES: &str = "ply\nformat ascii 1.0\ncomment TextureFile my wood.png\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n\
+    element face 3\nproperty list uchar int vertex_indices\nproperty list uchar float texcoord\nproperty int texnumber\nend_header\n\
+    0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2 6 0 0 0.5 0 0.5 1 0\n3 0 2 3 6 0.5 0 1 1 0.5 1 0\n3 0 1 2 0 0\n";
+
+#[test]
+fn coordinates_of_corners_repeat_their_vertices() {
+    let found = model(WEDGES.as_bytes());
+    let uvs = found.uvs.as_ref().expect("coordinates");
+    let of = |triangle: usize| found.triangles[triangle].map(|vertex| (found.vertices[vertex as usize], uvs[vertex as usize]));
+    let [a, b, c, d] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+    assert_eq!(of(0), [(a, [0.0, 0.0]), (b, [0.5, 0.0]), (c, [0.5, 1.0])]);
+    assert_eq!(of(1), [(a, [0.5, 0.0]), (c, [1.0, 1.0]), (d, [0.5, 1.0])]);
+    assert_eq!(of(2), [(a, [0.0; 2]), (b, [0.0; 2]), (c, [0.0; 2])]);
+    assert_eq!(images(WEDGES.as_bytes()), ["my wood.png"]);
+}
+
+#[test]
+fn coordinates_of_corners_survive_the_cut_of_concave_polygons() {
+    let text = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\n\
+        property uchar green\nproperty uchar blue\nelement face 1\nproperty list uchar float texcoord\nproperty list uchar int vertex_index\n\
+        end_header\n2 -1 0 255 0 0\n1 0 0 0 255 0\n2 1 0 0 0 255\n0 0 0 0 0 0\n8 2 -1 1 0 2 1 0 0 4 0 1 2 3\n";
+    let found = model(text.as_bytes());
+    let uvs = found.uvs.as_ref().expect("coordinates");
+    assert_eq!(found.triangles.len(), 2);
+    assert!(found.vertices.iter().zip(uvs).all(|([x, y, _], [u, v])| x == u && y == v), "{found:?}");
+    assert!(found.colours.is_some_and(|colours| colours.len() == found.vertices.len()));
+    assert_ne!(found.triangles[0], [0, 1, 2], "the polygon is cut");
+}
+
+#[test]
+fn broken_coordinates_of_corners_are_refused_by_face() {
+    let broken = WEDGES.replace("6 0.5 0 1 1 0.5 1", "6 0.5 0 x 1 0.5 1");
+    assert!(refusal(broken.as_bytes()).contains("face 1: `x` is not a number"), "{}", refusal(broken.as_bytes()));
+    let beyond = WEDGES.replace("3 0 2 3", "3 0 2 4");
+    assert!(refusal(beyond.as_bytes()).contains("face 1: vertex 4 does not exist"));
 }

@@ -40,7 +40,7 @@ fn text_and_binary_are_the_same_and_equal_corners_one_vertex() {
     assert_eq!(text.triangles, [[0, 1, 2], [1, 3, 2]]);
     assert_eq!((&text.normals, &text.uvs, &text.colours), (&None, &None, &None));
     assert_eq!(stl(&binary("made by hand", &SQUARE)), text);
-    assert_eq!(text, obj(b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 4 3\n"));
+    assert_eq!(text, obj(b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\ns off\nf 1 2 3\nf 2 4 3\n"));
 }
 
 #[test]
@@ -49,8 +49,22 @@ fn binary_files_are_told_by_their_size_whatever_their_comment() {
     assert_eq!(stl(&binary("solid facet normal", &SQUARE)), usual);
     let longer = [binary("not text", &SQUARE), b"more".to_vec()].concat();
     assert_eq!(stl(&longer), usual);
-    let crlf = TEXT.replace('\n', "\r\n");
-    assert_eq!(stl(crlf.as_bytes()), usual);
+}
+
+#[test]
+fn text_may_have_any_separators() {
+    let usual = stl(TEXT.as_bytes());
+    for end in ["\r\n", "\r", "\n\n", "\t\n ", " ", "\x0b", "\x0c"] {
+        assert_eq!(stl(TEXT.replace('\n', end).as_bytes()), usual, "{end:?}");
+    }
+    let named = TEXT.replace("two sides", "facet endsolid vertex 1 2 3");
+    assert_eq!(stl(named.as_bytes()), usual);
+    assert_eq!(stl(named.replace('\n', " ").as_bytes()), usual);
+    let [marked, filled] = [format!("\u{feff}{TEXT}"), format!("{TEXT}\0\0\0")];
+    assert_eq!((stl(marked.as_bytes()), stl(filled.as_bytes())), (usual.clone(), usual));
+    let several = TEXT.replace(" endfacet\n facet", " endfacet\nendsolid a\nsolid vertex b\n facet");
+    assert_eq!(stl(several.as_bytes()).triangles.len(), 2);
+    assert_eq!(refusal(b"solid a\rfacet\rvertex 0 0 x\r"), "line 3: `x` is not a finite number");
 }
 
 #[test]

@@ -53,6 +53,47 @@ fn opacity_is_d_or_what_tr_leaves() {
     assert_eq!(material("Kd 1\nd 0.25\n").opacity, Some(Textured::Constant(0.25)));
     assert_eq!(material("Kd 1\nTr 0.25\n").opacity, Some(Textured::Constant(0.75)));
     assert_eq!(material("Kd 1\nd -halo 1\nTr 1\n").opacity, None);
+    assert_eq!(material("Kd 1\nd 0\n").opacity, Some(Textured::Constant(0.0)));
+}
+
+#[test]
+fn a_transparency_of_1_alone_is_the_opacity_of_mesh_lab() {
+    let scene = with("Kd 1\nTr 1.0\n", &[]);
+    assert_eq!(scene.description.materials["a b"].opacity, None);
+    assert!(scene.remarks.lines(9).join("\n").contains("`Tr 1` without `d` → an opaque surface"), "{:?}", scene.remarks.lines(9));
+    assert_eq!(material("Kd 1\nTr 1\nd 0.5\n").opacity, Some(Textured::Constant(0.5)));
+}
+
+#[test]
+fn parts_above_1_are_cut_with_a_remark() {
+    for (text, key) in [("d 2", "d"), ("Pm 7", "Pm"), ("Pr 1.5", "Pr")] {
+        let scene = with(&format!("Kd 1\n{text}\n"), &[]);
+        let lines = scene.remarks.lines(9).join("\n");
+        assert!(lines.contains(&format!("`{key}` above 1 → 1")), "{lines}");
+        assert_eq!(scene.description.materials["a b"].opacity, None);
+    }
+}
+
+#[test]
+fn maps_above_1_are_cut_with_a_remark() {
+    let pfm = [b"Pf\n1 1\n-1\n".to_vec(), 3.0f32.to_le_bytes().to_vec()].concat();
+    let scene = with("Kd 1\nmap_d -mm 0 2 a.pfm\n", &[("a.pfm", &pfm)]);
+    let Some(Textured::Texture(opacity)) = &scene.description.materials["a b"].opacity else { panic!("a texture") };
+    let TextureKind::Ramp(ramp) = &scene.description.textures[opacity] else { panic!("a ramp") };
+    assert!((ramp.stops[1].at - 1.0 / 6.0).abs() < 1e-12 && ramp.stops[1].color == [1.0; 3]);
+    assert!(scene.remarks.lines(9).join("\n").contains("above 1 → 1"), "{:?}", scene.remarks.lines(9));
+}
+
+#[test]
+fn images_are_found_in_every_spelling() {
+    let file = [("Red #1.png", &b"not looked at"[..])];
+    let names = ["Red #1.png", "\"Red #1.png\"", "red #1.PNG", "Red #1.png # a comment", "Red #1.png #a #b", "C:\\x\\Red #1.png"];
+    for name in names {
+        let scene = with(&format!("map_Kd {name}\n"), &file);
+        let image = scene.description.textures.values().next();
+        let found = matches!(image, Some(TextureKind::Image(image)) if image.path == "Red #1.png");
+        assert!(found, "{name}: {:?}", scene.remarks.lines(9));
+    }
 }
 
 #[test]
@@ -73,6 +114,14 @@ fn emission_is_a_radiance() {
     let EmissionSource::Radiance(radiance) = &emission.source else { panic!("a constant") };
     assert_eq!((radiance.radiance, emission.two_sided), ([1.0, 2.0, 3.0], true));
     assert!(with("Ke 0 0 0\n", &[]).description.objects[0].emission.is_none());
+    let pfm = |pixel: f32| [b"Pf\n1 1\n-1\n".to_vec(), pixel.to_le_bytes().to_vec()].concat();
+    let shown = |text: &str, pixel: f32| with(text, &[("a.pfm", &pfm(pixel))]);
+    for text in ["Ke 1 1 1\nmap_Ke a.pfm\n", "map_Ke a.pfm\n"] {
+        let dark = shown(text, 0.0);
+        assert!(dark.description.objects[0].emission.is_none());
+        assert!(dark.remarks.lines(9).join("").contains("a black image of `Ke` → no emission"), "{:?}", dark.remarks.lines(9));
+        assert!(shown(text, 1.0).description.objects[0].emission.is_some());
+    }
 }
 
 #[test]

@@ -68,6 +68,67 @@ fn colours_of_vertices_are_the_albedo_where_there_is_no_material() {
 }
 
 #[test]
+fn an_image_that_a_ply_file_names_is_its_albedo() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("a.ply");
+    let text = "ply\nformat ascii 1.0\ncomment TextureFile my wood.png\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n\
+        element face 1\nproperty list uchar int vertex_indices\nproperty list uchar float texcoord\nend_header\n0 0 0 1 0 0 0 1 0 3 0 1 2 6 0 0 1 0 0 1\n";
+    std::fs::write(&path, text).expect("it is written");
+    std::fs::write(folder.path().join("my wood.png"), "not looked at").expect("it is written");
+    let scene = read(&path, &ImportOptions::default()).expect("it is a scene");
+    assert_eq!(scene.description.textures.keys().collect::<Vec<_>>(), ["my wood"]);
+    std::fs::remove_file(folder.path().join("my wood.png")).expect("it is there");
+    let bare = read(&path, &ImportOptions::default()).expect("it is a scene");
+    assert!(bare.remarks.lines(9).join("").contains("`my wood.png`: there is no such file"), "{:?}", bare.remarks.lines(9));
+}
+
+#[test]
+fn faces_without_normals_are_flat_unless_their_group_is_smooth() {
+    let smooth = |faces: &str| match &scene(&format!("{SQUARE}{faces}"), &[]).description.objects[0].shape {
+        ShapeKind::Mesh(mesh) => mesh.smooth,
+        _ => panic!("a mesh"),
+    };
+    for flat in ["f 1 2 3\n", "s off\nf 1 2 3\n", "s 0\nf 1 2 3\n", "s 1\ns off\nf 1 2 3\n"] {
+        assert_eq!(smooth(flat), Some(false), "{flat}");
+    }
+    for stated in ["s 1\nf 1 2 3\n", "s 1\nf 1 2 3\ns 2\nf 1 3 4\n", "vn 0 0 1\nf 1//1 2//1 3//1\n"] {
+        assert_eq!(smooth(stated), None, "{stated}");
+    }
+    // A part is a mesh in memory, whose groups become normals.
+    let parts = scene(&format!("{SQUARE}s 1\nf 1 2 3\ns 2\nf 1 3 4\nusemtl b\nf 2 3 4\n"), &[]);
+    let grouped = parts.assets.get::<Model>("meshes/mesh.ply").expect("it is there");
+    assert_eq!((grouped.vertices.len(), grouped.normals.as_ref().map(Vec::len)), (6, Some(6)));
+}
+
+#[test]
+fn normals_and_coordinates_that_do_not_exist_are_remarks() {
+    let found = scene("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/1/1 2/2/2 3/3/3\n", &[]).remarks.lines(9).join("\n");
+    assert!(found.contains("3 corners with texture coordinates that do not exist"), "{found}");
+    assert!(found.contains("3 corners with normals that do not exist → normals of the surface"), "{found}");
+}
+
+#[test]
+fn point_clouds_and_pointers_are_called_what_they_are() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let message = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, text).expect("it is written");
+        read(&path, &ImportOptions::default()).err().expect("it is refused")
+    };
+    let cloud = message(
+        "a.ply",
+        "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n1 2 3\n",
+    );
+    assert!(cloud.to_string().contains("it is a point cloud: it has 1 points"), "{cloud}");
+    assert!(!cloud.report().contains("a mesh is an OBJ"), "{}", cloud.report());
+    let pointer = "version https://git-lfs.github.com/spec/v1\noid sha256:2c6b\nsize 4285914\n";
+    for name in ["a.obj", "b.ply", "c.stl", "d.pbrt", "e.xml", "f.gltf", "g.glb"] {
+        let found = message(name, pointer).to_string();
+        assert!(found.contains("Git LFS"), "{name}: {found}");
+    }
+}
+
+#[test]
 fn the_mesh_of_a_file_is_read_once() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("a.obj");

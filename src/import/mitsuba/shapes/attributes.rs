@@ -93,8 +93,7 @@ pub fn unwelded(model: &Model, face_normals: bool) -> Model {
         triangles: (0..model.triangles.len() as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect(),
         normals: normals.map(|normals| corners().map(|corner| normals[corner]).collect()),
         uvs: model.uvs.as_ref().map(|uvs| corners().map(|corner| uvs[corner]).collect()),
-        colours: None,
-        tangents: None,
+        ..Model::default()
     }
 }
 

@@ -11,7 +11,7 @@ use super::{
 use crate::{
     declare::key_of_file,
     memory::{Size, reserve},
-    model::{Model, read_watched},
+    model::{Model, Smoothing, read_watched},
     scene::SceneError,
     shape::{Mesh, ShapeKind, mesh::MeshSource},
 };
@@ -57,7 +57,8 @@ fn file(import: &mut Import, element: Element, placed: Placed, flips_by_default:
         in_memory(file, !face_normals)
     } else {
         let source = MeshSource::File(import.files.folder.described(&path));
-        Mesh { source, smooth: face_normals.then_some(false) }.into()
+        // Mitsuba does not read smoothing groups.
+        Mesh { source, smooth: Some(!face_normals) }.into()
     };
     Ok(Geometry { shape, map: placed.map, flip })
 }
@@ -77,6 +78,7 @@ impl Variant {
         if self.face_normals {
             model.normals = None;
         }
+        model.smoothing = Smoothing::Unstated;
         model
     }
 }
