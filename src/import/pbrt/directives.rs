@@ -87,6 +87,8 @@ impl Interpreter {
             "AttributeEnd" | "TransformEnd" => self.stack.restore(&mut self.state, word, place)?,
             "Attribute" => self.attribute(place)?,
             "WorldBegin" => self.begin_world(place)?,
+            // The end of a scene of pbrt-v3.
+            "WorldEnd" => self.import.remark_old(place, "`WorldEnd`"),
             "ReverseOrientation" => self.state.reverse = !self.state.reverse,
             "ColorSpace" => {
                 let name = self.quoted(place)?;
@@ -153,7 +155,7 @@ impl Interpreter {
             "MakeNamedMedium" => ("MakeNamedMedium", Some(AttributeTarget::Medium)),
             _ => {
                 return Err(
-                    place.error(format!("`{word}` is not a directive of pbrt-v4"), "pbrt-v3 scenes must be converted first")
+                    place.error(format!("`{word}` is not a directive of pbrt-v4 or pbrt-v3"), "such as Shape or Material")
                 );
             }
         };

@@ -55,6 +55,8 @@ pub struct Import {
     pub times: [f64; 2],
     /// Whether something moves.
     pub moves: bool,
+    /// Whether a remark has said that the scene is one of pbrt-v3.
+    is_old: bool,
 }
 
 impl Import {
@@ -84,6 +86,7 @@ impl Import {
             gain: 1.0,
             times: [0.0, 1.0],
             moves: false,
+            is_old: false,
         }
     }
 
@@ -102,6 +105,14 @@ impl Import {
         if entity.has(name) {
             entity.ignore(&[name]);
             self.remarks.add(entity.place.to_string(), format!("`{name}` of {}", entity.shown()), used, effect);
+        }
+    }
+
+    /// Adds a remark about the first thing that only pbrt-v3 has.
+    pub fn remark_old(&mut self, place: &TextSpan, found: &str) {
+        if !std::mem::replace(&mut self.is_old, true) {
+            let effect = "what both versions have is read as in pbrt-v4";
+            self.remarks.add(place.to_string(), format!("{found} of pbrt-v3"), "its meaning there", effect);
         }
     }
 

@@ -1,5 +1,5 @@
 //! Parameters of directives, and lookups by their names.
-use std::{cell::Cell, rc::Rc};
+use std::{cell::Cell, collections::HashSet, rc::Rc};
 
 use glam::DVec3;
 
@@ -68,7 +68,7 @@ pub struct Entity {
 }
 
 impl Entity {
-    /// A directive with the parameters that follow it.
+    /// A directive with the parameters that follow it, each with a name of its own.
     pub fn new(
         directive: &'static str,
         kind: String,
@@ -77,6 +77,11 @@ impl Entity {
         inherited: Rc<[Parameter]>,
     ) -> Entity {
         Entity { directive, kind, place, own, inherited }
+    }
+
+    /// The first of these names that a parameter has, or else the first name: names change from version to version.
+    pub fn named<'n>(&self, names: &[&'n str]) -> &'n str {
+        names.iter().find(|name| self.has(name)).unwrap_or(&names[0])
     }
 
     /// The directive and its kind, as in the file.
@@ -182,6 +187,14 @@ impl Parameter {
             _ if least == 1 => Err(self.error("expected a number")),
             _ => Err(self.error(&format!("expected {least} numbers"))),
         }
+    }
+
+    /// Keeps the last parameter of each name, as pbrt does, and returns the others.
+    pub fn keep_last(parameters: &mut Vec<Parameter>) -> Vec<Parameter> {
+        let mut names = HashSet::new();
+        let is_last: Vec<bool> = parameters.iter().rev().map(|parameter| names.insert(parameter.name.clone())).collect();
+        let mut is_last = is_last.into_iter().rev();
+        parameters.extract_if(.., |_| is_last.next() == Some(false)).collect()
     }
 
     /// An error at the parameter.

@@ -4,7 +4,7 @@ use std::rc::Rc;
 use super::{
     directives::{Interpreter, OpenFile},
     parameter_lists::{number, parameters},
-    parameters::Entity,
+    parameters::{Entity, Parameter},
     source::TextSpan,
     state::AttributeTarget,
     tokens::{Token, Tokens, unquoted},
@@ -39,7 +39,11 @@ impl Interpreter {
     ) -> Result<Entity, SceneError> {
         let kind = self.quoted(place)?;
         let space = self.state.space;
-        let own = parameters(self.tokens(), space)?;
+        let mut own = parameters(self.tokens(), space)?;
+        for parameter in Parameter::keep_last(&mut own) {
+            let found = format!("`{}` twice for {directive} \"{kind}\"", parameter.name);
+            self.import.remarks.add(parameter.place.to_string(), found, "the last one", "pbrt may take another one");
+        }
         let inherited = target.map_or_else(|| Rc::new([]) as Rc<[_]>, |target| self.state.defaults(target));
         Ok(Entity::new(directive, kind, place.clone(), own, inherited))
     }

@@ -10,6 +10,8 @@ use crate::{
 
 /// pbrt's defaults.
 const RESOLUTION: [i64; 2] = [1280, 720];
+/// That of pbrt-v3.
+const OLD_RESOLUTION: [i64; 2] = [640, 480];
 const SAMPLES: u32 = 16;
 const BOUNCES: u32 = 5;
 const SIGMA: f32 = 0.5;
@@ -22,6 +24,9 @@ pub fn settings(import: &mut Import, options: &Options) -> Result<(), SceneError
     import.description.render.settings.max_bounces = Some(BOUNCES);
     if let Some(entity) = &options.film {
         film(import, entity)?;
+        if is_old(entity) {
+            import.description.camera.filter = Filter::Box;
+        }
     }
     if let Some(entity) = &options.filter {
         filter(import, entity)?;
@@ -38,7 +43,18 @@ pub fn settings(import: &mut Import, options: &Options) -> Result<(), SceneError
     Ok(())
 }
 
+/// Whether a film is that of pbrt-v3.
+fn is_old(film: &Entity) -> bool {
+    film.kind == "image"
+}
+
 fn film(import: &mut Import, entity: &Entity) -> Result<(), SceneError> {
+    let [columns, rows] = if is_old(entity) {
+        import.remark_old(&entity.place, &entity.shown());
+        OLD_RESOLUTION
+    } else {
+        RESOLUTION
+    };
     entity.ignore(&["filename", "diagonal", "savefp16", "coordinatesystem", "nbuckets", "lambdamin", "lambdamax"]);
     let side = |name: &str, default: i64| {
         let side = entity.integer(name, default)?;
@@ -48,20 +64,22 @@ fn film(import: &mut Import, entity: &Entity) -> Result<(), SceneError> {
             _ => Err(entity.error(format!("`{name}` is {side}"), format!("expected 1 to {most} pixels"))),
         }
     };
-    import.description.camera.resolution = [side("xresolution", RESOLUTION[0])?, side("yresolution", RESOLUTION[1])?];
+    import.description.camera.resolution = [side("xresolution", columns)?, side("yresolution", rows)?];
     for crop in ["cropwindow", "pixelbounds"] {
         import.remark_parameter(entity, crop, "the whole image", "the image is larger");
     }
-    import.remark_parameter(entity, "maxcomponentvalue", "no limit", "very bright samples are not darkened");
+    for limit in ["maxcomponentvalue", "maxsampleluminance"] {
+        import.remark_parameter(entity, limit, "no limit", "very bright samples are not darkened");
+    }
     import.remark_parameter(entity, "whitebalance", "no white balance", "colours differ as a whole");
     let sensor = entity.text("sensor").unwrap_or("cie1931").to_owned();
     if sensor != "cie1931" {
         import.remark(entity, &format!("the CIE observer for the sensor `{sensor}`"), "colours differ slightly");
     }
     // The sensor multiplies radiance by exposure time times ISO over 100.
-    import.gain = entity.float("exposuretime", 1.0)? * entity.float("iso", 100.0)? / 100.0;
+    import.gain = entity.float("exposuretime", 1.0)? * entity.float("iso", 100.0)? / 100.0 * entity.float("scale", 1.0)?;
     if import.gain <= 0.0 {
-        return Err(entity.error("the exposure of the film is not positive", "`iso` and `exposuretime` must be"));
+        return Err(entity.error("the exposure of the film is not positive", "`iso`, `exposuretime` and `scale` must be"));
     }
     Ok(())
 }
@@ -74,7 +92,9 @@ fn filter(import: &mut Import, entity: &Entity) -> Result<(), SceneError> {
         "sinc" => 4.0,
         _ => 2.0,
     };
-    let [x, y] = [entity.float("xradius", default)?, entity.float("yradius", default)?];
+    // pbrt-v3 calls the radius a width.
+    let [x, y] = [["xradius", "xwidth"], ["yradius", "ywidth"]].map(|names| entity.float(entity.named(&names), default));
+    let [x, y] = [x?, y?];
     if x != y {
         import.remark(entity, "the same radius in x and y", "the image is blurred differently along y");
     }
@@ -88,7 +108,9 @@ fn filter(import: &mut Import, entity: &Entity) -> Result<(), SceneError> {
         }
         "triangle" => Filter::Tent(Tent { radius: radius as f32 }),
         "gaussian" => {
-            let sigma = entity.float("sigma", f64::from(SIGMA))?;
+            // pbrt-v3 states exp(−αx²).
+            let of_alpha = entity.optional_float("alpha")?.map(|alpha| (0.5 / alpha.max(1e-9)).sqrt());
+            let sigma = entity.float("sigma", of_alpha.unwrap_or(f64::from(SIGMA)))?;
             if (radius - 3.0 * sigma).abs() > 0.5 * sigma {
                 import.remark(entity, "a Gaussian that ends at 3σ", near);
             }
@@ -141,6 +163,13 @@ fn integrator(import: &mut Import, entity: &Entity) -> Result<(), SceneError> {
         "samplelights",
         "samplebsdf",
         "samplephasefunction",
+        "rrthreshold",
+        "lightsamplestrategy",
+        "strategy",
+        "numiterations",
+        "iterations",
+        "imagewritefrequency",
+        "nsamples",
     ]);
     if entity.flag("regularize", false)? {
         import.remark(entity, "no regularization", "caustics are brighter, and noisier");
@@ -148,7 +177,15 @@ fn integrator(import: &mut Import, entity: &Entity) -> Result<(), SceneError> {
     match entity.kind.as_str() {
         "bdpt" => import.description.render.settings.estimator = Estimator::Bidirectional,
         "path" | "volpath" | "mlt" | "simplepath" | "simplevolpath" | "lightpath" | "randomwalk" => {}
-        "sppm" => import.remark(entity, "path tracing", "photons are not blurred; caustics are noisier"),
+        "sppm" => {
+            import.description.render.settings.estimator = Estimator::Bidirectional;
+            import.description.render.settings.merging = true;
+        }
+        "directlighting" | "whitted" => {
+            import.remark_old(&entity.place, &entity.shown());
+            let effect = "light that diffuse surfaces reflect onto others is there, too: the image is brighter";
+            import.remark(entity, "path tracing", effect);
+        }
         "ambientocclusion" | "function" => {
             entity.ignore(&["cossample", "maxdistance", "function", "filename", "skipbad", "imagefilename"]);
             import.remark(entity, "path tracing", "the image shows radiance instead");

@@ -89,6 +89,8 @@ fn foreign() -> Vec<Base> {
         packed::draco("draco-sequential", 0),
         packed::draco("draco-edgebreaker", 1),
         packed::serialized(),
+        base("pbrt-old", vec![text("scene.pbrt", OLD_PBRT), png_file()]),
+        base("ply-wedges", vec![text("scene.ply", WEDGES), png_file()]),
         base("obj", vec![text("scene.obj", OBJ), text("a.mtl", MTL), png_file()]),
         base("ply", vec![text("scene.ply", PLY)]),
         base("ply-little", bytes("scene.ply", binary_ply(false))),
@@ -110,7 +112,10 @@ fn pictures() -> Vec<Base> {
         base("tga", ("a.tga", Structure::Bytes, encoded(ImageFormat::Tga))),
         base("webp", ("a.webp", Structure::Bytes, encoded(ImageFormat::WebP))),
         base("hdr", ("a.hdr", Structure::Bytes, hdr())),
+        base("hdr-columns", ("a.hdr", Structure::Bytes, hdr_in_columns())),
         base("exr", ("a.exr", Structure::Bytes, exr())),
+        base("exr-grey", ("a.exr", Structure::Bytes, grey_exr())),
+        base("pfm", ("a.pfm", Structure::Bytes, pfm())),
     ]
 }
 
@@ -159,6 +164,24 @@ fn encoded(format: ImageFormat) -> Vec<u8> {
 fn hdr() -> Vec<u8> {
     let row = [&[2, 2, 0, 8][..], &[136, 128], &[4, 0, 64, 128, 192, 132, 32], &[136, 0], &[136, 129]].concat();
     [b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\nEXPOSURE=2\n\n-Y 2 +X 8\n".to_vec(), row.repeat(2)].concat()
+}
+
+fn hdr_in_columns() -> Vec<u8> {
+    [b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-X 2 +Y 3\n".to_vec(), [128, 64, 0, 129].repeat(6)].concat()
+}
+
+fn pfm() -> Vec<u8> {
+    let numbers = [0.0f32, 0.5, 1.0, 2.0, 3.0, 4.0];
+    [b"PF\n2 1\n-1.0\n".to_vec(), numbers.map(f32::to_le_bytes).concat()].concat()
+}
+
+/// Luminance and opacity in a layer.
+fn grey_exr() -> Vec<u8> {
+    let channels = SpecificChannels::build().with_channel::<f32>("a.Y").with_channel::<f32>("a.A");
+    let channels = channels.with_pixel_fn(|at: Vec2<usize>| (at.x() as f32, at.y() as f32));
+    let mut bytes = Vec::new();
+    Image::from_channels((4, 4), channels).write().to_buffered(Cursor::new(&mut bytes)).expect("it is encoded");
+    bytes
 }
 
 fn exr() -> Vec<u8> {
@@ -234,8 +257,13 @@ const GLTF: &str = include_str!("scene.gltf");
 const CAMERAS: &str = include_str!("cameras.toml");
 const STUDY: &str = include_str!("study.csv");
 const TOML: &str = include_str!("scene.toml");
+const OLD_PBRT: &str = include_str!("old.pbrt");
+const WEDGES: &str = "ply\nformat ascii 1.0\ncomment TextureFile a.png\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n\
+    property float nx\nproperty float ny\nproperty float nz\nelement face 2\nproperty list uchar int vertex_indices\n\
+    property list uchar float texcoord\nend_header\n2 -1 0 0 0 1\n1 0 0 0 0 1\n2 1 0 0 0 1\n0 0 0 0 0 1\n\
+    4 0 1 2 3 8 0 0 1 0 1 1 0 1\n3 0 1 2 6 0 0 0.5 0 0.5 1\n";
 const OBJ: &str = "mtllib a.mtl\nusemtl red\nv 0 0 0\nv 1 0 0 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 1\nvn 0 0 1\n\
-    f 1/1/1 2/2/1 3/1/1 \\\n 4/2/1\nusemtl glass\nf -1//-1 -2//-1 -3//-1\nf 1 2 3\n";
+    f 1/1/1 2/2/1 3/1/1 \\\n 4/2/1\nusemtl glass\nf -1//-1 -2//-1 -3//-1\nf 1 2 3\nusemtl none\ns 1\nf 1 2 3\ns off\nf 1/9 3 4\n";
 const MTL: &str = "newmtl red\nKd 0.8 0.1 0.1\nKs 0.5 0.5 0.5\nNs 30\nillum 2\nmap_Kd -s 2 2 1 -clamp on a.png\nbump -bm 0.3 a.png\n\
     newmtl glass\nillum 7\nNi 1.5\nd 0.5\nPr 0.2\nKe 1 1 1\n";
 const PLY: &str = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty double y\nproperty short z\nproperty float nx\n\

@@ -5,7 +5,7 @@ use glam::{DAffine3, DVec3, Vec3};
 
 use super::{power, times};
 use crate::{
-    image::Encoding,
+    image::{Encoding, PictureError, read_light},
     import::pbrt::{
         import::Import,
         parameters::Entity,
@@ -22,7 +22,10 @@ const EQUAL: f64 = 1e-3;
 impl Import {
     /// The emission of a shape.
     pub fn emission(&mut self, light: &Entity, built: &Built, map: &DAffine3) -> Result<Option<EmissionDescription>, SceneError> {
-        if light.kind != "diffuse" {
+        // The name in pbrt-v3.
+        if light.kind == "area" {
+            self.remark_old(&light.place, &light.shown());
+        } else if light.kind != "diffuse" {
             return Err(light.error(format!("`{}` is not an area light of pbrt-v4", light.kind), "it must be diffuse"));
         }
         let colour = self.light_colour(light, "L")?;
@@ -33,11 +36,15 @@ impl Import {
             None => 1.0,
         };
         let image = self.file(light, "filename")?;
+        light.ignore(&["samples", "nsamples"]);
         self.remark_unused(light);
         let Some(path) = image else {
             let radiance = times(colour, factor);
-            let is_dark = radiance == [0.0; 3];
-            return Ok((!is_dark).then(|| EmissionDescription { source: Radiance { radiance }.into(), two_sided, scale: 1.0 }));
+            if radiance == [0.0; 3] {
+                self.remark_black(light);
+                return Ok(None);
+            }
+            return Ok(Some(EmissionDescription { source: Radiance { radiance }.into(), two_sided, scale: 1.0 }));
         };
         self.remark_parameter(light, "power", "the radiance of the image", "the light has another power");
         let texture = Image {
@@ -49,7 +56,12 @@ impl Import {
             ..Image::default()
         };
         let name = self.add_texture("area light", texture);
-        let scale = (light.float("scale", 1.0)? * self.gain).clamp(0.0, 1e12);
+        let scale = self.image_scale(light, "L")?;
+        let wrong = |error: PictureError| light.error(error.to_string(), "this image cannot be used");
+        if scale == 0.0 || read_light(&path, Encoding::Srgb).map_err(wrong)?.is_black() {
+            self.remark_black(light);
+            return Ok(None);
+        }
         Ok(Some(EmissionDescription { source: Texture { name }.into(), two_sided, scale }))
     }
 

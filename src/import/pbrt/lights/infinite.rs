@@ -3,7 +3,7 @@ use std::{f64::consts::PI, path::Path};
 
 use glam::{DAffine3, DMat3, DVec3};
 
-use super::{octahedron, times};
+use super::{image_name, octahedron, times};
 use crate::{
     image::{Encoding, Texels, read_light},
     import::{
@@ -25,12 +25,16 @@ impl Import {
     pub(super) fn infinite(&mut self, entity: &Entity, map: &DAffine3) -> Result<(), SceneError> {
         self.remark_parameter(entity, "portal", "no portal", "the image is the same if the portals are the only openings");
         let illuminance = entity.float("illuminance", -1.0)?;
-        match self.file(entity, "filename")? {
+        match self.file(entity, image_name(entity))? {
             Some(path) => self.image_of_all_directions(entity, map, &path, illuminance),
             None => {
                 let factor = if illuminance > 0.0 { illuminance / PI } else { 1.0 };
                 let radiance = times(self.light_colour(entity, "L")?, factor);
-                self.add_constant(entity, radiance);
+                if radiance == [0.0; 3] {
+                    self.remark_black(entity);
+                } else {
+                    self.add_constant(entity, radiance);
+                }
                 Ok(())
             }
         }
@@ -59,11 +63,9 @@ impl Import {
         let picture = read_light(path, Encoding::Srgb).map_err(|error| wrong(error.to_string()))?;
         let pixels = u64::from(picture.width) * u64::from(picture.height);
         let _room = reserve("pixels of a sky", 16 * pixels).map_err(|error| wrong(error.to_string()))?;
-        if picture.radiance.iter().all(|pixel| pixel[..3] == [0.0; 3]) {
-            return Ok(());
-        }
-        let mut scale = entity.float("scale", 1.0)? * self.gain;
-        if scale <= 0.0 {
+        let mut scale = self.image_scale(entity, "L")?;
+        if scale == 0.0 || picture.is_black() {
+            self.remark_black(entity);
             return Ok(());
         }
         let is_square = picture.width == picture.height;

@@ -3,7 +3,7 @@ use std::f64::consts::{PI, TAU};
 
 use glam::{DAffine3, DVec3};
 
-use super::{power, times};
+use super::{image_name, power, times};
 use crate::{
     image::{Encoding, read_light},
     import::pbrt::{import::Import, parameters::Entity},
@@ -21,6 +21,10 @@ use crate::{
 impl Import {
     pub(super) fn point_lamp(&mut self, entity: &Entity, map: &DAffine3) -> Result<(), SceneError> {
         let intensity = times(self.light_colour(entity, "I")?, power(entity, 2.0 * TAU)?);
+        if intensity == [0.0; 3] {
+            self.remark_black(entity);
+            return Ok(());
+        }
         let position = map.transform_point3(entity.triple("from", DVec3::ZERO)?);
         self.add_lamp(entity, Point { position, intensity }, Vec::new());
         Ok(())
@@ -33,6 +37,10 @@ impl Import {
         let [end, start] = [angle, inner].map(|angle| angle.to_radians().cos());
         let emitted = TAU * ((1.0 - start) + (start - end) / 2.0);
         let intensity = times(self.light_colour(entity, "I")?, power(entity, emitted)?);
+        if intensity == [0.0; 3] {
+            self.remark_black(entity);
+            return Ok(());
+        }
         let angle = angle.clamp(0.01, 180.0);
         let spot =
             Spot { position: from, target: to, intensity, angle, inner: inner.clamp(0.0, angle), falloff: Falloff::Smooth };
@@ -45,18 +53,26 @@ impl Import {
         let illuminance = entity.float("illuminance", -1.0)?;
         let factor = if illuminance > 0.0 { illuminance } else { 1.0 };
         let irradiance = times(self.light_colour(entity, "L")?, factor);
+        if irradiance == [0.0; 3] {
+            self.remark_black(entity);
+            return Ok(());
+        }
         self.add_lamp(entity, Directional { direction: to - from, irradiance }, Vec::new());
         Ok(())
     }
 
     pub(super) fn goniometric_lamp(&mut self, entity: &Entity, map: &DAffine3) -> Result<(), SceneError> {
-        let path = self.required_file(entity, "filename")?;
+        let path = self.required_file(entity, image_name(entity))?;
         let image =
             read_light(&path, Encoding::Srgb).map_err(|error| entity.error(error.to_string(), "this image cannot be used"))?;
         // Equal areas of the image are equal solid angles.
         let grey = |pixel: &[f32; 4]| f64::from(pixel[0] + pixel[1] + pixel[2]) / 3.0;
         let mean = image.radiance.iter().map(grey).sum::<f64>() / image.radiance.len() as f64;
         let intensity = times(self.light_colour(entity, "I")?, mean * power(entity, 4.0 * PI * mean)?);
+        if intensity == [0.0; 3] {
+            self.remark_black(entity);
+            return Ok(());
+        }
         self.remark(entity, "a point light of the same power", "it shines equally in all directions");
         self.add_lamp(entity, Point { position: map.translation, intensity }, Vec::new());
         Ok(())
@@ -64,7 +80,7 @@ impl Import {
 
     /// An image that is cast along +z. Its angle is that across its shorter side.
     pub(super) fn projection_lamp(&mut self, entity: &Entity, map: &DAffine3) -> Result<(), SceneError> {
-        let path = self.required_file(entity, "filename")?;
+        let path = self.required_file(entity, image_name(entity))?;
         let image =
             read_light(&path, Encoding::Srgb).map_err(|error| entity.error(error.to_string(), "this image cannot be used"))?;
         let aspect = f64::from(image.width) / f64::from(image.height);
@@ -76,7 +92,11 @@ impl Import {
             "a radiant intensity of 1 where the image is white",
             "the light has another power",
         );
-        let scale = (entity.float("scale", 1.0)? * self.gain).clamp(0.0, 1e12);
+        let scale = self.image_scale(entity, "I")?;
+        if scale == 0.0 || image.is_black() {
+            self.remark_black(entity);
+            return Ok(());
+        }
         let projector = Projector {
             position: DVec3::ZERO,
             target: DVec3::Z,

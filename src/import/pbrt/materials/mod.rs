@@ -6,8 +6,10 @@
 //! | `conductor` | `metals.rs` |
 //! | `coateddiffuse`, `coatedconductor` | `coated.rs` |
 //! | `subsurface`, `hair`, `measured` | `substitutes.rs` |
+//! | those of pbrt-v3 | `old.rs` |
 mod coated;
 mod metals;
+mod old;
 mod plain;
 mod roughness;
 mod substitutes;
@@ -75,7 +77,7 @@ impl Import {
         let name = self.material_names.unique(&wanted, "material");
         let description = match description.kind {
             Material::Null(_) => description,
-            _ => MaterialDescription { opacity: opacity.cloned(), ..description },
+            _ => MaterialDescription { opacity: opacity.cloned().or(description.opacity), ..description },
         };
         self.description.materials.insert(name.clone(), description);
         self.known_materials.insert(key, name.clone());
@@ -84,6 +86,7 @@ impl Import {
 
     fn translated(&mut self, entity: &Entity, kind: &str) -> Result<MaterialDescription, SceneError> {
         entity.ignore(&["type"]);
+        let kind_name = kind;
         let kind = match kind {
             "diffuse" => self.diffuse(entity),
             "conductor" => self.conductor(entity),
@@ -97,23 +100,28 @@ impl Import {
             "subsurface" => self.subsurface(entity),
             "hair" => self.hair(entity),
             "measured" => self.measured(entity),
-            other => {
-                let label = "a scene of pbrt-v3 must be converted to pbrt-v4 first";
-                return Err(entity.error(format!("`{other}` is not a material of pbrt-v4"), label));
-            }
+            other => match self.old_material(entity, other) {
+                Some(kind) => kind,
+                None => {
+                    let label = "such as diffuse, conductor or dielectric";
+                    return Err(entity.error(format!("`{other}` is not a material of pbrt-v4 or pbrt-v3"), label));
+                }
+            },
         }?;
+        let opacity = self.old_opacity(entity, kind_name)?;
         let bump = self.bump(entity)?;
         let normal_map = self.file(entity, "normalmap")?.map(|path| self.files.folder.described(&path));
         self.remark_unused(entity);
-        Ok(MaterialDescription { kind, bump, normal_map, ..MaterialDescription::default() })
+        Ok(MaterialDescription { kind, bump, normal_map, opacity, ..MaterialDescription::default() })
     }
 
-    /// `displacement`, which tilts normals in pbrt too.
+    /// `displacement`, which tilts normals in pbrt too; `bumpmap` in pbrt-v3.
     fn bump(&mut self, entity: &Entity) -> Result<Option<Bump>, SceneError> {
-        if !entity.has("displacement") {
+        let name = entity.named(&["displacement", "bumpmap"]);
+        if !entity.has(name) {
             return Ok(None);
         }
-        Ok(match self.number_or_texture(entity, "displacement", 0.0)? {
+        Ok(match self.number_or_texture(entity, name, 0.0)? {
             Textured::Constant(_) => None,
             Textured::Texture(texture) => Some(Bump { texture, height: 1.0 }),
         })

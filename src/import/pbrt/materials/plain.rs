@@ -82,6 +82,9 @@ impl Import {
 
     /// A choice between two named materials.
     pub(super) fn mix(&mut self, entity: &Entity) -> Result<Material, SceneError> {
+        if entity.has("namedmaterial1") {
+            return self.old_mix(entity);
+        }
         let names = entity.find(&[Type::String], "materials").map(|parameter| &parameter.values);
         let Some(Values::Texts(names)) = names.filter(|names| matches!(names, Values::Texts(names) if names.len() == 2)) else {
             return Err(entity.error("a mix has two materials", "`string materials` holds their names"));
@@ -94,7 +97,8 @@ impl Import {
             import.material(&material, None, &entity.place)
         };
         let [first, second] = [part(self, &names[0])?, part(self, &names[1])?];
-        let weight = self.number_or_texture(entity, "amount", 0.5)?.map(|weight| weight.clamp(0.0, 1.0));
+        let weight = self.number_or_texture(entity, "amount", 0.5)?;
+        let weight = self.part_of_whole(entity, weight);
         Ok(Blend { first, second, weight, ..Blend::default() }.into())
     }
 

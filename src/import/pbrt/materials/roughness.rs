@@ -1,6 +1,6 @@
 //! Roughness: widths of the GGX distribution along u and v.
 //!
-//! Unless `remaproughness` is false, pbrt takes α = √roughness.
+//! Unless `remaproughness` is false, pbrt-v4 takes α = √roughness, and pbrt-v3 a polynomial of its logarithm.
 use crate::{
     declare::Textured,
     import::pbrt::{import::Import, parameters::Entity},
@@ -28,10 +28,39 @@ impl Facets {
     }
 }
 
+/// What α is for a roughness.
+#[derive(Clone, Copy)]
+pub enum Remap {
+    /// The roughness itself.
+    None,
+    /// Its root.
+    Root,
+    /// The fit of pbrt-v3.
+    Old,
+}
+
+impl Remap {
+    fn alpha(self, roughness: f64) -> f64 {
+        match self {
+            Remap::None => roughness,
+            Remap::Root => roughness.max(0.0).sqrt(),
+            Remap::Old => {
+                let x = roughness.max(1e-3).ln();
+                1.62142 + x * (0.819955 + x * (0.1734 + x * (0.0171201 + x * 0.000640711)))
+            }
+        }
+    }
+}
+
 impl Import {
     /// The facets of an interface; `prefix` stands before the names of its parameters.
     pub(super) fn facets(&mut self, entity: &Entity, prefix: &str, default: f64) -> Result<Facets, SceneError> {
-        let remap = entity.flag("remaproughness", true)?;
+        self.facets_by(entity, prefix, default, Remap::Root)
+    }
+
+    /// The same with another meaning of roughness.
+    pub(super) fn facets_by(&mut self, entity: &Entity, prefix: &str, default: f64, remap: Remap) -> Result<Facets, SceneError> {
+        let remap = if entity.flag("remaproughness", true)? { remap } else { Remap::None };
         let both = format!("{prefix}roughness");
         let [u, v] = ["u", "v"].map(|axis| format!("{prefix}{axis}roughness"));
         let [u, v] = [if entity.has(&u) { &u } else { &both }, if entity.has(&v) { &v } else { &both }];
@@ -39,7 +68,7 @@ impl Import {
         match widths {
             (Textured::Constant(u), Textured::Constant(v)) => {
                 let alpha = |roughness: f64| {
-                    let width = if remap { roughness.max(0.0).sqrt() } else { roughness };
+                    let width = remap.alpha(roughness);
                     // pbrt takes narrower distributions as smooth.
                     if width < 1e-3 { 0.0 } else { width.min(1.0) }
                 };
@@ -58,25 +87,29 @@ impl Import {
         }
     }
 
-    fn textured_facets(&mut self, texture: String, remap: bool) -> Result<Facets, SceneError> {
-        let alpha = if remap { self.root_of(&texture) } else { texture };
+    fn textured_facets(&mut self, texture: String, remap: Remap) -> Result<Facets, SceneError> {
+        let alpha = match remap {
+            Remap::None => texture,
+            remap => self.remapped(&texture, remap),
+        };
         Ok(Facets { roughness: Roughness::Alpha(Textured::Texture(alpha)), anisotropy: 0.0, tangent_rotation: 0.0 })
     }
 
-    /// A texture whose values are the square roots of those of another.
-    fn root_of(&mut self, texture: &str) -> String {
+    /// A texture whose values are α for those of another.
+    fn remapped(&mut self, texture: &str, remap: Remap) -> String {
         /// The error of the root is at most 1/256 near 0.
         const STOPS: u32 = 64;
         let stop = |i: u32| {
             let root = f64::from(i) / f64::from(STOPS);
-            Stop { at: root * root, color: [root; 3] }
+            Stop { at: root * root, color: [remap.alpha(root * root).clamp(0.0, 1.0); 3] }
         };
         let ramp = Ramp { input: Textured::Texture(texture.to_owned()), stops: (0..=STOPS).map(stop).collect() };
-        let key = format!("root of {texture}");
+        let kind = if matches!(remap, Remap::Root) { "root" } else { "alpha" };
+        let key = format!("{kind} of {texture}");
         if let Some(Textured::Texture(known)) = self.known_textures.get(&key) {
             return known.clone();
         }
-        let name = self.add_texture(&format!("{texture} root"), ramp);
+        let name = self.add_texture(&format!("{texture} {kind}"), ramp);
         self.known_textures.insert(key, Textured::Texture(name.clone()));
         name
     }
@@ -96,6 +129,13 @@ impl Facets {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn widths_of_pbrt_3_are_those_of_its_fit() {
+        // Its tabulated values; x is ln 0.1 and ln 1.
+        assert!((Remap::Old.alpha(0.1) - 0.4622).abs() < 1e-3, "{}", Remap::Old.alpha(0.1));
+        assert!(Remap::Old.alpha(1.0) == 1.62142 && Remap::Root.alpha(0.25) == 0.5 && Remap::None.alpha(0.25) == 0.25);
+    }
 
     #[test]
     fn widths_come_back_from_their_anisotropy() {

@@ -83,7 +83,10 @@ fn vertices(entity: &Entity, corners: usize) -> Result<Model, SceneError> {
     }
     let count = vertices.len();
     let normals = Some(triples(entity, "N")?).filter(|normals| !normals.is_empty());
-    let uvs = entity.list("uv").map(|numbers| numbers.chunks_exact(2).map(|uv| [uv[0] as f32, uv[1] as f32]).collect::<Vec<_>>());
+    // pbrt-v3 has another name, too.
+    let uvs = entity
+        .list(entity.named(&["uv", "st"]))
+        .map(|numbers| numbers.chunks_exact(2).map(|uv| [uv[0] as f32, uv[1] as f32]).collect::<Vec<_>>());
     let uvs = uvs.filter(|uvs| !uvs.is_empty());
     for (name, length) in [("N", normals.as_ref().map(Vec::len)), ("uv", uvs.as_ref().map(Vec::len))] {
         if length.is_some_and(|length| length != count) {

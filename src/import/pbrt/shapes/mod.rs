@@ -7,8 +7,10 @@
 //! | `loopsubdiv` | `subdivision.rs` |
 //! | `plymesh` | `ply.rs` |
 //! | `curve` | `curves.rs` |
+//! | `cone`, `paraboloid`, `hyperboloid`, `heightfield` of pbrt-v3 | `old.rs` |
 mod curves;
 mod meshes;
+mod old;
 mod patches;
 mod ply;
 mod quadrics;
@@ -66,6 +68,8 @@ impl Interpreter {
         let built = self.import.shape(entity)?;
         let opacity = self.import.opacity(entity)?;
         entity.ignore(&["splitdepth", "edgelength", "emissionfilename"]);
+        let effect = "shadows are those of the surface that is seen";
+        self.import.remark_parameter(entity, "shadowalpha", "`alpha`", effect);
         self.import.remark_unused(entity);
         for medium in &self.state.media {
             self.import.refuse_medium(medium, &entity.place)?;
@@ -117,10 +121,10 @@ impl Import {
             "loopsubdiv" => self.subdivision(entity),
             "plymesh" => self.ply_mesh(entity).map(Some),
             "curve" => self.curve(entity),
-            kind => {
+            kind => self.old_shape(entity).unwrap_or_else(|| {
                 let label = "sphere, disk, cylinder, trianglemesh, bilinearmesh, loopsubdiv, plymesh or curve";
-                Err(entity.error(format!("`{kind}` is not a shape of pbrt-v4"), label))
-            }
+                Err(entity.error(format!("`{kind}` is not a shape of pbrt-v4 or pbrt-v3"), label))
+            }),
         }
     }
 
@@ -132,7 +136,7 @@ impl Import {
         let alpha = self.number_or_texture(entity, "alpha", 1.0)?;
         Ok(match alpha {
             Textured::Constant(alpha) => (alpha < 1.0).then(|| Textured::Constant(alpha.max(0.0))),
-            texture @ Textured::Texture(_) => Some(texture),
+            texture @ Textured::Texture(_) => Some(self.part_of_whole(entity, texture)),
         })
     }
 }

@@ -42,7 +42,7 @@ impl Import {
                 triangles.extend([[corner, corner + 1, above + 1], [corner, above + 1, above]]);
             }
         }
-        let mut model = Model { vertices, triangles, normals: Some(normals), uvs: Some(uvs), colours: None, tangents: None };
+        let mut model = Model { vertices, triangles, normals: Some(normals), uvs: Some(uvs), ..Model::default() };
         super::meshes::face_normals(&mut model);
         if model.vertices.iter().flatten().any(|x| !x.is_finite()) {
             return Err(entity.error("the shape is too large", "its coordinates must be finite in single precision"));

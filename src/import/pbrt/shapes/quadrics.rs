@@ -61,7 +61,7 @@ impl Import {
     }
 }
 
-fn length(entity: &Entity, name: &str, default: f64) -> Result<f64, SceneError> {
+pub(super) fn length(entity: &Entity, name: &str, default: f64) -> Result<f64, SceneError> {
     let length = entity.float(name, default)?;
     if length > 0.0 { Ok(length) } else { Err(entity.error(format!("`{name}` is {length}"), "it must be positive")) }
 }

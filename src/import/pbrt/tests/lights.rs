@@ -1,7 +1,7 @@
 //! Lights of pbrt.
 use glam::DVec3;
 
-use super::{error, imported, remarks, world};
+use super::{SceneFolder, error, imported, remarks, world};
 use crate::{
     import::Imported,
     light::{background::BackgroundDescription, emission::EmissionSource, lamp::LampKind},
@@ -68,6 +68,57 @@ fn lamps_stand_where_the_file_puts_them() {
     let LampKind::Directional(sun) = &distant.kind else { panic!("a sun") };
     assert!(near(sun.irradiance, [7.0; 3]) && sun.direction == DVec3::NEG_Y);
     assert!(remarks(&found).is_empty());
+}
+
+#[test]
+fn black_lights_are_left_out_with_a_remark() {
+    for light in [
+        "LightSource \"point\" \"rgb I\" [0 0 0]",
+        "LightSource \"spot\" \"float scale\" 0",
+        "LightSource \"distant\" \"rgb L\" [0 0 0]",
+        "LightSource \"infinite\" \"rgb L\" [0 0 0]",
+        "AreaLightSource \"diffuse\" \"rgb L\" [0 0 0]\nShape \"sphere\"",
+        "AreaLightSource \"diffuse\" \"float scale\" 0\nShape \"sphere\"",
+    ] {
+        let found = world(light);
+        let lines = remarks(&found).join("\n");
+        assert!(found.description.lamps.is_empty() && lines.contains("it is black"), "{light}: {lines}");
+        assert!(found.description.objects.iter().all(|object| object.emission.is_none()), "{light}");
+    }
+    let black = pfm([0.0; 3]);
+    for light in [
+        "LightSource \"infinite\" \"string filename\" \"t.pfm\"",
+        "LightSource \"projection\" \"string filename\" \"t.pfm\"",
+        "LightSource \"goniometric\" \"string filename\" \"t.pfm\"",
+        "AreaLightSource \"diffuse\" \"string filename\" \"t.pfm\"\nShape \"sphere\"",
+    ] {
+        let found = with_picture(light, &black);
+        let lines = remarks(&found).join("\n");
+        let lit = found.description.objects.iter().any(|object| object.emission.is_some());
+        assert!(found.description.lamps.is_empty() && !lit && lines.contains("it is black"), "{light}: {lines}");
+    }
+}
+
+/// A PFM of 1 × 1 pixel.
+fn pfm(pixel: [f32; 3]) -> Vec<u8> {
+    [b"PF\n1 1\n-1\n".to_vec(), pixel.iter().flat_map(|x| x.to_le_bytes()).collect()].concat()
+}
+
+/// A world beside an image `t.pfm`.
+fn with_picture(text: &str, picture: &[u8]) -> Imported {
+    let files = SceneFolder::new(&[("a.pbrt", &format!("WorldBegin\n{text}"))]);
+    std::fs::write(files.0.path().join("t.pfm"), picture).expect("it is written");
+    files.read().unwrap_or_else(|error| panic!("{}", error.report()))
+}
+
+#[test]
+fn images_may_be_pfm() {
+    let light = "LightSource \"projection\" \"string filename\" \"t.pfm\" \"float scale\" 3";
+    let found = with_picture(light, &pfm([1.0, 2.0, 3.0]));
+    assert!(matches!(&found.description.lamps[0].kind, LampKind::Projector(lamp) if lamp.image == "t.pfm" && lamp.scale == 3.0));
+    let texture = "Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"t.pfm\"\nMaterial \"diffuse\" \"texture reflectance\" \"t\"";
+    let found = with_picture(&format!("{texture}\nShape \"sphere\""), &pfm([0.1, 0.2, 0.3]));
+    assert!(found.description.textures.len() == 1 && remarks(&found).is_empty(), "{:?}", remarks(&found));
 }
 
 #[test]

@@ -66,6 +66,26 @@ fn named_materials_mixtures_and_interfaces() {
 }
 
 #[test]
+fn opacities_and_weights_are_cut_at_1() {
+    let found = world(
+        "Texture \"squares\" \"float\" \"checkerboard\" \"float tex1\" 3 \"float tex2\" .5\n\
+         Texture \"t\" \"float\" \"scale\" \"texture tex\" \"squares\" \"float scale\" 2\n\
+         MakeNamedMaterial \"a\" \"string type\" \"diffuse\"\nMaterial \"mix\" \"string materials\" [\"a\" \"a\"] \"texture amount\" \"t\"\n\
+         Shape \"sphere\" \"texture alpha\" \"t\"\nMaterial \"mix\" \"string materials\" [\"a\" \"a\"] \"float amount\" 7\nShape \"sphere\" \"float alpha\" 3",
+    );
+    let Material::Blend(blend) = &material(&found).kind else { panic!("a blend") };
+    let Textured::Texture(weight) = &blend.weight else { panic!("a texture") };
+    let TextureKind::Ramp(ramp) = &found.description.textures[weight] else { panic!("a ramp") };
+    assert!((ramp.stops[1].at - 1.0 / 6.0).abs() < 1e-12 && ramp.stops[1].color == [1.0; 3] && ramp.stops[2].color == [1.0; 3]);
+    assert_eq!(material(&found).opacity, Some(blend.weight.clone()), "they share it");
+    assert!(remarks(&found).iter().any(|line| line.contains("above 1")), "{:?}", remarks(&found));
+    let second = &found.description.materials[found.description.objects[1].material.as_ref().expect("a material")];
+    assert!(
+        matches!(&second.kind, Material::Blend(blend) if blend.weight == Textured::Constant(1.0)) && second.opacity.is_none()
+    );
+}
+
+#[test]
 fn coats_opacity_and_bumps() {
     let found = world(
         "Texture \"holes\" \"float\" \"checkerboard\" \"float uscale\" 4 \"float vscale\" 4\n\
@@ -104,7 +124,7 @@ fn substitutes_and_unknown_things_say_so() {
     );
     let lines = remarks(&found).join("\n");
     assert!(lines.contains("subsurface") && lines.contains("`shine`"), "{lines}");
-    assert!(error("WorldBegin\nMaterial \"matte\"\nShape \"sphere\"").contains("is not a material of pbrt-v4"));
+    assert!(error("WorldBegin\nMaterial \"clay\"\nShape \"sphere\"").contains("is not a material of pbrt-v4"));
     assert!(error("WorldBegin\nNamedMaterial \"x\"\nShape \"sphere\"").contains("`x` is not a material"));
     assert!(error("WorldBegin\nMaterial \"diffuse\" \"texture reflectance\" \"t\"\nShape \"disk\"").contains("no texture `t`"));
 }

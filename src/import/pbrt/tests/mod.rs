@@ -3,6 +3,7 @@ mod cameras;
 mod hostile;
 mod lights;
 mod materials;
+mod old;
 mod shapes;
 
 use std::fs;

@@ -118,5 +118,5 @@ fn broken_meshes_are_refused() {
     assert!(mesh("\"point3 P\" [0 0 0 1 0 0 0 1 0] \"integer indices\" [0 1 3]").contains("no vertex 3"));
     assert!(mesh("\"point3 P\" [0 0 0 1 0 0 0 1 0] \"integer indices\" [0 1 -1]").contains("no vertex -1"));
     assert!(mesh("\"point3 P\" [0 0 0 1 0 0 0 1 1e300]").contains("too large"));
-    assert!(error("WorldBegin\nShape \"cone\"").contains("not a shape"));
+    assert!(error("WorldBegin\nShape \"nurbs\"").contains("not a shape"));
 }

@@ -4,7 +4,7 @@ use std::path::Path;
 use super::{Content, colour, number};
 use crate::{
     declare::Textured,
-    image::Encoding,
+    image::{EXTENSIONS, Encoding},
     import::pbrt::{import::Import, parameters::Entity},
     scene::SceneError,
     texture::{
@@ -12,9 +12,6 @@ use crate::{
         mix::Mix,
     },
 };
-
-/// Files that Noisefall can decode.
-const KNOWN: [&str; 7] = ["png", "jpg", "jpeg", "tga", "webp", "exr", "hdr"];
 
 impl Import {
     pub(super) fn image_map(&mut self, entity: &Entity, name: &str, content: Content) -> Result<Textured, SceneError> {
@@ -40,7 +37,7 @@ impl Import {
         };
         let factor = entity.float("scale", 1.0)?;
         let invert = entity.flag("invert", false)?;
-        entity.ignore(&["maxanisotropy"]);
+        entity.ignore(&["maxanisotropy", "trilinear"]);
         if !is_known(&path) {
             self.remark(entity, "grey", "Noisefall does not decode this format of images");
             return Ok(Textured::grey(0.5));
@@ -75,6 +72,10 @@ impl Import {
     }
 
     fn encoding(&mut self, entity: &Entity) -> Encoding {
+        // The name in pbrt-v3.
+        if entity.flag("gamma", true).is_ok_and(|gamma| !gamma) {
+            return Encoding::Linear;
+        }
         match entity.text("encoding").unwrap_or("sRGB") {
             "linear" => Encoding::Linear,
             "sRGB" => Encoding::Srgb,
@@ -102,5 +103,5 @@ impl Import {
 /// Whether the name of a file ends as those of known images do. Files without such a name are tried.
 fn is_known(path: &Path) -> bool {
     let extension = path.extension().map(|extension| extension.to_string_lossy().to_ascii_lowercase());
-    extension.is_none_or(|extension| KNOWN.contains(&extension.as_str()))
+    extension.is_none_or(|extension| EXTENSIONS.contains(&extension.as_str()))
 }

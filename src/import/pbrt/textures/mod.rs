@@ -19,6 +19,7 @@ use super::{
 };
 use crate::{
     declare::Textured,
+    import::unit,
     scene::{SceneError, description::TextureKind},
     texture::{mix::Mix, product::Product},
 };
@@ -35,7 +36,11 @@ impl Import {
     pub fn declare_texture(&mut self, name: String, of_type: &str, entity: Entity) -> Result<(), SceneError> {
         let is_numbers = match of_type {
             "float" => true,
-            "spectrum" | "color" => false,
+            "spectrum" => false,
+            "color" => {
+                self.remark_old(&entity.place, "a texture of `color`");
+                false
+            }
             _ => return Err(entity.error(format!("`{of_type}` is not a type of textures"), "float or spectrum")),
         };
         self.textures.insert((is_numbers, name), Rc::new(entity));
@@ -61,6 +66,25 @@ impl Import {
             return Ok(number(found));
         }
         entity.float(name, default).map(Textured::Constant)
+    }
+
+    /// A part of a whole: a number, or a texture that is cut at 1.
+    pub fn part_of_whole(&mut self, entity: &Entity, value: Textured<f64>) -> Textured<f64> {
+        let Textured::Texture(name) = value else { return value.map(|number| number.clamp(0.0, 1.0)) };
+        let most = unit::largest(&self.description, &self.new_files.assets, self.files.folder.root(), &name);
+        if most <= 1.0 {
+            return Textured::Texture(name);
+        }
+        let key = format!("{name} cut");
+        if let Some(known) = self.known_textures.get(&key) {
+            return number(known.clone());
+        }
+        self.remark(entity, "values up to 1", "its texture has values above 1, which are cut");
+        let (scaled, ramp) = unit::cut(name.clone(), most);
+        let scaled = self.add_texture(&format!("{name} scaled"), scaled);
+        let cut = Textured::Texture(self.add_texture(&key, ramp(scaled)));
+        self.known_textures.insert(key, cut.clone());
+        number(cut)
     }
 
     /// The values of a texture: colours, numbers, or what is given for either.
@@ -97,6 +121,7 @@ impl Import {
     fn texture(&mut self, entity: &Entity, name: &str, content: Content) -> Result<Textured, SceneError> {
         match entity.kind.as_str() {
             "constant" => self.values(entity, "value", 1.0, content),
+            "scale" if entity.has("tex1") || entity.has("tex2") => self.product(entity, name, content),
             "scale" => {
                 let texture = self.values(entity, "tex", 1.0, content)?;
                 match self.number_or_texture(entity, "scale", 1.0)? {
@@ -112,12 +137,34 @@ impl Import {
                     self.remark(entity, "both textures in equal parts", "the mixture does not depend on the direction");
                     weight = Textured::Constant(0.5);
                 }
+                let weight = match (&a, &b, weight) {
+                    // A mixture of constants is computed, beyond them as well.
+                    (Textured::Constant(_), Textured::Constant(_), weight @ Textured::Constant(_)) => weight,
+                    (_, _, weight) => self.part_of_whole(entity, weight),
+                };
                 Ok(self.mixed(name, a, b, weight))
             }
             "imagemap" => self.image_map(entity, name, content),
             "checkerboard" => self.checkerboard(entity, name, content),
             "bilerp" => self.bilerp(entity, name, content),
             _ => self.substitute(entity, name, content),
+        }
+    }
+
+    /// The product of two textures, of pbrt-v3.
+    fn product(&mut self, entity: &Entity, name: &str, content: Content) -> Result<Textured, SceneError> {
+        self.remark_old(&entity.place, "`tex1` and `tex2` of a scaled texture");
+        let [a, b] = [self.values(entity, "tex1", 1.0, content)?, self.values(entity, "tex2", 1.0, content)?];
+        Ok(self.times(&a, b, name))
+    }
+
+    /// The product of two colours or textures.
+    pub fn times(&mut self, a: &Textured, b: Textured, name: &str) -> Textured {
+        match (a, b) {
+            (Textured::Constant(a), Textured::Constant(b)) => {
+                Textured::Constant([0, 1, 2].map(|channel| a[channel] * b[channel]))
+            }
+            (a, b) => self.new_texture(name, Product { a: positive(a.clone()), b: positive(b) }),
         }
     }
 
@@ -170,7 +217,7 @@ fn colour(number: Textured<f64>) -> Textured {
 }
 
 /// A colour or texture as its luminance.
-fn number(colour: Textured) -> Textured<f64> {
+pub fn number(colour: Textured) -> Textured<f64> {
     // Equal channels give their own value without rounding.
     colour.map(|[r, g, b]| if r == g && g == b { r } else { luminance([r, g, b]) })
 }
