@@ -117,13 +117,29 @@ impl<L: Lanes> Width<L> for Widths<L> {
 }
 
 /// E/F of a coat or an interface seen from `w`, by the table of [`super::albedo_table::build`] that begins at row `first`. In the lanes of
-/// `anisotropic` it is that of a round distribution with the width in the azimuth of `w`, within 0.02 of E in most directions.
+/// `anisotropic` it is that of a round distribution with the width in the azimuth of `w`: within 0.02 of E in most directions.
 #[inline(always)]
 pub fn reflected<L: Lanes>(l: L, table: &[[f32; 4]], first: U<L>, widths: Widths<L>, anisotropic: M<L>, w: V<L>) -> F<L> {
     if !anisotropic.any() {
         return Albedo::at(table, first, widths.mean()).value(l, w.z);
     }
     Albedo::at(table, first, anisotropic.pick(widths.towards(w), widths.mean())).value(l, w.z)
+}
+
+/// The average over diffuse light of what [`reflected`] leaves: 1 − E.
+#[inline(always)]
+pub fn passed<L: Lanes>(l: L, table: &[[f32; 4]], first: U<L>, widths: Widths<L>, anisotropic: M<L>) -> F<L> {
+    /// Cosines and sines of azimuths at equal distances.
+    const AZIMUTHS: [[f32; 2]; 4] = [[0.980_785, 0.195_09], [0.831_47, 0.555_57], [0.555_57, 0.831_47], [0.195_09, 0.980_785]];
+    let round = Albedo::at(table, first, widths.mean()).average(l);
+    if !anisotropic.any() {
+        return round;
+    }
+    let mut passed = l.f(0.0);
+    for [x, y] in AZIMUTHS {
+        passed = passed + Albedo::at(table, first, widths.towards(V::splat(l, [x, y, 0.0]))).average(l) * 0.25;
+    }
+    anisotropic.pick(passed, round)
 }
 
 #[cfg(test)]

@@ -1,7 +1,6 @@
 //! The microfacets of the base or of the coat, and the part of the light that they reflect.
 use super::super::{
-    albedo::Albedo,
-    anisotropy::{Widths, reflected},
+    anisotropy::{Widths, passed, reflected},
     fresnel::dielectric,
     ggx,
 };
@@ -53,6 +52,6 @@ impl<'a, L: Lanes> Facets<'a, L> {
     /// 1 − E, averaged over diffuse light, with the index of the table.
     #[inline(always)]
     pub fn passed(&self) -> F<L> {
-        Albedo::at(self.rows, self.table, self.widths.mean()).average(self.l)
+        passed(self.l, self.rows, self.table, self.widths, self.anisotropic)
     }
 }

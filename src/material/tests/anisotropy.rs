@@ -18,6 +18,8 @@ use crate::{
 const ALPHAS: [f32; 3] = [0.09, 0.3, 1.0];
 const ANISOTROPIES: [f64; 4] = [0.0, 0.001, 0.5, 0.95];
 const IOR: f32 = 1.5;
+/// Largest error of the mean over directions, and of each, where a table holds the loss.
+const EXACT: [f64; 2] = [0.005, 0.02];
 
 fn directions() -> impl Iterator<Item = V<One>> {
     [0.9f32, 0.5, 0.15].into_iter().flat_map(|cos| {
@@ -28,9 +30,9 @@ fn directions() -> impl Iterator<Item = V<One>> {
 
 /// The light that leaves in all directions, without what refraction to an index does to radiance.
 fn albedo(bsdf: &impl Bsdf<One>, wo: V<One>, index: f32) -> f64 {
-    const POINTS: u32 = 4181;
+    const POINTS: u32 = 6765;
     const STEP: f32 = 0.754_877_7;
-    let weights = lattice(POINTS, 2584).enumerate().map(|(i, u)| {
+    let weights = lattice(POINTS, 4181).enumerate().map(|(i, u)| {
         let sample = bsdf.sample(wo, u, F((i as f64 * f64::from(STEP)).fract() as f32));
         let scale = if sample.wi.z.0 < 0.0 { f64::from(index * index) } else { 1.0 };
         scale * f64::from(sample.weight.x.0)
@@ -43,14 +45,14 @@ fn at(alpha: f32, front: bool) -> Local<One> {
 }
 
 /// Checks albedos by (α, anisotropy), of which the first is round.
-fn assert_furnace(name: &str, albedos: impl Fn(f32, f64) -> Vec<f64>) {
+fn assert_furnace(name: &str, [most_mean, most]: [f64; 2], albedos: impl Fn(f32, f64) -> Vec<f64>) {
     for alpha in ALPHAS {
         let all = ANISOTROPIES.map(|anisotropy| albedos(alpha, anisotropy));
         for (anisotropy, found) in ANISOTROPIES.iter().zip(&all) {
             let mean = found.iter().sum::<f64>() / found.len() as f64;
             println!("{name} {alpha} {anisotropy}: mean {mean:.4}, {found:.3?}");
-            assert!((mean - 1.0).abs() < 0.005, "{name}, α {alpha}, anisotropy {anisotropy}: mean {mean}");
-            assert!(found.iter().all(|x| (x - 1.0).abs() < 0.02), "{name}, α {alpha}, anisotropy {anisotropy}: {found:?}");
+            assert!((mean - 1.0).abs() < most_mean, "{name}, α {alpha}, anisotropy {anisotropy}: mean {mean}");
+            assert!(found.iter().all(|x| (x - 1.0).abs() < most), "{name}, α {alpha}, anisotropy {anisotropy}: {found:?}");
         }
         let jump = all[0].iter().zip(&all[1]).map(|(round, nearly)| (round - nearly).abs()).fold(0.0, f64::max);
         assert!(jump < 0.01, "{name}, α {alpha}: a jump of {jump} where anisotropy begins");
@@ -59,7 +61,7 @@ fn assert_furnace(name: &str, albedos: impl Fn(f32, f64) -> Vec<f64>) {
 
 #[test]
 fn white_metal_loses_nothing() {
-    assert_furnace("conductor", |alpha, anisotropy| {
+    assert_furnace("conductor", EXACT, |alpha, anisotropy| {
         let white = Reflectance::Constant(Textured::grey(1.0));
         let material = Conductor { anisotropy, ..Conductor::new(white, alpha, true) };
         let materials = Materials::new(&[material.into()]);
@@ -74,7 +76,7 @@ fn white_metal_loses_nothing() {
 
 #[test]
 fn clear_glass_loses_nothing_from_either_side() {
-    assert_furnace("dielectric", |alpha, anisotropy| {
+    assert_furnace("dielectric", EXACT, |alpha, anisotropy| {
         let roughness = Roughness::alpha(alpha);
         let material = Dielectric { ior: IOR.into(), roughness, anisotropy, ..Dielectric::default() };
         let materials = Materials::new(&[Material::from(material)]);
@@ -103,8 +105,18 @@ fn principled(anisotropy: f64) -> Principled {
 }
 
 #[test]
+fn a_white_base_under_anisotropic_facets_loses_nothing() {
+    assert_furnace("principled plastic", [0.02, 0.15], |alpha, anisotropy| {
+        let number = Textured::Constant(f64::from(alpha.sqrt()));
+        let materials = Materials::new(&[Principled { specular_roughness: number, ..principled(anisotropy) }.into()]);
+        let bsdf = Principled::at(One, &materials, Directions::Bsdf, &at(alpha, true));
+        directions().map(|wo| albedo(&bsdf, wo, 1.0)).collect()
+    });
+}
+
+#[test]
 fn principled_metal_and_glass_lose_nothing() {
-    assert_furnace("principled metal", |alpha, anisotropy| {
+    assert_furnace("principled metal", EXACT, |alpha, anisotropy| {
         let number = Textured::Constant(f64::from(alpha.sqrt()));
         let material =
             Principled { base_metalness: Textured::Constant(1.0), specular_roughness: number, ..principled(anisotropy) };
@@ -112,7 +124,7 @@ fn principled_metal_and_glass_lose_nothing() {
         let bsdf = Principled::at(One, &materials, Directions::Bsdf, &at(alpha, true));
         directions().map(|wo| albedo(&bsdf, wo, 1.0)).collect()
     });
-    assert_furnace("principled glass", |alpha, anisotropy| {
+    assert_furnace("principled glass", EXACT, |alpha, anisotropy| {
         let number = Textured::Constant(f64::from(alpha.sqrt()));
         let material =
             Principled { transmission_weight: Textured::Constant(1.0), specular_roughness: number, ..principled(anisotropy) };

@@ -38,7 +38,7 @@ fn every_kind_of_bsdf_has_its_stage() {
         ("plastic = { albedo = 0.5, ior = 1.5 }", Stage::Plastic),
         ("conductor = { f0 = 0.5, roughness = 0.5, anisotropy = 0.5 }", Stage::AnisotropicConductor),
         ("conductor = { f0 = 0.5, anisotropy = 0.5 }", Stage::Mirror),
-        ("dielectric = { ior = 1.5, roughness = 0.5, anisotropy = 0.5 }", Stage::PrincipledGlass),
+        ("dielectric = { ior = 1.5, roughness = 0.5, anisotropy = 0.5 }", Stage::TintedDielectric),
         ("conductor = { f0 = 0.5, roughness = 0.5, distribution = 'beckmann' }", Stage::BeckmannConductor),
         ("conductor = { f0 = 0.5, distribution = 'beckmann' }", Stage::Mirror),
         ("dielectric = { ior = 1.5, roughness = 0.5, distribution = 'beckmann' }", Stage::TintedDielectric),
