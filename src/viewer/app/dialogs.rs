@@ -12,7 +12,7 @@ use noisefall::{
 use super::{front::FrontDialog, state::App};
 use crate::viewer::background::adviser::Adviser;
 use crate::viewer::dialogs::{
-    advice, choose_file, help, open, remarks, save,
+    advice, choose_file, help, open, open_reference, remarks, save,
     save::SaveAnswer,
     save_target::SaveTarget,
     scene_error, shield,
@@ -54,6 +54,10 @@ impl App {
             FrontDialog::ChooseFile => {
                 let file = choose_file::show(ctx, &mut self.dialogs.file);
                 file.into_iter().for_each(|(purpose, path)| self.use_file(&purpose, &path));
+            }
+            FrontDialog::Reference => {
+                let reference = open_reference::show(ctx, &mut self.dialogs.reference);
+                reference.into_iter().for_each(|path| self.background.loader.read_reference(path, self.session.camera));
             }
             FrontDialog::Tev => self.show_tev(ctx),
             FrontDialog::Sequence => self.show_sequence(ctx),

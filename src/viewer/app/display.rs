@@ -63,13 +63,12 @@ impl App {
         self.session.opened.as_ref().is_some_and(|opened| Arc::ptr_eq(&request.scene, &opened.scene))
     }
 
-    /// The picture that the render must converge to: the one that was dropped on the window, or that of the scene, which is known for
+    /// The picture that the render must converge to: the one that the user gave, or that of the scene, which is known for
     /// the scene's own camera only.
     pub fn reference(&self) -> Option<Arc<Reference>> {
         let (opened, request) = (self.session.opened.as_ref()?, self.background.worker.request()?);
-        if let Some(dropped) = &self.session.dropped_reference {
-            let of_camera = Camera { resolution: request.camera.resolution, ..dropped.camera };
-            return Some(dropped.reference.clone()).filter(|_| of_camera == request.camera);
+        if let Some(given) = self.session.given_reference.as_ref().filter(|given| given.is_of(request)) {
+            return Some(given.reference.clone());
         }
         let of_scene = Camera { resolution: request.camera.resolution, ..opened.scene.camera };
         let is_of_scene = request.camera == of_scene && Arc::ptr_eq(&request.scene, &opened.scene);

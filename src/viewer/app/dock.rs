@@ -140,11 +140,18 @@ impl App {
                     None => RenderTask::Series(request),
                 })
             }
-            _ => {
-                let other = self.session.comparison?.other;
-                Some(RenderTask::Picture(RenderRequest { settings: other, ..request }))
-            }
+            tab => match self.session.comparison {
+                Some(comparison) => Some(RenderTask::Picture(RenderRequest { settings: comparison.other, ..request })),
+                None => (tab == Some(InstrumentTab::Convergence)).then(|| self.series_of_cap(request)).flatten(),
+            },
         }
+    }
+
+    /// The series that tells the bias of the caps of the curves, while it is not known.
+    fn series_of_cap(&self, request: RenderRequest) -> Option<RenderTask> {
+        let settings = RenderSettings { max_bounces: None, ..request.settings };
+        let is_needed = self.instruments.history.needs_series() && bounces::has_room_for_series(request.camera.resolution);
+        is_needed.then_some(RenderTask::Series(RenderRequest { settings, ..request }))
     }
 
     /// The strategy of bidirectional paths that the image shows, if the scene has any.

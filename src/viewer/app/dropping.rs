@@ -4,7 +4,7 @@ use std::path::Path as FilePath;
 use glam::DVec3;
 use noisefall::{
     declare::{OwnedValue, Path, Textured},
-    edit::{Edit, Placement},
+    edit::Edit,
 };
 
 use super::state::App;
@@ -54,11 +54,9 @@ impl App {
     /// Adds a mesh where it was dropped, or else where the image was clicked last.
     fn add_mesh(&mut self, file: &FilePath, bounds: [DVec3; 2], pixel: Option<[u32; 2]>) {
         let path = self.path_in_scene(file);
-        let surface = self.surface_at(pixel);
-        let (Some(editor), Some(opened)) = (&self.editor, &self.session.opened) else { return };
         // Without a surface, it stands on the floor below the point that the camera looks at.
-        let [at, normal] = surface.unwrap_or([self.session.camera.look_at, DVec3::ZERO]);
-        let placement = Placement { at, normal, scene_size: opened.scene.size };
+        let placement = self.placement(pixel, DVec3::ZERO);
+        let (Some(editor), Some(opened)) = (&self.editor, &self.session.opened) else { return };
         let (edit, object) = editor.document.add_mesh(&path, bounds, placement, &opened.scene);
         self.edit_and_select(&edit, &object);
     }

@@ -3,6 +3,7 @@ use egui::Panel;
 
 use super::state::App;
 use crate::viewer::background::{
+    reference_task::ReferenceTask,
     sequence_task::{ExistingFrames, SequenceEnd, SequenceRequest, SequenceTask},
     tev_link::TevState,
 };
@@ -107,13 +108,15 @@ impl App {
     /// Shows the line of exports while there are any.
     pub fn exports_panel(&mut self, ui: &mut egui::Ui) {
         let (tev, sequence) = (&self.background.tev, self.background.sequence.as_ref());
-        if tev.state() == TevState::Off && sequence.is_none() {
+        let reference = self.background.reference.as_ref().map(ReferenceTask::progress);
+        if tev.state() == TevState::Off && sequence.is_none() && reference.is_none() {
             return;
         }
         let sequence = sequence.map(|task| (task.progress(), task.request.spp));
-        match Panel::bottom("exports").show(ui, |ui| exports::show(ui, tev, sequence)).inner {
+        match Panel::bottom("exports").show(ui, |ui| exports::show(ui, tev, sequence, reference)).inner {
             Some(ExportCommand::StopTev) => self.background.tev.stop(),
             Some(ExportCommand::StopSequence) => self.background.sequence.iter().for_each(SequenceTask::stop),
+            Some(ExportCommand::StopReference) => self.background.reference.iter().for_each(ReferenceTask::stop),
             None => {}
         }
     }

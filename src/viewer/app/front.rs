@@ -8,6 +8,7 @@ pub enum FrontDialog {
     Save,
     Open,
     ChooseFile,
+    Reference,
     Tev,
     Sequence,
     ExistingFrames,
@@ -40,6 +41,7 @@ impl App {
             (D::Save, dialogs.save.is_some()),
             (D::Open, dialogs.open.is_some()),
             (D::ChooseFile, dialogs.file.is_some()),
+            (D::Reference, dialogs.reference.is_some()),
             (D::Tev, dialogs.tev.is_some()),
             (D::Sequence, dialogs.sequence.is_some()),
             (D::ExistingFrames, dialogs.existing_frames.is_some()),
@@ -73,6 +75,7 @@ impl App {
             }
             D::Open => dialogs.open = None,
             D::ChooseFile => dialogs.file = None,
+            D::Reference => dialogs.reference = None,
             D::Tev => dialogs.tev = None,
             D::Sequence => dialogs.sequence = None,
             D::ExistingFrames => dialogs.existing_frames = None,

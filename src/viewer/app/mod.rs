@@ -1,4 +1,5 @@
 //! The window as a whole. It joins panels, instruments and dialogs with the work in the background.
+mod adding;
 mod canvas;
 mod commands;
 mod copying;
@@ -27,6 +28,7 @@ mod outside;
 mod picture_notices;
 mod receive;
 mod recovering;
+mod references;
 mod results;
 mod saving;
 mod saving_layers;

@@ -1,13 +1,15 @@
 //! Receives what the threads have finished: scenes, references, frames, images, saved files.
+use std::sync::Arc;
+
 use noisefall::{
     edit::Document,
-    render::{Budget, WhiteBalance},
+    render::{Budget, RenderTask, WhiteBalance},
 };
 
 use super::{file_tasks::OutsideChanges, history::History, scene_editor::SceneEditor, selection::Selection, state::App};
 use crate::viewer::background::{
     catalogue, display_image::DisplayImage, earlier_scenes::EarlierScenes, feature_finder::FeatureFinder,
-    loader::DroppedReference, opened_scene::OpenedScene, recent,
+    given_reference::GivenReference, opened_scene::OpenedScene, recent,
 };
 use crate::viewer::instruments::{convergence::curve::Moment, path::inspector::PathInspector};
 
@@ -27,8 +29,9 @@ impl App {
         self.follow_files();
         self.receive_copy();
         self.receive_exports();
+        self.receive_reference();
         match self.background.loader.take_reference() {
-            Some(Ok(dropped)) => self.take_reference(dropped),
+            Some(Ok(given)) => self.take_reference(given),
             Some(Err(error)) => self.tell(error, true),
             None => {}
         }
@@ -45,7 +48,8 @@ impl App {
         self.results.second_status = second.status;
         let is_there = self.second_view().is_some() && second.frame.generation == worker.second_generation();
         self.results.second_frame = Some(second.frame).filter(|frame| is_there && !frame.radiance.is_empty());
-        let published = worker.latest();
+        self.note_series();
+        let published = self.background.worker.latest();
         self.results.status = published.status;
         let request = self.display_request(published.frame);
         self.background.display.request(request);
@@ -59,32 +63,51 @@ impl App {
         self.results.black = self.shows_nothing(image.lit);
         self.note_blackness(image.frame.generation);
         self.meter(&image.frame);
+        let reference = self.reference();
+        // An image that was requested before may have been compared with another reference, or with none.
+        let is_current = reference.as_ref().map(Arc::as_ptr) == image.reference.as_ref().map(Arc::as_ptr);
+        let [first, second_comparison] =
+            [image.comparison, image.second_comparison].map(|comparison| comparison.filter(|_| is_current));
         let (worker, history) = (&self.background.worker, &mut self.instruments.history);
         if let Some(request) = worker.request() {
-            history.look_at(&request.scene, &request.camera, image.reference.as_ref());
+            history.look_at(&request.scene, &request.camera, reference.as_ref());
             history.current = Some(request.settings);
             let frame = &image.frame;
             if frame.generation == worker.generation() && !frame.is_coarse() {
-                history.record(&request.settings, frame.generation, Moment::of(frame, image.comparison));
+                history.record(&request.settings, frame.generation, Moment::of(frame, first));
             }
             let is_latest = |generation| generation == worker.second_generation();
             let second = image.second.as_ref().filter(|frame| is_latest(frame.generation) && !frame.is_coarse());
             let other = self.session.comparison.map(|comparison| comparison.other).filter(|other| *other != request.settings);
             if let (Some(frame), Some(other)) = (second, other) {
-                history.record(&other, frame.generation, Moment::of(frame, image.second_comparison));
+                history.record(&other, frame.generation, Moment::of(frame, second_comparison));
             }
         }
         self.results.show(&self.ctx, image);
     }
 
-    fn take_reference(&mut self, dropped: DroppedReference) {
-        let name = &dropped.name;
-        if let Some(mismatch) = dropped.reference.mismatch(dropped.camera.resolution) {
+    /// Takes note of what caps would lose, if the series without a cap is rendered.
+    fn note_series(&mut self) {
+        let (second_view, request) = (self.second_view(), self.session.request());
+        let is_whole = |task: &RenderTask| matches!(task, RenderTask::Series(of) if of.settings.max_bounces.is_none());
+        let is_asked = |task: &RenderTask| request.is_some_and(|request| self.background.worker.is_asked(&request, Some(task)));
+        if second_view.filter(is_whole).is_some_and(|task| is_asked(&task))
+            && let Some(frame) = &self.results.second_frame
+        {
+            self.instruments.history.note_series(frame);
+        }
+    }
+
+    pub fn take_reference(&mut self, given: GivenReference) {
+        let name = &given.name;
+        if let Some(mismatch) = given.reference.mismatch(self.session.camera.resolution) {
             self.tell(format!("{name}: {mismatch}. Set the resolution to that of the reference."), true);
         } else {
-            self.tell(format!("The image is now compared with {name}"), false);
+            let noise =
+                given.reference.relative_noise().map_or_else(String::new, |noise| format!(" (noise {:.2} %)", 100.0 * noise));
+            self.tell(format!("The image is now compared with {name}{noise}"), false);
         }
-        self.session.dropped_reference = Some(dropped);
+        self.session.given_reference = Some(given);
     }
 
     fn open(&mut self, mut opened: OpenedScene, document: Document) {
@@ -109,8 +132,8 @@ impl App {
         // A new scene has no file, and goes on being edited as the one before.
         let paused = session.budget.paused && opened.path.is_none() && session.opened.is_some();
         session.budget = Budget { max_spp: scene.spp, steps: session.budget.steps, paused, ..Budget::default() };
-        (session.comparison, session.pinned, session.dropped_reference) = (None, None, None);
-        self.background.adviser = None;
+        (session.comparison, session.pinned, session.given_reference) = (None, None, None);
+        (self.background.adviser, self.background.reference) = (None, None);
         self.background.loader.forget_reference();
         self.background.drops.forget();
         self.background.settler.forget();

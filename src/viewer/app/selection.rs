@@ -13,7 +13,7 @@ pub struct Selection {
     pub change: Option<Transform>,
     /// The part is a copy of this one, which the gizmo moves until it is confirmed or discarded.
     pub copy_of: Option<Subject>,
-    /// The pixel of the picture that was clicked last: new objects are placed there.
+    /// The pixel of the image that was clicked last, or was under the pointer when Shift+A was pressed: new objects are placed there.
     pub clicked: Option<[u32; 2]>,
 }
 

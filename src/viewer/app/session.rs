@@ -8,7 +8,7 @@ use noisefall::{
 };
 
 use super::history::{Controls, StopTarget};
-use crate::viewer::background::{earlier_scenes::EarlierScenes, loader::DroppedReference, opened_scene::OpenedScene};
+use crate::viewer::background::{earlier_scenes::EarlierScenes, given_reference::GivenReference, opened_scene::OpenedScene};
 use crate::viewer::instruments::{bounces::Bounces, compare::comparison::Comparison};
 
 pub struct Session {
@@ -29,7 +29,9 @@ pub struct Session {
     pub threads: usize,
     pub look: DisplaySettings,
     pub pinned: Option<Arc<Frame>>,
-    pub dropped_reference: Option<DroppedReference>,
+    pub given_reference: Option<GivenReference>,
+    /// Relative noise at which the render of a reference ends.
+    pub reference_noise: f64,
 }
 
 impl Session {
@@ -50,7 +52,8 @@ impl Session {
             threads,
             look: DisplaySettings::default(),
             pinned: None,
-            dropped_reference: None,
+            given_reference: None,
+            reference_noise: 0.01,
         }
     }
 

@@ -147,7 +147,7 @@ impl App {
     /// Keys that change the scene.
     fn scene_keys(&mut self, ctx: &Context) {
         if ctx.input(|input| self.adds(input)) {
-            self.window.opens_add = true;
+            self.open_add();
         }
         let Some(subject) = self.selection.subject.clone().filter(can_rename) else { return };
         if presses(ctx, Key::Delete) || presses(ctx, Key::X) {

@@ -6,8 +6,8 @@ use super::state::App;
 use crate::viewer::background::{adviser::Adviser, catalogue::SceneRequest, recent};
 use crate::viewer::dialogs::{open::OpenDialog, unsaved::Leaving};
 use crate::viewer::panels::{
-    camera, display, panel_tabs, panel_tabs::PanelTab, pixel_readout::Pixel, sampling, sampling::Findings, scene,
-    status_bar::StatusBar, stop, views, views::ReferenceSource, window,
+    camera, display, panel_tabs, panel_tabs::PanelTab, pixel_readout::Pixel, reference, reference::ReferenceRow, sampling,
+    sampling::Findings, scene, status_bar::StatusBar, stop, views, window,
 };
 use crate::viewer::widgets::style::{leave_room_for_bar, section};
 
@@ -103,17 +103,17 @@ impl App {
     pub fn display_panel(&mut self, ui: &mut Ui) {
         let default_exposure = self.session.opened.as_ref().map_or(0.0, |opened| opened.scene.exposure);
         display::show(ui, &mut self.session.look.display, default_exposure);
-        let of_scene = self.exact_solution();
-        let reference = match (&self.session.dropped_reference, of_scene) {
-            (Some(dropped), _) => ReferenceSource::Dropped(&dropped.name),
-            (None, Some(_)) if self.reference().is_some() => ReferenceSource::Scene,
-            (None, Some(_)) => ReferenceSource::SceneElsewhere,
-            (None, None) => ReferenceSource::None,
+        views::rows(ui, &mut self.session.look.map, self.results.shown.as_ref(), &mut self.session.pinned);
+        let (mut noise, unusable) = (self.session.reference_noise, self.why_no_reference());
+        let row = ReferenceRow {
+            source: self.reference_source(),
+            noise: &mut noise,
+            is_rendering: self.background.reference.is_some(),
+            unusable: unusable.as_deref(),
         };
-        let shown = self.results.shown.as_ref();
-        if views::rows(ui, &mut self.session.look.map, shown, &mut self.session.pinned, &reference) {
-            self.session.dropped_reference = None;
-        }
+        let command = reference::row(ui, row);
+        self.session.reference_noise = noise;
+        command.into_iter().for_each(|command| self.follow_reference(command));
     }
 
     pub fn status_bar(&mut self, ui: &mut Ui) {
@@ -134,6 +134,7 @@ impl App {
             request: self.background.worker.request(),
             why_black: results.why_black(),
             comparison: results.comparison,
+            reference_noise: self.reference().and_then(|reference| reference.relative_noise()),
             mismatch: self.reference().and_then(|reference| reference.mismatch(session.camera.resolution)),
             pixel: self.window.hovered.and_then(pixel),
             is_denoised: self.shown_view().is_denoised(),

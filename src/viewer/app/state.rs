@@ -1,4 +1,6 @@
 //! The state of the window.
+use std::path::PathBuf;
+
 use noisefall::render::threads::Threads;
 
 use super::{
@@ -9,8 +11,8 @@ use crate::viewer::background::{
     adviser::Adviser, background_task::BackgroundTask, catalogue, catalogue::CatalogueEntry, denoiser::Denoiser,
     display_pipeline::DisplayPipeline, dropped::DropReader, feature_finder::FeatureFinder, file_watcher::FileWatcher,
     loader::Loader, opened_scene::GivenScene, preferences::Preferences, progress_keeper::ProgressKeeper,
-    recovery_keeper::RecoveryKeeper, render_worker::RenderWorkerHandle, saver::Saver, sequence_task::SequenceTask,
-    settler::Settler, tev_link::TevLink,
+    recovery_keeper::RecoveryKeeper, reference_task::ReferenceTask, render_worker::RenderWorkerHandle, saver::Saver,
+    sequence_task::SequenceTask, settler::Settler, tev_link::TevLink,
 };
 use crate::viewer::instruments::{convergence::history::History as ErrorHistory, path::inspector::PathInspector};
 use crate::viewer::panels::frame_times::FrameTimes;
@@ -60,6 +62,9 @@ pub struct Background {
     pub tev: TevLink,
     /// The numbered frames that are being rendered.
     pub sequence: Option<SequenceTask>,
+    /// The reference that is being rendered, and the folder in which it is kept.
+    pub reference: Option<ReferenceTask>,
+    pub references: Option<PathBuf>,
     pub adviser: Option<Adviser>,
 }
 
@@ -86,6 +91,8 @@ impl App {
             denoiser: Denoiser::new(ctx),
             tev: TevLink::new(ctx),
             sequence: None,
+            reference: None,
+            references: None,
             adviser: None,
         };
         background.loader.open_given(scene);
@@ -112,6 +119,7 @@ impl App {
     pub fn use_disk(&mut self) {
         self.background.recovery = RecoveryKeeper::of_user();
         if let Some(folder) = self.background.recovery.folder() {
+            self.background.references = Some(folder.with_file_name("references"));
             self.background.progress = ProgressKeeper::in_folder(&self.ctx, folder);
         }
         match FileWatcher::start(&self.ctx) {

@@ -7,7 +7,7 @@ use crate::viewer::background::{progress_keeper::FoundRender, recovery_files::Fo
 use crate::viewer::canvas::{interaction::Tool, picture_view::PictureView};
 use crate::viewer::dialogs::{
     choose_file::FileDialog, conflict::Conflict, connect_tev::TevDialog, gallery::Gallery, notices::Notices, open::OpenDialog,
-    save::SaveDialog, sequence::SequenceDialog, unsaved::Leaving,
+    open_reference::ReferenceDialog, save::SaveDialog, sequence::SequenceDialog, unsaved::Leaving,
 };
 use crate::viewer::instruments::tabs::InstrumentTab;
 use crate::viewer::panels::{panel_tabs::PanelTab, subject::Subject};
@@ -71,6 +71,8 @@ pub struct Dialogs {
     pub save: Option<SaveDialog>,
     pub open: Option<OpenDialog>,
     pub file: Option<FileDialog>,
+    /// Asks for a reference.
+    pub reference: Option<ReferenceDialog>,
     pub tev: Option<TevDialog>,
     pub sequence: Option<SequenceDialog>,
     /// Frames to render, with the numbers of existing ones and of all.

@@ -63,7 +63,9 @@ pub fn save(document: &Document, opened: Option<&Path>, assets: &Assets, path: &
     let in_memory = opened.filter(|_| document.path().is_none() && !assets.is_empty());
     if let Some(origin) = document.origin().or(in_memory) {
         let folder = origin.parent().unwrap_or(Path::new(""));
-        let exported = export::write(ExportSource { description: document.description(), assets, folder }, path);
+        // The reader was allowed to read what the scene named, and the user has chosen all else.
+        let exported =
+            export::write(ExportSource { description: document.description(), assets, folder, allow_outside: true }, path);
         return exported.map_or_else(|error| SaveResult::Failed(error.to_string()), |_| SaveResult::Exported(document.version()));
     }
     let folder = |path: &Path| path.parent().and_then(|folder| folder.canonicalize().ok());

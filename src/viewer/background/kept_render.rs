@@ -50,7 +50,7 @@ pub fn open_kept(path: &Path, options: &ImportOptions) -> Result<ReopenedScene, 
     }
     // The scene keeps its own camera and settings, by which it is tried what pixels share.
     let Opened { scene, remarks, description } =
-        reopen(&header.scene, path, &options.progress).map_err(|error| error.report())?;
+        reopen(&header.scene, path, options.allow_outside, &options.progress).map_err(|error| error.report())?;
     let request = RenderRequest { scene: Arc::new(scene), camera: header.camera, settings: header.settings };
     let threads = Threads::new(0, SimdLevel::best()).map_err(|error| error.to_string())?;
     if let Some(difference) = probe_difference(&header, &request, &threads) {

@@ -4,10 +4,12 @@ use std::{
     thread::JoinHandle,
 };
 
-use noisefall::file::{open_regular, replace};
+use noisefall::file::{read_text, replace};
 use serde::{Deserialize, Serialize};
 
 const FILE: &str = "window.toml";
+/// Most bytes of the file.
+const LONGEST: u64 = 1 << 20;
 
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
@@ -39,7 +41,7 @@ impl Preferences {
     }
 
     pub fn in_folder(folder: &Path) -> Preferences {
-        let text = open_regular(&folder.join(FILE)).and_then(std::io::read_to_string).unwrap_or_default();
+        let text = read_text(&folder.join(FILE), LONGEST).unwrap_or_default();
         Preferences { now: toml::from_str(&text).unwrap_or_default(), folder: Some(folder.to_owned()), writing: None }
     }
 

@@ -1,12 +1,16 @@
 //! Recovery files: a window has at most one, and a locked file beside it while it runs: `unsaved-AbC123.toml` and
 //! `unsaved-AbC123.lock`.
 use std::{
-    fs::{self, File, TryLockError},
+    fs::{self, TryLockError},
     path::{Path, PathBuf},
     time::Duration,
 };
 
-use noisefall::edit::{Document, Recovery, WindowView};
+use noisefall::{
+    edit::{Document, Recovery, WindowView},
+    file::open_regular,
+    scene::read_text,
+};
 use tempfile::NamedTempFile;
 
 use super::catalogue::in_full;
@@ -95,7 +99,7 @@ pub fn left_files(folder: &Path, extension: &'static str) -> impl Iterator<Item 
 /// Reads a recovery file. Removes it if the scene file has the same content.
 fn read(file: PathBuf) -> Option<FoundRecovery> {
     let recovery = Recovery::read(&file).ok()??;
-    if recovery.path.as_ref().is_some_and(|path| fs::read_to_string(path).is_ok_and(|text| text == recovery.text)) {
+    if recovery.path.as_ref().is_some_and(|path| read_text(path).is_ok_and(|text| text == recovery.text)) {
         remove(&file);
         return None;
     }
@@ -116,7 +120,7 @@ fn is_of(recovery: &Recovery, scene: Option<&Path>) -> bool {
 
 /// Whether a window that runs has the lock of a file.
 pub fn is_in_use(file: &Path) -> bool {
-    File::open(file.with_extension("lock")).is_ok_and(|lock| matches!(lock.try_lock(), Err(TryLockError::WouldBlock)))
+    open_regular(&file.with_extension("lock")).is_ok_and(|lock| matches!(lock.try_lock(), Err(TryLockError::WouldBlock)))
 }
 
 #[cfg(test)]

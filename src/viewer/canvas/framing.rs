@@ -2,6 +2,8 @@
 use glam::DVec3;
 use noisefall::scene::Camera;
 
+use super::projection::pixel_width;
+
 /// Fraction of the image's shorter side that a framed sphere fills.
 const PART: f64 = 0.7;
 
@@ -19,6 +21,14 @@ pub fn look_at(camera: &Camera, center: DVec3, radius: f64) -> Camera {
     };
     let projection = camera.projection.with_width((2.0 * radius / (PART * shorter)).clamp(1e-9, 1e9));
     Camera { eye: center - forward * distance, look_at: center, projection, ..*camera }
+}
+
+/// The extent of what the camera sees at a point, metres: the longer side of the image there. At a wide angle it is what two distances
+/// from the camera see, so that a part of it does not reach the camera.
+pub fn extent_at(camera: &Camera, p: DVec3) -> f64 {
+    let [width, height] = camera.resolution.map(f64::from);
+    let extent = pixel_width(camera, p) * width.max(height);
+    if camera.projection.has_angle() { extent.min(2.0 * camera.eye.distance(p)) } else { extent }
 }
 
 /// A sphere around several spheres, each with its centre and radius; `None` if there are none.
@@ -61,6 +71,20 @@ mod tests {
         let (center, radius) = around([ball, other].into_iter()).expect("there are two");
         assert!([ball, other].iter().all(|(at, size)| at.distance(center) + size <= radius + 1e-12));
         assert_eq!(around(std::iter::empty()), None);
+    }
+
+    #[test]
+    fn the_extent_of_a_view_is_its_longer_side_and_no_more_than_two_distances() {
+        let camera = |projection, fov, resolution| {
+            let (eye, look_at) = (DVec3::new(0.0, 0.0, 10.0), DVec3::ZERO);
+            Camera { eye, look_at, fov, projection, resolution, lens: None, ..built_in().camera }
+        };
+        let of = |projection, fov, resolution| extent_at(&camera(projection, fov, resolution), DVec3::ZERO);
+        let wide = 20.0 * 20f64.to_radians().tan();
+        assert!((of(Projection::Perspective, 40.0, [300, 200]) - wide).abs() < 1e-9);
+        assert!((of(Projection::Perspective, 40.0, [100, 200]) - 2.0 * wide).abs() < 1e-9);
+        assert!((of(Projection::Perspective, 170.0, [300, 200]) - 20.0).abs() < 1e-9);
+        assert!((of(Projection::orthographic(3.0), 40.0, [300, 200]) - 3.0).abs() < 1e-9);
     }
 
     #[test]

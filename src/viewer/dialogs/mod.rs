@@ -9,6 +9,7 @@ pub mod help;
 pub mod loading;
 pub mod notices;
 pub mod open;
+pub mod open_reference;
 mod path_form;
 mod question;
 pub mod recovery;

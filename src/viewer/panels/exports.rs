@@ -1,7 +1,8 @@
-//! The line that shows exports under way: the connection to tev, and numbered frames.
+//! The line that shows what is under way beside the image: the connection to tev, numbered frames, and a reference.
 use egui::{ProgressBar, Ui};
 
 use crate::viewer::background::{
+    reference_task::ReferenceProgress,
     sequence_task::SequenceProgress,
     tev_link::{TevLink, TevState},
 };
@@ -11,10 +12,16 @@ use crate::viewer::background::{
 pub enum ExportCommand {
     StopTev,
     StopSequence,
+    StopReference,
 }
 
-/// Shows the line. `spp` are the samples of a whole frame.
-pub fn show(ui: &mut Ui, tev: &TevLink, sequence: Option<(SequenceProgress, u32)>) -> Option<ExportCommand> {
+/// Shows the line. The number beside the progress of a sequence are the samples of a whole frame.
+pub fn show(
+    ui: &mut Ui,
+    tev: &TevLink,
+    sequence: Option<(SequenceProgress, u32)>,
+    reference: Option<ReferenceProgress>,
+) -> Option<ExportCommand> {
     let mut command = None;
     ui.horizontal_wrapped(|ui| {
         if let Some((progress, spp)) = sequence {
@@ -28,7 +35,15 @@ pub fn show(ui: &mut Ui, tev: &TevLink, sequence: Option<(SequenceProgress, u32)
                 command = Some(ExportCommand::StopSequence);
             }
         }
-        if sequence.is_some() && tev.state() != TevState::Off {
+        if let Some(progress) = reference {
+            if sequence.is_some() {
+                ui.separator();
+            }
+            if show_reference(ui, progress) {
+                command = Some(ExportCommand::StopReference);
+            }
+        }
+        if (sequence.is_some() || reference.is_some()) && tev.state() != TevState::Off {
             ui.separator();
         }
         let text = match tev.state() {
@@ -42,4 +57,15 @@ pub fn show(ui: &mut Ui, tev: &TevLink, sequence: Option<(SequenceProgress, u32)
         }
     });
     command
+}
+
+/// Shows the progress of a reference. Returns whether it is to stop.
+fn show_reference(ui: &mut Ui, progress: ReferenceProgress) -> bool {
+    let percent = |x: f64| format!("{:.2} %", 100.0 * x);
+    let noise = progress.noise.map_or_else(|| "–".to_owned(), percent);
+    let text = format!("Rendering a reference: {} spp, noise {noise} of {}", progress.spp, percent(progress.goal));
+    ui.label(text).on_hover_text("It takes half of the threads. The image goes on.");
+    let part = progress.part();
+    ui.add(ProgressBar::new(part).desired_width(120.0).text(format!("{:.0} %", 100.0 * part)));
+    ui.button("Stop the reference").on_hover_text("Keeps what is rendered. Render a reference continues it.").clicked()
 }

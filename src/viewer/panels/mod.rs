@@ -10,6 +10,7 @@ pub mod outliner;
 pub mod panel_tabs;
 pub mod pixel_readout;
 pub mod presets;
+pub mod reference;
 pub mod sampling;
 pub mod scene;
 pub mod scene_commands;

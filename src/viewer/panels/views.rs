@@ -1,4 +1,4 @@
-//! The choice of a view, and what an image is compared with.
+//! The choice of a view, and the image that a difference is to.
 use std::sync::Arc;
 
 use egui::{ComboBox, Ui};
@@ -6,18 +6,8 @@ use noisefall::render::{Frame, colour_map::ColourMap, view::View};
 
 use crate::viewer::widgets::{
     list::{explained, value_entry},
-    style::{choices, controls, elided, row},
+    style::{choices, controls, row},
 };
-
-/// The reference of the picture.
-pub enum ReferenceSource<'a> {
-    /// A file that was dropped on the window.
-    Dropped(&'a str),
-    Scene,
-    /// The scene has one, for another camera.
-    SceneElsewhere,
-    None,
-}
 
 /// The list of views.
 pub fn choice(ui: &mut Ui, view: &mut View) {
@@ -30,15 +20,8 @@ pub fn choice(ui: &mut Ui, view: &mut View) {
     combo.response.labelled_by(label.id);
 }
 
-/// Shows the rows of the display panel about views. Returns whether the dropped reference is to be forgotten.
-pub fn rows(
-    ui: &mut Ui,
-    map: &mut ColourMap,
-    shown: Option<&Arc<Frame>>,
-    pinned: &mut Option<Arc<Frame>>,
-    reference: &ReferenceSource,
-) -> bool {
-    let mut drops = false;
+/// Shows the rows of the display panel about views.
+pub fn rows(ui: &mut Ui, map: &mut ColourMap, shown: Option<&Arc<Frame>>, pinned: &mut Option<Arc<Frame>>) {
     controls(ui, "views", |ui| {
         row(ui, "Colours", "Colour map of numeric views. Differences and z-scores have their own.", |ui, _| {
             choices(ui, map, &ColourMap::CHOICE);
@@ -57,29 +40,7 @@ pub fn rows(
                 }
             });
         });
-        row(ui, "Reference", "Image that the render must converge to. It gives the true error and the z-scores.", |ui, _| {
-            drops = reference_row(ui, reference);
-        });
     });
-    drops
-}
-
-fn reference_row(ui: &mut Ui, reference: &ReferenceSource) -> bool {
-    let row = ui.horizontal(|ui| {
-        match reference {
-            ReferenceSource::Dropped(name) => {
-                elided(ui, 120.0, *name);
-                return ui.small_button("Drop").on_hover_text("Returns to the reference of the scene.").clicked();
-            }
-            ReferenceSource::Scene => ui.weak("from the scene"),
-            ReferenceSource::SceneElsewhere => ui.weak("for the scene's camera only (Home)"),
-            ReferenceSource::None => {
-                ui.weak("none; drop an EXR here").on_hover_text("A reference is a linear image of the same size.")
-            }
-        };
-        false
-    });
-    row.inner
 }
 
 /// The view after this one, or before it.

@@ -120,7 +120,7 @@ fn a_panorama_becomes_the_sky() {
     is_one_step(&mut window, sky.clone());
     let expected = BackgroundDescription::Image(Image { path: sky.display().to_string(), ..Image::default() });
     assert_eq!(description(&window).background, Some(expected));
-    assert!(window.state().session.dropped_reference.is_none());
+    assert!(window.state().session.given_reference.is_none());
 }
 
 #[test]

@@ -29,7 +29,7 @@ fn curves_of_other_settings_stay_and_those_of_other_cameras_go() {
     };
     grown(&mut window, 1);
     let moment = *window.state().instruments.history.curves[0].moments.last().expect("it has some");
-    assert!(moment.estimated.is_some() && moment.true_error.is_some() && moment.bias.is_some(), "{moment:?}");
+    assert!(moment.noise.is_some() && moment.true_error.is_some() && moment.bias.is_some(), "{moment:?}");
     restarts(&mut window, "independent samples", |w| choose(w, "Sampler", "Independent"));
     grown(&mut window, 2);
     window.run_steps(2);
@@ -43,7 +43,9 @@ fn curves_are_saved_as_table_and_as_drawing() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = with_tab("furnace", "Convergence");
     wait(&mut window, "a curve", |app| app.instruments.history.curves.first().is_some_and(|curve| curve.moments.len() >= 3));
-    for (button, name, start) in [("CSV…", "curves.csv", "settings,sharing,spp,seconds"), ("SVG…", "plot.svg", "<svg")] {
+    for (button, name, start) in
+        [("CSV…", "curves.csv", "name,settings,sharing,hidden,spp,seconds"), ("SVG…", "plot.svg", "<svg")]
+    {
         let path = folder.path().join(name);
         click(&mut window, button);
         window.get_by_role(Role::TextInput).set_text_value_accesskit(&path.display().to_string());

@@ -15,7 +15,7 @@ use crate::viewer::background::{
 };
 use crate::viewer::dialogs::save_target::SaveTarget as File;
 use crate::viewer::instruments::{convergence::curve::Moment, convergence::history::Quantity, tabs::InstrumentTab};
-use crate::viewer::panels::{views, views::ReferenceSource};
+use crate::viewer::panels::views;
 
 /// An app whose fields nobody changes: it shows what it is told.
 pub(super) fn app() -> App {
@@ -182,11 +182,11 @@ fn lines_are_estimates_points_are_true_and_clear_keeps_the_curve_that_grows() {
     let other = RenderSettings { seed: 5, ..scene.settings };
     for (settings, generation) in [(other, 5), (scene.settings, app.background.worker.generation())] {
         for (spp, true_error) in [(1, None), (4, Some(0.25)), (16, None)] {
-            let estimated = Some(0.5 / f64::from(spp));
+            let noise = Some(0.5 / f64::from(spp));
             app.instruments.history.record(
                 &settings,
                 generation,
-                Moment { spp, seconds: 1.0, estimated, true_error, bias: None, sharing: Sharing::Nothing },
+                Moment { spp, seconds: 1.0, noise, true_error, bias: None, sharing: Sharing::Nothing, is_lower_bound: false },
             );
         }
     }
@@ -209,7 +209,15 @@ fn where_no_truth_is_known_the_plot_of_bias_says_what_it_needs() {
     app.instruments.history.what = Quantity::Bias;
     let needs = |texts: &[String]| texts.iter().any(|text| text.starts_with("The bias needs a reference"));
     for (spp, bias, is_known) in [(1, None, false), (4, Some(0.1), true), (16, None, true)] {
-        let moment = Moment { spp, seconds: 1.0, estimated: Some(0.5), true_error: None, bias, sharing: Sharing::Nothing };
+        let moment = Moment {
+            spp,
+            seconds: 1.0,
+            noise: Some(0.5),
+            true_error: None,
+            bias,
+            sharing: Sharing::Nothing,
+            is_lower_bound: false,
+        };
         app.instruments.history.record(&scene.settings, 5, moment);
         assert_eq!(needs(&said(&mut app, |app, ui| app.instrument(ui, InstrumentTab::Convergence))), !is_known, "{spp}");
     }
@@ -233,7 +241,7 @@ fn frame_times_are_those_of_layout_and_of_all() {
 fn a_pinned_picture_has_the_samples_of_its_own() {
     let mut pinned = Some(Arc::new(Frame { spp: 12, ..Frame::default() }));
     let rows = |app: &mut App, ui: &mut egui::Ui| {
-        views::rows(ui, &mut app.session.look.map, Some(&frame()), &mut pinned, &ReferenceSource::None);
+        views::rows(ui, &mut app.session.look.map, Some(&frame()), &mut pinned);
     };
     assert_says(&said(&mut app(), rows), &["12 spp"]);
 }

@@ -1,4 +1,5 @@
 //! The window itself, driven as a user would: change a control, see the effect.
+mod adding;
 mod advice;
 mod bindings;
 mod camera;
@@ -41,6 +42,7 @@ mod random_edits;
 mod rasteriser;
 mod ratios;
 mod recovery;
+mod references;
 mod reloading;
 mod saving;
 mod scene_edits;
@@ -83,7 +85,7 @@ use self::driving::*;
 use super::{
     app::App,
     background::preferences::Preferences,
-    canvas::interaction::Tool,
+    canvas::{framing, interaction::Tool},
     panels::{panel_tabs::PanelTab, subject::Subject},
 };
 

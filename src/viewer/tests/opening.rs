@@ -60,11 +60,11 @@ fn a_dropped_file_is_a_scene_a_picture_with_its_scene_or_a_reference() {
         path
     });
     drop_file(&mut window, reference);
-    wait(&mut window, "the reference", |app| app.session.dropped_reference.is_some());
-    assert_eq!(window.state().session.dropped_reference.as_ref().map(|truth| truth.camera), Some(window.state().session.camera));
+    wait(&mut window, "the reference", |app| app.session.given_reference.is_some());
+    assert_eq!(window.state().session.given_reference.as_ref().map(|truth| truth.camera), Some(window.state().session.camera));
     drop_file(&mut window, shipped("furnace"));
     wait(&mut window, "the scene", |app| app.session.opened.as_ref().is_some_and(|opened| opened.name == "Furnace"));
-    assert!(window.state().session.dropped_reference.is_none(), "it was of the other scene");
+    assert!(window.state().session.given_reference.is_none(), "it was of the other scene");
     drop_file(&mut window, picture.clone());
     wait(&mut window, "the scene of the picture", |app| {
         app.session.opened.as_ref().is_some_and(|opened| opened.path.as_ref() == Some(&picture))

@@ -73,7 +73,7 @@ fn the_ideal_line_follows_the_curve_that_grows() {
         window.state_mut().session.settings.seed = seed;
         wait(window, "its curve", |app| {
             let curve = app.instruments.history.curves.iter().find(|curve| curve.settings.seed == seed);
-            let is_long = |curve: &&Curve| curve.moments.iter().filter(|moment| moment.estimated.is_some()).count() >= 3;
+            let is_long = |curve: &&Curve| curve.moments.iter().filter(|moment| moment.noise.is_some()).count() >= 3;
             let is_shown = app.instruments.history.current.is_some_and(|settings| settings.seed == seed);
             curve.filter(is_long).is_some() && is_shown
         });
@@ -82,7 +82,7 @@ fn the_ideal_line_follows_the_curve_that_grows() {
         sampled(&mut window, seed);
         let history = &window.state().instruments.history;
         let curve = history.curves.iter().find(|curve| curve.settings.seed == seed).expect("it is there");
-        let (x, y) = *curve.errors(history.over, |moment| moment.estimated).last().expect("it has figures");
+        let (x, y) = *curve.errors(history.over, |moment| moment.noise).last().expect("it has figures");
         let [(from, high), (to, low)] = history.guide()[..] else { panic!("it has two ends") };
         for (at, height) in [(from, high), (to, low)] {
             assert!((height / (y * (x / at).sqrt()) - 1.0).abs() < 1e-9, "seed {seed}: the line misses ({x}, {y})");

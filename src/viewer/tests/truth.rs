@@ -2,7 +2,7 @@
 use noisefall::{render::Budget, scene::Camera};
 
 use super::*;
-use crate::viewer::{background::loader::DroppedReference, instruments::tabs::InstrumentTab};
+use crate::viewer::{background::given_reference::GivenReference, instruments::tabs::InstrumentTab};
 
 /// Waits for a full picture of what the controls say, as the window shows it.
 fn full(window: &mut Window) {
@@ -52,24 +52,25 @@ fn the_truth_of_the_scene_goes_with_its_camera_and_comes_back_with_it() {
 }
 
 #[test]
-fn a_dropped_reference_holds_for_the_camera_that_it_was_dropped_at() {
+fn a_given_reference_holds_for_the_camera_that_it_was_dropped_at() {
     let mut window = window("cornell_spheres");
     full(&mut window);
     let (camera, frame) = (window.state().session.camera, window.state().results.shown.clone().expect("it is shown"));
     let reference = std::sync::Arc::new(noisefall::render::truth::Reference::Constant(frame.radiance[0]));
-    window.state_mut().session.dropped_reference = Some(DroppedReference { name: "mine.exr".to_owned(), reference, camera });
+    window.state_mut().session.given_reference =
+        Some(GivenReference { name: "mine.exr".to_owned(), reference, camera, scene: None });
     wait(&mut window, "the true error", |app| app.results.comparison.is_some());
     window.run_steps(2);
-    assert!(says(&window, "mine.exr") && !says(&window, "none; drop an EXR"));
+    assert!(says(&window, "mine.exr") && says(&window, "noise unknown"));
     window.state_mut().session.camera = Camera { eye: camera.eye + DVec3::X * 0.1, ..camera };
     full(&mut window);
     assert!(window.state().results.comparison.is_none() && !states_error(&window));
     window.state_mut().session.camera = camera;
     full(&mut window);
     assert!(window.state().results.comparison.is_some());
-    click(&mut window, "Drop");
+    click(&mut window, "Remove");
     wait(&mut window, "no truth", |app| app.results.comparison.is_none());
-    assert!(window.state().session.dropped_reference.is_none() && says(&window, "none; drop an EXR"));
+    assert!(window.state().session.given_reference.is_none() && !says(&window, "mine.exr"));
 }
 
 #[test]

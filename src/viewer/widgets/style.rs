@@ -71,8 +71,12 @@ pub fn elided(ui: &mut egui::Ui, width: f32, text: impl Into<egui::WidgetText>) 
     .inner
 }
 
-/// Shows a coloured square, as the key of a legend.
-pub fn swatch(ui: &mut egui::Ui, colour: Color32) {
+/// Shows a coloured square as the key of a legend, or its outline.
+pub fn swatch(ui: &mut egui::Ui, colour: Color32, is_filled: bool) {
     let (rect, _) = ui.allocate_exact_size(egui::vec2(11.0, 11.0), egui::Sense::hover());
-    ui.painter().rect_filled(rect, 2.0, colour);
+    if is_filled {
+        ui.painter().rect_filled(rect, 2.0, colour);
+    } else {
+        ui.painter().rect_stroke(rect, 2.0, egui::Stroke::new(1.5, colour), egui::StrokeKind::Inside);
+    }
 }

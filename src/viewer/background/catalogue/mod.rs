@@ -1,12 +1,11 @@
 //! The scenes of the list and the gallery: those that come with the program, those of a user in a `scenes/` folder, and files opened
 //! from elsewhere.
 use std::{
-    fs::File,
     io::Read,
     path::{Path, PathBuf},
 };
 
-use noisefall::scene::ShippedScene;
+use noisefall::{file::open_regular, scene::ShippedScene};
 
 /// Number of bytes that are read to find a title, which is at the beginning of a file.
 const LONGEST_HEAD: u64 = 16 << 10;
@@ -158,7 +157,7 @@ fn list(folder: &Path) -> Vec<CatalogueEntry> {
     let paths = entries.filter_map(|entry| Some(entry.ok()?.path()));
     let scenes = paths.filter(|path| path.is_file() && path.extension().is_some_and(|extension| extension == "toml"));
     let entry = |path: PathBuf| {
-        let [title, notes] = File::open(&path).map_or_else(|_| Default::default(), |mut file| texts(&mut file));
+        let [title, notes] = open_regular(&path).map_or_else(|_| Default::default(), |mut file| texts(&mut file));
         CatalogueEntry { name: name(&title, &path), notes, path: in_full(&path), chapter: chapter(&path) }
     };
     scenes.map(entry).collect()

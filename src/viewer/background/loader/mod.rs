@@ -18,19 +18,11 @@ use noisefall::{
 use super::{
     background_task::BackgroundTask,
     catalogue::BUILT_IN_NAME,
+    given_reference::GivenReference,
     opened_scene::{GivenScene, OpenResult, begin, open, restore},
 };
 
-/// A reference image that was dropped on the window.
-pub struct DroppedReference {
-    /// Name of its file.
-    pub name: String,
-    pub reference: Arc<Reference>,
-    /// The camera at that moment, which the reference is for.
-    pub camera: Camera,
-}
-
-pub type ReferenceResult = Result<DroppedReference, String>;
+pub type ReferenceResult = Result<GivenReference, String>;
 
 pub struct Loader {
     ctx: egui::Context,
@@ -114,7 +106,7 @@ impl Loader {
         self.reference = Some(BackgroundTask::start(&self.ctx, move |_| {
             let name = file_name(&path);
             let read = Reference::read(&path);
-            let read = read.map(|reference| DroppedReference { name, reference: Arc::new(reference), camera });
+            let read = read.map(|reference| GivenReference { name, reference: Arc::new(reference), camera, scene: None });
             read.map_err(|error| format!("Not a reference: {error}"))
         }));
     }

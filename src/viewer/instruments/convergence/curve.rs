@@ -1,6 +1,8 @@
 //! A curve of the error of one setting, run by run.
+use std::sync::{Arc, Weak};
+
 use noisefall::{
-    render::Frame,
+    render::{Frame, truth::Reference},
     scene::{RenderSettings, Sharing},
     study::{Slope, slope},
 };
@@ -21,14 +23,16 @@ pub struct Moment {
     pub spp: u32,
     /// Time spent rendering.
     pub seconds: f64,
-    /// Relative error: the root of relMSE, as estimated.
-    pub estimated: Option<f64>,
-    /// The same, against the truth.
+    /// Relative noise: the root of relMSE as it is estimated from the samples, which do not see a bias.
+    pub noise: Option<f64>,
+    /// Relative error: the root of relMSE against the reference.
     pub true_error: Option<f64>,
     /// Bias of the mean over the image, in standard errors.
     pub bias: Option<f64>,
     /// What pixels share.
     pub sharing: Sharing,
+    /// Few pixels carry the noise, so that it may be much larger.
+    pub is_lower_bound: bool,
 }
 
 /// The figures of one setting.
@@ -36,9 +40,25 @@ pub struct Curve {
     pub settings: RenderSettings,
     pub generation: u64,
     pub moments: Vec<Moment>,
+    /// Place of its colour.
+    pub colour: usize,
+    pub is_hidden: bool,
+    /// The name that the user gave it.
+    pub given_name: Option<String>,
+    /// The figures against references that are not in force.
+    put_away: Vec<PutAway>,
     /// The figures of a later run with the same settings, while it is the shorter one.
     later_run: Option<Vec<Moment>>,
 }
+
+/// What was found against a reference that is not in force, by sample count.
+struct PutAway {
+    reference: Weak<Reference>,
+    figures: Vec<(u32, Option<f64>, Option<f64>)>,
+}
+
+/// Rise of the noise · √N of a curve beyond which its tail is heavy: the variance is still found.
+const HEAVIEST_RISE: f64 = 1.15;
 
 /// Least ratio of the sample counts of successive moments.
 const SPACING: f64 = 1.03;
@@ -48,10 +68,11 @@ impl Moment {
         Moment {
             spp: frame.spp,
             seconds: frame.elapsed.as_secs_f64(),
-            estimated: frame.rel_mse_estimate.map(f64::sqrt),
+            noise: frame.rel_mse_estimate.map(f64::sqrt),
             true_error: comparison.map(|comparison| comparison.rel_mse.sqrt()),
             bias: comparison.and_then(|comparison| comparison.bias),
             sharing: frame.sharing,
+            is_lower_bound: frame.error_is_lower_bound,
         }
     }
 
@@ -64,8 +85,17 @@ impl Moment {
 }
 
 impl Curve {
-    pub fn new(settings: RenderSettings, generation: u64) -> Curve {
-        Curve { settings, generation, moments: Vec::new(), later_run: None }
+    pub fn new(settings: RenderSettings, generation: u64, colour: usize) -> Curve {
+        Curve {
+            settings,
+            generation,
+            moments: Vec::new(),
+            colour,
+            is_hidden: false,
+            given_name: None,
+            put_away: Vec::new(),
+            later_run: None,
+        }
     }
 
     /// Records a full frame. A run that goes on with its samples continues the curve. One that starts over replaces the curve as soon
@@ -83,10 +113,23 @@ impl Curve {
         }
     }
 
-    /// Drops what was found against a reference.
-    pub fn forget_truth(&mut self) {
+    /// Puts the figures against a reference away, and gets those against another one back: an undo returns to a reference.
+    pub fn exchange_reference(&mut self, from: Option<&Arc<Reference>>, to: Option<&Arc<Reference>>) {
+        self.put_away.retain(|known| known.reference.strong_count() > 0);
+        let figures = self.moments.iter().filter(|moment| moment.true_error.is_some() || moment.bias.is_some());
+        let figures: Vec<_> = figures.map(|moment| (moment.spp, moment.true_error, moment.bias)).collect();
+        if let Some(from) = from.filter(|_| !figures.is_empty()) {
+            self.put_away.push(PutAway { reference: Arc::downgrade(from), figures });
+        }
         let moments = self.moments.iter_mut().chain(self.later_run.iter_mut().flatten());
         moments.for_each(|moment| (moment.true_error, moment.bias) = (None, None));
+        let is_to = |known: &PutAway| to.is_some_and(|to| known.reference.as_ptr() == Arc::as_ptr(to));
+        let Some(at) = self.put_away.iter().position(is_to) else { return };
+        for (spp, true_error, bias) in self.put_away.remove(at).figures {
+            if let Some(moment) = self.moments.iter_mut().find(|moment| moment.spp == spp) {
+                (moment.true_error, moment.bias) = (true_error, bias);
+            }
+        }
     }
 
     /// What the pixels of its picture share.
@@ -108,15 +151,34 @@ impl Curve {
         if own.is_empty() { self.later_run.as_deref().map(of).unwrap_or_default() } else { own }
     }
 
-    /// Slope of the estimated error over moments that are about doublings, from 4 samples on.
+    /// Slope of the noise over moments that are about doublings, if it is known to a half.
     pub fn slope(&self, over: HorizontalAxis) -> Option<Slope> {
+        slope(&[self.doublings(over)]).filter(|slope| slope.half_width < 0.5)
+    }
+
+    /// Whether few pixels carry the noise, or it falls more slowly than that of independent samples, at least for a while: rare bright
+    /// samples are still being found, so neither noise nor slope is what it will be.
+    pub fn has_heavy_tail(&self) -> bool {
+        if self.moments.iter().filter(|moment| moment.spp >= 4).any(|moment| moment.is_lower_bound) {
+            return true;
+        }
+        let scaled = self.doublings(HorizontalAxis::Samples).into_iter().map(|(n, noise)| noise * n.sqrt());
+        let mut least = f64::INFINITY;
+        scaled.into_iter().any(|scaled| {
+            least = least.min(scaled);
+            scaled > HEAVIEST_RISE * least
+        })
+    }
+
+    /// The noise at moments that are about doublings, from 4 samples on.
+    fn doublings(&self, over: HorizontalAxis) -> Vec<(f64, f64)> {
         let mut doublings: Vec<(f64, f64)> = Vec::new();
-        for point in self.errors(over, |moment| moment.estimated.filter(|_| moment.spp >= 4)) {
+        for point in self.errors(over, |moment| moment.noise.filter(|_| moment.spp >= 4)) {
             if doublings.last().is_none_or(|last| point.0 >= 1.9 * last.0) {
                 doublings.push(point);
             }
         }
-        slope(&[doublings])
+        doublings
     }
 }
 
@@ -126,7 +188,7 @@ fn append(moments: &mut Vec<Moment>, moment: Moment) {
     if f64::from(moment.spp) >= last * SPACING && f64::from(moment.spp) > last {
         moments.push(moment);
     } else if moment.spp > 0 && moment.true_error.is_some() {
-        // A truth that came later is held against what is there.
+        // What is there is held against a reference that came later.
         if let Some(last) = moments.last_mut().filter(|last| last.spp == moment.spp) {
             *last = moment;
         }
@@ -144,10 +206,38 @@ mod tests {
         let comparison = ReferenceComparison { rel_mse: 0.25, bias: Some(-3.0) };
         let all = Moment::of(&frame, Some(comparison));
         assert_eq!((all.spp, all.seconds, all.true_error, all.bias), (7, 1.5, Some(0.5), Some(-3.0)));
-        assert!((all.estimated.expect("it is known") - 0.2).abs() < 1e-12);
+        assert!((all.noise.expect("it is known") - 0.2).abs() < 1e-12);
         let alone = Moment::of(&frame, None);
-        assert_eq!((alone.true_error, alone.bias, alone.estimated), (None, None, all.estimated));
+        assert_eq!((alone.true_error, alone.bias, alone.noise), (None, None, all.noise));
         assert_eq!((all.over(HorizontalAxis::Samples), all.over(HorizontalAxis::Seconds)), (7.0, 1.5));
+    }
+
+    #[test]
+    fn the_tail_of_a_curve_is_heavy_if_its_noise_once_falls_too_slowly() {
+        let curve = |noise: &dyn Fn(f64) -> f64| {
+            let mut curve = Curve::new(RenderSettings::default(), 1, 0);
+            for doubling in 0..10 {
+                let n = f64::from(1 << doubling);
+                let noise = Some(noise(n));
+                let moment = Moment {
+                    spp: 1 << doubling,
+                    seconds: n,
+                    noise,
+                    true_error: None,
+                    bias: None,
+                    sharing: Sharing::Nothing,
+                    is_lower_bound: false,
+                };
+                curve.record(1, moment);
+            }
+            curve.has_heavy_tail()
+        };
+        // Independent, stratified, and wild only before the fourth sample.
+        assert!(!curve(&|n| n.powf(-0.5)) && !curve(&|n| n.powf(-0.75)));
+        assert!(!curve(&|n| if n < 4.0 { 0.01 } else { n.powf(-0.5) }));
+        // A slope of infinite variance, and one bright sample that is found late.
+        assert!(curve(&|n| n.powf(-0.4)));
+        assert!(curve(&|n| n.powf(-0.5) * if n < 100.0 { 1.0 } else { 1.5 }));
     }
 
     #[test]
@@ -155,16 +245,17 @@ mod tests {
         let moment = |spp: u32, true_error| Moment {
             spp,
             seconds: f64::from(spp),
-            estimated: Some(0.5),
+            noise: Some(0.5),
             true_error,
             bias: true_error,
             sharing: Sharing::Nothing,
+            is_lower_bound: false,
         };
-        let mut curve = Curve::new(RenderSettings::default(), 1);
+        let mut curve = Curve::new(RenderSettings::default(), 1, 0);
         curve.record(1, moment(100, None));
         curve.record(2, moment(8, Some(0.25)));
         let over = HorizontalAxis::Samples;
-        assert_eq!(curve.errors(over, |moment| moment.estimated), [(100.0, 0.5)]);
+        assert_eq!(curve.errors(over, |moment| moment.noise), [(100.0, 0.5)]);
         assert_eq!(curve.errors(over, |moment| moment.true_error), [(8.0, 0.25)]);
         assert_eq!(curve.values(over, |moment| moment.bias), [(8.0, 0.25)]);
     }
@@ -174,12 +265,13 @@ mod tests {
         let moment = |spp: u32, error| Moment {
             spp,
             seconds: f64::from(spp) * 0.5,
-            estimated: Some(error),
+            noise: Some(error),
             true_error: None,
             bias: None,
             sharing: Sharing::Nothing,
+            is_lower_bound: false,
         };
-        let mut curve = Curve::new(RenderSettings::default(), 1);
+        let mut curve = Curve::new(RenderSettings::default(), 1, 0);
         [8, 16, 100].into_iter().for_each(|spp| curve.record(1, moment(spp, 0.1)));
         let spps = |curve: &Curve| curve.moments.iter().map(|moment| moment.spp).collect::<Vec<_>>();
         // Its samples are given back.
@@ -189,7 +281,7 @@ mod tests {
         assert_eq!((spps(&curve), curve.generation), (vec![8, 16, 100, 110], 3), "the longer one stays");
         curve.record(3, moment(120, 0.2));
         assert_eq!(spps(&curve), [1, 50, 110, 120]);
-        assert!(curve.moments.iter().all(|moment| moment.estimated == Some(0.2)));
+        assert!(curve.moments.iter().all(|moment| moment.noise == Some(0.2)));
         curve.record(3, moment(140, 0.2));
         assert_eq!(spps(&curve), [1, 50, 110, 120, 140]);
     }

@@ -2,13 +2,14 @@
 use std::sync::{Arc, Weak};
 
 use noisefall::{
-    render::truth::Reference,
+    render::{Frame, truth::Reference},
     scene::{Camera, RenderSettings, Scene, Sharing},
 };
 
 use super::{
     colours::COLOURS,
     curve::{Curve, HorizontalAxis, Moment},
+    lost_light::LostLight,
 };
 use crate::viewer::widgets::counted::counted;
 
@@ -28,8 +29,11 @@ pub struct History {
     pub what: Quantity,
     /// The settings that are rendered now.
     pub current: Option<RenderSettings>,
+    /// The curve that is being renamed, and the name so far.
+    pub renaming: Option<(RenderSettings, String)>,
+    lost_light: Option<LostLight>,
     subject: Option<(Arc<Scene>, Camera)>,
-    truth: Option<Arc<Reference>>,
+    reference: Option<Arc<Reference>>,
     earlier: Vec<Earlier>,
 }
 
@@ -38,7 +42,8 @@ struct Earlier {
     /// Alive as long as an undo can return to it.
     scene: Weak<Scene>,
     camera: Camera,
-    truth: Option<Arc<Reference>>,
+    reference: Option<Arc<Reference>>,
+    lost_light: Option<LostLight>,
     curves: Vec<Curve>,
 }
 
@@ -49,30 +54,31 @@ const MOST_EARLIER: usize = 24;
 const MOST_CURVES: usize = COLOURS.len();
 
 impl History {
-    /// Shows the curves of this picture: none, or those that were recorded before. Drops errors against another reference.
-    pub fn look_at(&mut self, scene: &Arc<Scene>, camera: &Camera, truth: Option<&Arc<Reference>>) {
+    /// Shows the curves of this picture: none, or those that were recorded before, with their errors against this reference.
+    pub fn look_at(&mut self, scene: &Arc<Scene>, camera: &Camera, reference: Option<&Arc<Reference>>) {
         match self.subject.take() {
             Some((old, at)) if old.has_same_image(scene) && at == *camera => {}
             Some((old, at)) => self.change_picture((&old, at), (scene, camera)),
             None => {}
         }
         self.subject = Some((scene.clone(), *camera));
-        if self.truth.as_ref().map(Arc::as_ptr) != truth.map(Arc::as_ptr) {
-            self.curves.iter_mut().for_each(Curve::forget_truth);
-            self.truth = truth.cloned();
+        if self.reference.as_ref().map(Arc::as_ptr) != reference.map(Arc::as_ptr) {
+            self.curves.iter_mut().for_each(|curve| curve.exchange_reference(self.reference.as_ref(), reference));
+            self.reference = reference.cloned();
         }
     }
 
     /// Puts the curves of a picture away, and gets those of another one back.
     fn change_picture(&mut self, (old, from): (&Arc<Scene>, Camera), (scene, to): (&Arc<Scene>, &Camera)) {
-        let curves = std::mem::take(&mut self.curves);
+        let (curves, reference, lost_light) = (std::mem::take(&mut self.curves), self.reference.take(), self.lost_light.take());
+        self.renaming = None;
         if !curves.is_empty() {
-            self.earlier.push(Earlier { scene: Arc::downgrade(old), camera: from, truth: self.truth.take(), curves });
+            self.earlier.push(Earlier { scene: Arc::downgrade(old), camera: from, reference, lost_light, curves });
         }
         let is_of = |earlier: &Earlier| earlier.scene.upgrade().is_some_and(|of| of.has_same_image(scene));
         if let Some(at) = self.earlier.iter().position(|earlier| earlier.camera == *to && is_of(earlier)) {
             let known = self.earlier.remove(at);
-            (self.curves, self.truth) = (known.curves, known.truth);
+            (self.curves, self.reference, self.lost_light) = (known.curves, known.reference, known.lost_light);
         }
         if self.earlier.len() > MOST_EARLIER {
             let length = |earlier: &Earlier| earlier.curves.iter().map(|curve| curve.moments.len()).sum::<usize>();
@@ -89,21 +95,62 @@ impl History {
                 let oldest = (0..MOST_CURVES).min_by_key(|&at| self.curves[at].generation).unwrap_or(0);
                 self.curves.remove(oldest);
             }
-            self.curves.push(Curve::new(*settings, generation));
+            let is_free = |colour: &usize| self.curves.iter().all(|curve| curve.colour != *colour);
+            let colour = (0..MOST_CURVES).find(is_free).unwrap_or_default();
+            self.curves.push(Curve::new(*settings, generation, colour));
             self.curves.len() - 1
         });
         self.curves[at].record(generation, moment);
     }
 
-    /// Names a curve by its settings, and by sharing.
+    /// The curves that are plotted.
+    pub fn shown(&self) -> impl DoubleEndedIterator<Item = &Curve> {
+        self.curves.iter().filter(|curve| !curve.is_hidden)
+    }
+
+    /// Whether a plotted curve has an error against a reference. All else is noise.
+    pub fn is_measured(&self) -> bool {
+        self.shown().flat_map(|curve| &curve.moments).any(|moment| moment.true_error.is_some())
+    }
+
+    /// The name of the vertical axis of errors.
+    pub fn error_title(&self) -> &'static str {
+        if self.is_measured() { "relative noise and error" } else { "relative noise" }
+    }
+
+    /// Takes note of the series of the current picture without a cap.
+    pub fn note_series(&mut self, frame: &Frame) {
+        if self.lost_light.as_ref().is_none_or(|known| known.spp() < frame.spp) {
+            self.lost_light = LostLight::of(frame).or(self.lost_light.take());
+        }
+    }
+
+    /// Whether a plotted curve has a cap whose bias is not known well.
+    pub fn needs_series(&self) -> bool {
+        let has_cap = self.shown().any(|curve| curve.settings.max_bounces.is_some());
+        has_cap && self.lost_light.as_ref().is_none_or(LostLight::is_rough)
+    }
+
+    /// The bias of the cap of a curve, relative to the light of the image: its error does not fall far below.
+    pub fn bias_of_cap(&self, curve: &Curve) -> Option<f64> {
+        self.lost_light.as_ref()?.by_cap(curve.settings.max_bounces?)
+    }
+
+    /// The name of a curve: the given one, or what its settings and its sharing are.
     pub fn name(&self, curve: &Curve) -> String {
+        curve.given_name.clone().unwrap_or_else(|| self.own_name(curve))
+    }
+
+    /// Names a curve by its settings, and by sharing.
+    pub fn own_name(&self, curve: &Curve) -> String {
         let of_scene = self.subject.as_ref().map_or_else(RenderSettings::default, |(scene, _)| scene.settings);
         let bias = if curve.settings.bias_with(curve.sharing()).is_some() { " (biased)" } else { "" };
         name(&curve.settings, &of_scene, curve.sharing()) + bias
     }
 }
 
-/// Names settings by what differs from those of the scene, or by estimator and sampler if nothing does, and by what pixels share.
+/// Names settings by what differs from those of the scene, or by estimator and sampler if nothing does, by the cap, and by what pixels
+/// share.
 /// The words are those of the panel.
 pub fn name(settings: &RenderSettings, of_scene: &RenderSettings, sharing: Sharing) -> String {
     let RenderSettings { estimator, directions, sampler, roulette, max_bounces, reuse, adaptive, seed, .. } = *settings;
@@ -120,6 +167,10 @@ pub fn name(settings: &RenderSettings, of_scene: &RenderSettings, sharing: Shari
     let mut parts: Vec<String> = parts.into_iter().filter(|(differs, _)| *differs).map(|(_, words)| words).collect();
     if parts.is_empty() && reuse == of_scene.reuse {
         parts.extend([estimator.word().title, sampler.word().title].map(str::to_owned));
+    }
+    // An image with a cap has another limit, whichever is that of the scene.
+    if let Some(cap) = max_bounces.filter(|_| max_bounces == of_scene.max_bounces) {
+        parts.push(format!("cap of {}", counted(cap, "bounce")));
     }
     parts.push(sharing.name().to_owned());
     parts.join(", ")
@@ -138,10 +189,11 @@ mod tests {
         Moment {
             spp,
             seconds: f64::from(spp) * 0.5,
-            estimated: Some(error),
+            noise: Some(error),
             true_error: None,
             bias: None,
             sharing: Sharing::Nothing,
+            is_lower_bound: false,
         }
     }
 
@@ -206,7 +258,7 @@ mod tests {
         // Another truth: the curve stays, the errors against the old one go, and those against the new one come in their place.
         same.look_at(&scene, &scene.camera, None);
         let last = same.curves[0].moments[0];
-        assert_eq!((last.true_error, last.bias, last.estimated), (None, None, Some(0.2)));
+        assert_eq!((last.true_error, last.bias, last.noise), (None, None, Some(0.2)));
         same.record(&scene.settings, 1, with_truth);
         assert_eq!(same.curves[0].moments[0].true_error, Some(0.1));
         let mut moved = start();
@@ -216,7 +268,13 @@ mod tests {
         assert_eq!(moved.curves[0].moments[0].true_error, Some(0.1), "its curves come back with their camera");
         moved.look_at(&scene, &Camera { fov: 50.0, ..scene.camera }, None);
         moved.look_at(&scene, &scene.camera, None);
-        assert_eq!((moved.curves.len(), moved.curves[0].moments[0].true_error), (1, None), "but no errors against another truth");
+        assert_eq!(
+            (moved.curves.len(), moved.curves[0].moments[0].true_error),
+            (1, None),
+            "but no errors against another reference"
+        );
+        moved.look_at(&scene, &scene.camera, Some(&truth));
+        assert_eq!(moved.curves[0].moments[0].true_error, Some(0.1), "until it is in force again");
         let mut other = start();
         let edited = Arc::new(built_in());
         other.look_at(&edited, &scene.camera, Some(&truth));
@@ -241,5 +299,7 @@ mod tests {
         assert_eq!(name(&scene.settings, &scene.settings, Sharing::Suffixes), "MIS, Sobol (Owen), shared paths");
         let merged = RenderSettings { estimator: Estimator::Bidirectional, merging: true, ..scene.settings };
         assert_eq!(name(&merged, &scene.settings, Sharing::Merged), "Bidirectional, merged vertices");
+        let capped = RenderSettings { max_bounces: Some(2), ..scene.settings };
+        assert_eq!(name(&capped, &capped, Sharing::Nothing), "MIS, Sobol (Owen), cap of 2 bounces, no sharing");
     }
 }

@@ -3,4 +3,6 @@ pub mod colours;
 pub mod curve;
 mod export;
 pub mod history;
+mod legend;
+pub mod lost_light;
 pub mod plot;

@@ -1,9 +1,8 @@
 //! The plot of errors and its controls.
-use egui::{Color32, Label, RichText, Ui};
-use egui_plot::{AxisHints, GridInput, GridMark, HLine, Line, LineStyle, Plot, PlotPoints, Points};
+use egui::{Color32, Ui};
+use egui_plot::{AxisHints, GridInput, GridMark, HLine, Line, LineStyle, Plot, PlotPoints, PlotUi, Points};
 
-use super::{colours::COLOURS, curve::Curve, curve::HorizontalAxis, history::History, history::Quantity};
-use crate::viewer::widgets::style;
+use super::{colours::COLOURS, curve::HorizontalAxis, history::History, history::Quantity, legend};
 
 /// A file that the curves are to be saved as.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -11,6 +10,11 @@ pub enum CurveFile {
     Csv,
     Svg,
 }
+
+/// Width of a curve in points.
+const CURVE: f32 = 2.2;
+/// Opacity of the strongest lines of the grid.
+const GRID: f32 = 0.3;
 
 /// Shows the curves and their figures. `latest` are the generations of the two views; a hint says how to get a reference where
 /// `has_reference` is false.
@@ -42,18 +46,20 @@ fn figures_column(ui: &mut Ui, history: &mut History, latest: [Option<u64>; 2], 
     axis_choice(ui, history);
     // Above the figures, whose lines break elsewhere as the numbers grow.
     let file = buttons(ui, history, latest);
-    legend(ui, history, latest);
+    legend::show(ui, history, latest);
     if !has_reference {
         ui.add_space(4.0);
-        ui.weak("Drop a reference EXR on the window to see the true error and the bias.");
+        ui.weak("Noise does not show bias. Render or open a reference (panel Display) to see the true error and the bias.");
     }
     file
 }
 
 fn axis_choice(ui: &mut Ui, history: &mut History) {
     ui.horizontal(|ui| {
-        ui.selectable_value(&mut history.what, Quantity::Error, "Error").on_hover_text(
-            "Relative error, the root of relMSE. Lines are estimated from the samples, points are measured against the reference.",
+        let name = if history.is_measured() { "Error" } else { "Noise" };
+        ui.selectable_value(&mut history.what, Quantity::Error, name).on_hover_text(
+            "Lines are the relative noise, the root of relMSE estimated from the samples, which does not show bias. Points are the relative \
+             error, measured against the reference. Long dashes are the bias of a cap.",
         );
         ui.selectable_value(&mut history.what, Quantity::Bias, "Bias").on_hover_text(
             "Mean of the image minus that of the reference, in standard errors. An unbiased estimate stays within ±2 in 95 % of cases.",
@@ -63,41 +69,6 @@ fn axis_choice(ui: &mut Ui, history: &mut History) {
         ui.selectable_value(&mut history.over, HorizontalAxis::Seconds, "over time").on_hover_text("Plots over render time.");
     });
     ui.add_space(4.0);
-}
-
-const FIGURES: &str = "Samples per pixel, render time and estimated relative error. Against the reference: true error, and bias of the mean in \
-                       standard errors. The slope is that of log error, with its 95 % interval; independent samples have −0.5.";
-
-/// Names the curves and gives their last figures.
-fn legend(ui: &mut Ui, history: &History, latest: [Option<u64>; 2]) {
-    for (number, curve) in history.curves.iter().enumerate() {
-        let name = history.name(curve);
-        ui.horizontal_top(|ui| {
-            ui.vertical(|ui| {
-                ui.add_space(2.0);
-                style::swatch(ui, COLOURS[number % COLOURS.len()]);
-            });
-            let text = RichText::new(&name);
-            ui.vertical(|ui| {
-                ui.set_max_width(236.0);
-                ui.add(Label::new(if latest.contains(&Some(curve.generation)) { text.strong() } else { text }).wrap());
-            });
-        });
-        ui.indent(number, |ui| ui.weak(figures(curve, history.over)).on_hover_text(FIGURES));
-    }
-    if history.curves.is_empty() {
-        ui.weak("Available after two samples per pixel. Curves of earlier settings stay.");
-    }
-    if !history.curves.is_empty() {
-        let root = if history.over == HorizontalAxis::Samples { "1/√N" } else { "1/√time" };
-        ui.weak(match history.what {
-            Quantity::Error => {
-                format!("Lines: estimated. Points: against the reference. Dashed: {root} through the current curve, the rate of independent samples.")
-            }
-            Quantity::Bias => "Dashed: 0 and ±2 σ. Unbiased means stay within ±2 σ in 95 % of cases.".to_owned(),
-        });
-    }
-    ui.add_space(6.0);
 }
 
 fn buttons(ui: &mut Ui, history: &mut History, latest: [Option<u64>; 2]) -> Option<CurveFile> {
@@ -121,10 +92,9 @@ fn buttons(ui: &mut Ui, history: &mut History, latest: [Option<u64>; 2]) -> Opti
 }
 
 fn plot(ui: &mut Ui, history: &History) {
-    if history.what == Quantity::Bias
-        && history.curves.iter().all(|curve| curve.values(history.over, |moment| moment.bias).is_empty())
+    if history.what == Quantity::Bias && history.shown().all(|curve| curve.values(history.over, |moment| moment.bias).is_empty())
     {
-        ui.label("The bias needs a reference: open a scene with [truth], or drop a reference EXR on the window.");
+        ui.label("The bias needs a reference. Render or open one (panel Display).");
         return;
     }
     let (over, what) = (history.over, history.what);
@@ -135,13 +105,15 @@ fn plot(ui: &mut Ui, history: &History) {
         .formatter(power);
     let y = AxisHints::new_y().min_thickness(44.0);
     let y = match what {
-        Quantity::Error => y.label("relative error").formatter(power),
+        Quantity::Error => y.label(history.error_title()).formatter(power),
         Quantity::Bias => y.label("bias in standard errors").formatter(plain),
     };
     let plot = Plot::new(("convergence", over == HorizontalAxis::Samples, what == Quantity::Error))
         .custom_x_axes(vec![x])
         .custom_y_axes(vec![y])
         .x_grid_spacer(|input| decades(&input))
+        // Fainter than the curves on dark and on light ground.
+        .grid_color(ui.visuals().text_color().gamma_multiply(GRID))
         .show_crosshair(false)
         .allow_zoom(false)
         .allow_scroll(false)
@@ -150,54 +122,38 @@ fn plot(ui: &mut Ui, history: &History) {
         if what == Quantity::Error { plot.y_grid_spacer(|input| decades(&input)) } else { plot.include_y(-3.0).include_y(3.0) };
     // Numbers below the axis may stand out at its end.
     let room = egui::Frame::new().inner_margin(egui::Margin { right: 14, ..egui::Margin::ZERO });
-    let draw = |plot: &mut egui_plot::PlotUi<'_>| {
-        for (number, curve) in history.curves.iter().enumerate() {
-            let (colour, name) = (COLOURS[number % COLOURS.len()], history.name(curve));
-            match what {
-                Quantity::Error => {
-                    let estimated = logarithms(&curve.errors(over, |moment| moment.estimated));
-                    plot.line(Line::new(name.clone(), estimated).color(colour).width(1.8));
-                    let truth = logarithms(&curve.errors(over, |moment| moment.true_error));
-                    plot.points(Points::new(name, truth).color(colour).radius(2.2));
-                }
-                Quantity::Bias => {
-                    let bias = curve.values(over, |moment| moment.bias).into_iter().map(|(x, bias)| [x.log10(), bias]);
-                    plot.line(Line::new(name, PlotPoints::from_iter(bias)).color(colour).width(1.8));
-                }
-            }
-        }
-        if what == Quantity::Error {
-            let guide = Line::new("independent: 1/√N", logarithms(&history.guide()));
-            plot.line(guide.color(Color32::GRAY).style(LineStyle::dashed_loose()));
-        } else {
-            for at in [-2.0, 0.0, 2.0] {
-                plot.hline(HLine::new("", at).color(Color32::GRAY).style(LineStyle::dashed_loose()));
-            }
-        }
+    let draw = |plot: &mut PlotUi<'_>| match what {
+        Quantity::Error => draw_errors(plot, history),
+        Quantity::Bias => draw_bias(plot, history),
     };
     room.show(ui, |ui| plot.show(ui, draw));
 }
 
-/// The last figures of a curve.
-fn figures(curve: &Curve, over: HorizontalAxis) -> String {
-    let Some(last) = curve.moments.last() else { return "no samples yet".to_owned() };
-    let percent = |x: f64| format!("{:.2} %", 100.0 * x);
-    let mut text = format!("N {}, {:.1} s, error {}", last.spp, last.seconds, last.estimated.map_or("–".to_owned(), percent));
-    if let Some(error) = last.true_error {
-        text += &format!("\ntrue {}", percent(error));
+fn draw_errors(plot: &mut PlotUi<'_>, history: &History) {
+    let over = history.over;
+    for curve in history.shown() {
+        let (colour, name) = (COLOURS[curve.colour], history.name(curve));
+        let noise = logarithms(&curve.errors(over, |moment| moment.noise));
+        plot.line(Line::new(name.clone(), noise).color(colour).width(CURVE));
+        let measured = logarithms(&curve.errors(over, |moment| moment.true_error));
+        plot.points(Points::new(name.clone(), measured).color(colour).radius(2.2));
+        if let Some(bias) = history.bias_of_cap(curve) {
+            plot.hline(HLine::new(name, bias.log10()).color(colour).style(LineStyle::Dashed { length: 14.0 }));
+        }
     }
-    if let Some(bias) = last.bias {
-        // Farther out no probability is a number any more.
-        text += &if bias.abs() > 37.0 {
-            format!(", bias beyond {} 37 σ", if bias > 0.0 { "+" } else { "-" })
-        } else {
-            format!(", bias {bias:+.1} σ")
-        };
+    let guide = Line::new("independent: 1/√N", logarithms(&history.guide()));
+    plot.line(guide.color(Color32::GRAY).style(LineStyle::dashed_loose()));
+}
+
+fn draw_bias(plot: &mut PlotUi<'_>, history: &History) {
+    for curve in history.shown() {
+        let bias = curve.values(history.over, |moment| moment.bias).into_iter().map(|(x, bias)| [x.log10(), bias]);
+        let line = Line::new(history.name(curve), PlotPoints::from_iter(bias));
+        plot.line(line.color(COLOURS[curve.colour]).width(CURVE));
     }
-    if let Some(slope) = curve.slope(over).filter(|slope| slope.half_width < 0.5) {
-        text += &format!("\nslope {:.2} ± {:.2}", slope.slope, slope.half_width);
+    for at in [-2.0, 0.0, 2.0] {
+        plot.hline(HLine::new("", at).color(Color32::GRAY).style(LineStyle::dashed_loose()));
     }
-    text
 }
 
 fn logarithms(points: &[(f64, f64)]) -> PlotPoints<'static> {
@@ -231,30 +187,7 @@ fn label(x: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use noisefall::scene::{RenderSettings, Sharing};
-
     use super::*;
-    use crate::viewer::instruments::convergence::curve::Moment;
-
-    #[test]
-    fn a_curve_says_its_last_figures_each_by_its_name() {
-        let last = Moment {
-            spp: 16,
-            seconds: 2.0,
-            estimated: Some(0.125),
-            true_error: Some(0.0625),
-            bias: Some(-1.5),
-            sharing: Sharing::Nothing,
-        };
-        let curve = |bias| {
-            let moments = vec![Moment { spp: 8, seconds: 1.0, ..last }, Moment { bias: Some(bias), ..last }];
-            let mut curve = Curve::new(RenderSettings::default(), 1);
-            curve.moments = moments;
-            figures(&curve, HorizontalAxis::Samples)
-        };
-        assert_eq!(curve(-1.5), "N 16, 2.0 s, error 12.50 %\ntrue 6.25 %, bias -1.5 σ");
-        assert!(curve(40.0).ends_with(", bias beyond + 37 σ") && curve(-40.0).ends_with(", bias beyond - 37 σ"));
-    }
 
     #[test]
     fn lines_of_the_grid_are_powers_of_ten_and_where_there_is_room_their_multiples() {

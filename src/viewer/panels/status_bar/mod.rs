@@ -32,6 +32,8 @@ pub struct StatusBar<'a> {
     pub request: Option<&'a RenderRequest>,
     pub why_black: Option<&'a str>,
     pub comparison: Option<ReferenceComparison>,
+    /// Relative noise of the reference itself, if it is known.
+    pub reference_noise: Option<f64>,
     /// Why the picture cannot be compared with the reference of the scene.
     pub mismatch: Option<String>,
     pub pixel: Option<Pixel<'a>>,
@@ -166,8 +168,11 @@ impl StatusBar<'_> {
 
     fn truth_label(&self, ui: &mut egui::Ui) {
         if let Some(rel_mse) = self.comparison.map(|comparison| comparison.rel_mse) {
-            ui.label(format!("true error {}", percent(rel_mse.sqrt())))
-                .on_hover_text("Root of relMSE, the mean of (x − r)²/(r² + 0.01 · mean r²), against the reference r: that of the scene, or the one that you dropped on the window");
+            let doc = "Root of relMSE, the mean of (x − r)²/(r² + 0.01 · mean r²), against the reference r: that of the scene, or the one that you rendered or opened.";
+            let own = self
+                .reference_noise
+                .map_or_else(String::new, |noise| format!(" The reference has a noise of {}.", percent(noise)));
+            ui.label(format!("true error {}", percent(rel_mse.sqrt()))).on_hover_text(format!("{doc}{own}"));
         } else if let Some(mismatch) = &self.mismatch {
             ui.label(RichText::new("true error unknown").color(ui.warning())).on_hover_text(with_quotation_marks(mismatch));
         }
