@@ -3,7 +3,9 @@
 //! A reader translates a file into a [`SceneDescription`], as if it had been written by hand: everything else, the window and the
 //! command line included, works with the description. What cannot be translated exactly is listed as a [`Remark`].
 pub mod absorbing;
+mod budget;
 pub mod gltf;
+pub mod lighting;
 mod memory;
 pub mod mesh;
 mod missing;
@@ -14,6 +16,7 @@ mod open;
 pub mod paths;
 pub mod pbrt;
 pub mod pictures;
+mod reach;
 mod remark;
 pub mod remarks;
 pub mod spectrum;
@@ -30,6 +33,7 @@ pub use self::{
     new_files::NewFiles,
     open::{Opened, load, open},
     paths::Folder,
+    reach::refusal,
     remark::Remark,
     remarks::Remarks,
 };
@@ -78,7 +82,7 @@ pub fn read(path: &Path, options: &ImportOptions) -> Result<Imported, SceneError
             let folder = Folder::new(path, options);
             let mut imported = folder.missing.finish(read(path, options, &folder))?;
             imported.assets.set_sources(folder.found());
-            memory::reserve_assets(&mut imported.assets)
+            memory::reserve_kept(&mut imported.assets, &imported.description)
                 .map_err(|error| SceneError::of_file(path, error.to_string(), "raise the memory limit"))?;
             Ok(imported)
         }

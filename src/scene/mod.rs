@@ -37,6 +37,7 @@ mod strategy;
 pub mod surface;
 mod syntax;
 mod turntable;
+mod unused;
 mod used;
 mod values;
 mod warnings;
@@ -77,6 +78,7 @@ pub use self::{
     shipped::ShippedScene,
     shutter::{Moments, Shutter},
     strategy::Strategy,
+    used::used_textures,
 };
 use crate::{
     declare::{Assets, Memo},

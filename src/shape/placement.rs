@@ -3,8 +3,8 @@ use glam::DVec3;
 
 use super::{bounds::Bounds, transform::Transform};
 
-/// Size of the scene relative to that of a new object.
-const PART_OF_SCENE: f64 = 8.0;
+/// Extent of what is around a new object relative to its size.
+const PART_OF_EXTENT: f64 = 8.0;
 /// Smallest y of the unit normal of a floor. On steeper surfaces new objects stand along the normal.
 const STEEPEST_FLOOR: f64 = 0.7;
 
@@ -15,14 +15,14 @@ pub struct Placement {
     pub at: DVec3,
     /// The direction that the surface faces there.
     pub normal: DVec3,
-    /// The extent of the scene, metres.
-    pub scene_size: f64,
+    /// The extent of what is seen there, metres.
+    pub extent: f64,
 }
 
 impl Placement {
     /// The size of the new object: 1, 2 or 5 times a power of ten, metres.
     pub(crate) fn size(&self) -> f64 {
-        let wanted = self.scene_size / PART_OF_SCENE;
+        let wanted = self.extent / PART_OF_EXTENT;
         if !(wanted.is_finite() && wanted > 0.0) {
             return 1.0;
         }

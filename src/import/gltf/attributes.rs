@@ -38,6 +38,15 @@ pub struct Attributes {
     weights_1: Option<Index>,
 }
 
+/// What a material reads of the vertices besides their places, normals and colours.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Wanted {
+    /// The set of texture coordinates.
+    pub uvs: Option<u32>,
+    /// Whether relief or highlights follow tangents.
+    pub tangents: bool,
+}
+
 impl Attributes {
     /// The accessor of a set of texture coordinates.
     pub fn uvs(&self, set: u32) -> Option<Index> {
@@ -69,13 +78,15 @@ impl Attributes {
         ]
     }
 
-    /// The same without what cannot be seen with these texture coordinates and without a skin.
-    pub fn visible(&self, uvs: Option<u32>) -> Attributes {
+    /// The same without what cannot be seen without a skin.
+    pub fn visible(&self, wanted: &Wanted) -> Attributes {
         Attributes {
             position: self.position,
             normal: self.normal,
+            // Without normals, glTF ignores tangents.
+            tangent: self.tangent.filter(|_| wanted.tangents && self.normal.is_some()),
             color: self.color,
-            uv_0: uvs.and_then(|set| self.uvs(set)),
+            uv_0: wanted.uvs.and_then(|set| self.uvs(set)),
             ..Attributes::default()
         }
     }

@@ -1,7 +1,11 @@
 //! Buffers: the binary chunk, data URIs, and files beside the scene.
-use std::{cell::Cell, collections::HashMap, path::PathBuf, rc::Rc};
+use std::{borrow::Cow, cell::Cell, collections::HashMap, path::PathBuf, rc::Rc};
 
-use base64::{Engine, engine::general_purpose::STANDARD};
+use base64::{
+    Engine,
+    alphabet::STANDARD,
+    engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig},
+};
 
 use super::{
     bytes::{Bytes, Slice},
@@ -15,6 +19,11 @@ use crate::{
     progress::Progress,
 };
 
+/// Base64 with or without padding at its end: writers differ.
+const BASE64: GeneralPurpose = GeneralPurpose::new(
+    &STANDARD,
+    GeneralPurposeConfig::new().with_decode_padding_mode(DecodePaddingMode::Indifferent).with_decode_allow_trailing_bits(true),
+);
 /// Bytes that decoded data may take beyond a factor of the files.
 const FACTOR: u64 = 3;
 const BASE: u64 = 192 << 20;
@@ -118,20 +127,23 @@ impl BufferFiles<'_> {
     }
 }
 
-/// The file that a URI names. Names with `%20` are also tried as they stand.
+/// The file that a URI names. Names with `%20` are also tried as they stand, and those with `\` as on Windows.
 pub fn resolve(folder: &Folder, uri: &str) -> Result<PathBuf, Unresolved> {
     let decoded = String::from_utf8(percent_decoded(uri)).unwrap_or_else(|_| uri.to_owned());
-    folder.resolve(&decoded).or_else(|error| if decoded == uri { Err(error) } else { folder.resolve(uri).map_err(|_| error) })
+    let others = [uri.to_owned(), decoded.replace('\\', "/")];
+    let other = || others.iter().filter(|other| **other != decoded).find_map(|other| folder.resolve(other).ok());
+    folder.resolve(&decoded).or_else(|error| other().ok_or(error))
 }
 
 /// The content of a data URI; `None` for others.
 pub fn data_uri(uri: &str) -> Option<Found<Vec<u8>>> {
-    let rest = uri.strip_prefix("data:")?;
+    let (_, rest) = uri.split_once(':').filter(|(scheme, _)| scheme.eq_ignore_ascii_case("data"))?;
     let Some((kind, data)) = rest.split_once(',') else { return Some(Err("a data URI has no data".into())) };
-    if !kind.ends_with(";base64") {
+    if !kind.to_ascii_lowercase().ends_with(";base64") {
         return Some(Ok(percent_decoded(data)));
     }
-    let decoded = STANDARD.decode(data.trim_end());
+    let unescaped = if data.contains('%') { Cow::Owned(percent_decoded(data)) } else { Cow::Borrowed(data.as_bytes()) };
+    let decoded = BASE64.decode(unescaped.trim_ascii_end());
     Some(decoded.map_err(|error| format!("a data URI is not base64: {error}").into()))
 }
 

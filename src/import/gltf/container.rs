@@ -1,9 +1,12 @@
 //! The two containers of glTF: `.gltf`, which is the JSON itself, and `.glb`, which holds JSON and binary data as chunks.
 use std::{
+    collections::BTreeMap,
     fs::File,
     io::{ErrorKind, Read, Seek, SeekFrom},
     path::Path,
 };
+
+use serde::{Deserialize, de::IgnoredAny};
 
 use super::{
     bytes::{Bytes, take},
@@ -57,6 +60,7 @@ pub fn open(path: &Path, progress: &Progress) -> Found<Container> {
     }
     match word(&head, 1) {
         2 => {}
+        1 => return Err(refused_version("1.0")),
         version => return Err(refused_version(&version.to_string())),
     }
     let (document, blob) = chunks(&mut file, length - 12, &mut room, progress)?;
@@ -110,6 +114,9 @@ pub fn parse(json: &[u8]) -> Found<Document> {
     }
     let _room = reserve("elements of the file", needed)?;
     let document: Document = serde_json::from_slice(json).map_err(|error| {
+        if is_of_first_version(json) {
+            return refused_version("1.0");
+        }
         let place = if error.line() > 0 { format!("line {}, column {}: ", error.line(), error.column()) } else { String::new() };
         let text = error.to_string();
         let message = text.split(" at line ").next().unwrap_or_default();
@@ -125,6 +132,21 @@ pub fn parse(json: &[u8]) -> Found<Document> {
     }
 }
 
+/// Whether a file is of glTF 1.0, which has tables of named elements where later versions have lists.
+fn is_of_first_version(json: &[u8]) -> bool {
+    #[derive(Default, Deserialize)]
+    #[serde(default)]
+    struct Named {
+        nodes: BTreeMap<String, IgnoredAny>,
+        meshes: BTreeMap<String, IgnoredAny>,
+    }
+    serde_json::from_slice(json).is_ok_and(|Named { nodes, meshes }| !nodes.is_empty() || !meshes.is_empty())
+}
+
 fn refused_version(version: &str) -> Refusal {
-    Refusal::new(format!("glTF {version} is not supported"), "export the file as glTF 2.0")
+    let help = match version.starts_with('1') {
+        true => "convert it, for example by `npx gltf-pipeline -i old.gltf -o new.glb`, or export it as glTF 2.0",
+        false => "export the file as glTF 2.0",
+    };
+    Refusal::new(format!("this is glTF {version}, which is not supported: the reader takes glTF 2.0"), help)
 }

@@ -8,7 +8,7 @@ use super::extensions::{
     DocumentExtensions, MaterialExtensions, NodeExtensions, PrimitiveExtensions, TextureExtensions, ViewExtensions,
 };
 pub use super::{
-    attributes::{Attributes, Index, element},
+    attributes::{Attributes, Index, Wanted, element},
     extensions::TextureInfo,
 };
 

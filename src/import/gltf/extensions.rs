@@ -79,6 +79,18 @@ extensions! {
     }
 }
 
+impl MaterialExtensions {
+    /// The textures of the layers that are read.
+    pub fn maps(&self) -> impl Iterator<Item = &TextureInfo> {
+        let coat = self.clearcoat.iter().flat_map(|of| [&of.clearcoat_texture, &of.clearcoat_roughness_texture]);
+        let film = self.iridescence.iter().flat_map(|of| [&of.iridescence_texture, &of.iridescence_thickness_texture]);
+        let sheen = self.sheen.iter().flat_map(|of| [&of.sheen_color_texture, &of.sheen_roughness_texture]);
+        let specular = self.specular.iter().flat_map(|of| [&of.specular_texture, &of.specular_color_texture]);
+        let transmission = self.transmission.iter().map(|of| &of.transmission_texture);
+        coat.chain(film).chain(sheen).chain(specular).chain(transmission).flatten()
+    }
+}
+
 /// A use of a texture.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(rename_all = "camelCase")]

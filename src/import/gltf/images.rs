@@ -1,8 +1,4 @@
 //! Image files: those beside the scene are named, those within it become assets.
-use std::io::Cursor;
-
-use ::image::{ImageReader, Limits};
-
 use super::{
     buffers::{Buffers, data_uri, resolve},
     bytes::Slice,
@@ -13,14 +9,11 @@ use crate::{
     import::{Folder, Names},
 };
 
-/// Bytes of the largest image that is looked at.
-const MOST_LOOKED_AT: u64 = 96 << 20;
-
 /// Where images come from.
 pub struct Images<'a> {
     document: &'a Document,
     buffers: &'a Buffers,
-    folder: &'a Folder,
+    pub folder: &'a Folder,
     names: Names,
     /// By image: the path that the description uses, or why there is none.
     known: Vec<Option<Result<String, String>>>,
@@ -67,6 +60,13 @@ impl<'a> Images<'a> {
         assets.insert(path.clone(), bytes);
         Ok(path)
     }
+
+    /// Adds a PNG file, and returns its path.
+    pub fn add(&mut self, wanted: &str, png: Vec<u8>, assets: &mut Assets) -> String {
+        let path = format!("textures/{}.png", self.names.unique(&file_name(wanted), "image"));
+        assets.insert(path.clone(), png);
+        path
+    }
 }
 
 const KTX2: &str = "KTX2 files (KHR_texture_basisu) are not supported";
@@ -86,15 +86,4 @@ fn ending(bytes: &[u8]) -> Result<&'static str, String> {
 pub fn file_name(name: &str) -> String {
     let plain = |c: char| if c.is_alphanumeric() || " -_()+".contains(c) { c } else { '_' };
     name.trim().chars().map(plain).collect()
-}
-
-/// Whether all texels of a file in the assets are black: a lamp must not be. Files that need much memory are not looked at.
-pub fn is_black(assets: &Assets, path: &str) -> bool {
-    let Some(bytes) = assets.get::<Vec<u8>>(path) else { return false };
-    let mut reader = ImageReader::new(Cursor::new(&bytes[..]));
-    let mut limits = Limits::default();
-    limits.max_alloc = Some(MOST_LOOKED_AT);
-    reader.limits(limits);
-    let Ok(reader) = reader.with_guessed_format() else { return false };
-    reader.decode().is_ok_and(|image| image.to_rgb8().iter().all(|x| *x == 0))
 }

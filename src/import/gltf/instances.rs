@@ -1,12 +1,12 @@
 //! Objects: the primitives of the meshes, at the nodes that show them. Equal triangles are one model.
-use std::{collections::HashMap, rc::Rc};
+use std::{cell::OnceCell, collections::HashMap, rc::Rc};
 
 use glam::{DAffine3, DVec3, Vec3};
 
 use super::{
     animation::Poses,
     buffers::Buffers,
-    document::{Attributes, Document, Index, Mesh, Primitive, element},
+    document::{Attributes, Document, Index, Mesh, Primitive, Wanted, element},
     images::file_name,
     materials::Materials,
     nodes::Hierarchy,
@@ -15,7 +15,7 @@ use super::{
     vertices::{Deformation, Vertices},
 };
 use crate::{
-    import::{Imported, Names},
+    import::{Imported, Names, lighting},
     model::Model,
     scene::description::{ObjectDescription, Transform},
     shape::mesh,
@@ -43,6 +43,8 @@ pub struct Instances<'a> {
     pub most: u64,
     /// Least and greatest coordinates of all objects, metres.
     pub bounds: [DVec3; 2],
+    /// Of each object that emits, m².
+    pub areas: Vec<f64>,
     models: HashMap<Key, Option<Rc<AssetModel>>>,
     files: Names,
     names: Names,
@@ -58,6 +60,8 @@ struct Key {
     attributes: Attributes,
     indices: Option<Index>,
     mode: Mode,
+    /// Whether it has tangents, of the file or not.
+    has_tangents: bool,
     /// Mesh and primitive, and the node if its pose matters; only of deformed primitives.
     deformed: Option<(Index, usize, Option<Index>)>,
 }
@@ -67,6 +71,8 @@ struct AssetModel {
     path: String,
     bounds: [DVec3; 2],
     has_normals: bool,
+    /// Computed where it emits, m².
+    area: OnceCell<f64>,
 }
 
 /// A node that shows a mesh.
@@ -98,6 +104,7 @@ impl<'a> Instances<'a> {
             variant: None,
             most: MOST,
             bounds: [DVec3::INFINITY, DVec3::NEG_INFINITY],
+            areas: Vec::new(),
             models: HashMap::new(),
             files: Names::default(),
             names: Names::default(),
@@ -178,10 +185,11 @@ impl<'a> Instances<'a> {
             to.remarks.add(place, format!("a primitive of {what}"), "nothing", "they have no surface and are missing");
             return Ok(());
         }
-        self.check(to, primitive, &place);
+        check(to, primitive, &place);
         let material = self.material(primitive);
         let surface = self.materials.surface(primitive, material)?;
-        let Some(known) = self.model(to, shown, (at, primitive), surface.uvs)? else {
+        let wanted = Wanted { uvs: surface.uvs, tangents: self.materials.follows_tangents(material) };
+        let Some(known) = self.model(to, shown, (at, primitive), &wanted)? else {
             to.remarks.add(place, "a primitive without triangles, or of one point", "nothing", "there is nothing to see");
             return Ok(());
         };
@@ -190,6 +198,7 @@ impl<'a> Instances<'a> {
         }
         let made = self.materials.make(to, material, &surface)?;
         self.enlarge(&known.bounds, world);
+        self.areas.push(if made.emission.is_some() { area(to, &known, world) } else { 0.0 });
         let shape = mesh::Mesh {
             source: mesh::MeshSource::File(known.path.clone()),
             // Without normals, glTF wants flat triangles.
@@ -216,22 +225,6 @@ impl<'a> Instances<'a> {
         self.vertices.buffers.spend(16 * primitive.targets.len() as u64, "morph targets")
     }
 
-    /// Remarks on parts of a primitive that are not read.
-    fn check(&self, to: &mut Imported, primitive: &Primitive, place: &str) {
-        let material = primitive.material.and_then(|index| self.document.materials.get(index as usize));
-        if primitive.attributes.tangent.is_some() && material.is_some_and(|material| material.normal_texture.is_some()) {
-            to.remarks.add(place, "TANGENT", "the directions of u and v on each triangle", "bumps may show edges of triangles");
-        }
-        if primitive.targets.iter().any(|target| target.color.is_some() || (0..4).any(|set| target.uvs(set).is_some())) {
-            to.remarks.add(
-                place,
-                "morph targets of colours or texture coordinates",
-                "those at rest",
-                "textures do not follow the pose",
-            );
-        }
-    }
-
     /// The material of a primitive in the chosen variant.
     fn material(&self, primitive: &Primitive) -> Option<Index> {
         let variants = primitive.extensions.as_deref().and_then(|extensions| extensions.variants.as_deref());
@@ -248,21 +241,22 @@ impl<'a> Instances<'a> {
         to: &mut Imported,
         shown: &Shown,
         (at, primitive): (usize, &Primitive),
-        uvs: Option<u32>,
+        wanted: &Wanted,
     ) -> Found<Option<Rc<AssetModel>>> {
         let deformation = &shown.deformation;
         let is_morphed = primitive.targets.iter().zip(&deformation.weights).any(|(_, weight)| *weight != 0.0);
         let is_deformed = is_morphed || !deformation.joints.is_empty();
         let key = Key {
-            attributes: primitive.attributes.visible(uvs),
+            attributes: primitive.attributes.visible(wanted),
             indices: primitive.indices,
             mode: Mode::of(primitive.mode)?,
+            has_tangents: wanted.tangents,
             deformed: is_deformed.then(|| (shown.mesh, at, shown.is_posed.then_some(shown.node))),
         };
         if let Some(known) = self.models.get(&key) {
             return Ok(known.clone());
         }
-        let model = self.vertices.model(primitive, uvs, deformation)?;
+        let model = self.vertices.model(primitive, wanted, deformation)?;
         let known = model.and_then(|model| self.keep(to, model, &self.document.meshes[shown.mesh as usize].name)).map(Rc::new);
         self.models.insert(key, known.clone());
         Ok(known)
@@ -277,7 +271,12 @@ impl<'a> Instances<'a> {
             return None;
         }
         let path = format!("meshes/{}.ply", self.files.unique(&file_name(name), "mesh"));
-        let known = AssetModel { path: path.clone(), bounds: [least, greatest], has_normals: model.normals.is_some() };
+        let known = AssetModel {
+            path: path.clone(),
+            bounds: [least, greatest],
+            has_normals: model.normals.is_some(),
+            area: OnceCell::new(),
+        };
         to.assets.insert(path, model);
         Some(known)
     }
@@ -288,6 +287,20 @@ impl<'a> Instances<'a> {
             let corner = world.transform_point3(DVec3::new(pick(0), pick(1), pick(2)));
             self.bounds = [self.bounds[0].min(corner), self.bounds[1].max(corner)];
         }
+    }
+}
+
+/// The area of a model at a node, m². For uneven scales it is a mean over directions.
+fn area(to: &Imported, model: &AssetModel, world: &DAffine3) -> f64 {
+    let of_model = || to.assets.get::<Model>(&model.path).map_or(0.0, |model| lighting::area(&model));
+    model.area.get_or_init(of_model) * world.matrix3.determinant().abs().powf(2.0 / 3.0)
+}
+
+/// Remarks on parts of a primitive that are not read.
+fn check(to: &mut Imported, primitive: &Primitive, place: &str) {
+    if primitive.targets.iter().any(|target| target.color.is_some() || (0..4).any(|set| target.uvs(set).is_some())) {
+        let found = "morph targets of colours or texture coordinates";
+        to.remarks.add(place, found, "those at rest", "textures do not follow the pose");
     }
 }
 

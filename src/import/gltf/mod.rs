@@ -18,7 +18,9 @@ mod instances;
 mod lights;
 mod materials;
 mod nodes;
+mod reflectances;
 mod refusal;
+mod tangents;
 #[cfg(test)]
 mod tests;
 mod textures;
@@ -41,7 +43,11 @@ use self::{
     refusal::{Found, Refusal},
     textures::Textures,
 };
-use super::{Folder, ImportOptions, Imported, Names, studio};
+use super::{
+    Folder, ImportOptions, Imported, Names,
+    lighting::{self, Sizes},
+    studio,
+};
 use crate::{quote, scene::SceneError};
 
 /// Reads a file.
@@ -80,16 +86,13 @@ fn translated(container: Container, folder: &Folder, options: &ImportOptions, fi
     instances.variant = variant;
     instances.most += length / instances::BYTES_OF_FILE;
     instances.add(&mut to)?;
-    let bounds = instances.bounds;
+    let (bounds, areas) = (instances.bounds, instances.areas);
     lamps(&document, &hierarchy, &mut to, file)?;
     if !camera(&document, &hierarchy, &mut to, file)? {
         studio::frame(&mut to.description, bounds);
         to.remarks.add(file, "no camera", "a camera that shows everything", "the view differs from the original");
     }
-    if to.description.lamps.is_empty() && to.description.objects.iter().all(|object| object.emission.is_none()) {
-        let Imported { description, assets, remarks } = &mut to;
-        studio::light(description, assets, remarks, file);
-    }
+    lighting::complete(&mut to, folder, &Sizes { areas, bounds }, file);
     Ok(to)
 }
 

@@ -1,9 +1,9 @@
 //! Textures: images with their samplers and transforms, products with factors, and vertex colours.
-use std::collections::HashMap;
+use std::{collections::HashMap, path::Path};
 
 use super::{
     document::{Document, TextureInfo, element},
-    images::{Images, is_black},
+    images::Images,
 };
 use crate::{
     declare::Textured,
@@ -129,20 +129,27 @@ impl<'a> Textures<'a> {
         }
     }
 
-    /// Whether a texture is black everywhere, as far as its file is at hand.
-    pub fn is_black(&mut self, to: &mut Imported, of: &Use) -> bool {
-        let image = of.map.and_then(|info| self.described(to, info).ok());
-        image.is_some_and(|image| is_black(&to.assets, &image.path))
-    }
-
     fn image(&mut self, to: &mut Imported, of: &Use, channel: Channel, encoding: Encoding) -> Option<String> {
         let image = self.path(to, of)?;
-        let texture = element(&self.document.textures, of.map?.index, "texture").ok()?;
-        let file = image.path.rsplit('/').next().unwrap_or_default();
-        let stem = file.rsplit_once('.').map_or(file, |(stem, _)| stem);
-        let base = if texture.name.is_empty() { stem } else { &texture.name };
-        let wanted = if channel == Channel::Rgb { base.to_owned() } else { format!("{base} {}", channel.name()) };
-        Some(self.add(to, Image { channel, encoding, ..image }.into(), &wanted))
+        Some(self.add_image(to, of, Image { channel, encoding, ..image }))
+    }
+
+    /// Adds an image under the name of its texture or file.
+    pub fn add_image(&mut self, to: &mut Imported, of: &Use, image: Image) -> String {
+        let texture = of.map.and_then(|info| self.document.textures.get(info.index as usize));
+        let base = texture.map(|texture| &*texture.name).filter(|name| !name.is_empty()).unwrap_or_else(|| stem(&image.path));
+        let wanted = if image.channel == Channel::Rgb { base.to_owned() } else { format!("{base} {}", image.channel.name()) };
+        self.add(to, image.into(), &wanted)
+    }
+
+    /// Adds an image file that is made from another, and returns its path.
+    pub fn derived(&mut self, to: &mut Imported, path: &str, what: &str, bytes: Vec<u8>) -> String {
+        self.images.add(&format!("{} {what}", stem(path)), bytes, &mut to.assets)
+    }
+
+    /// The folder of the scene.
+    pub fn folder(&self) -> &Path {
+        self.images.folder.path()
     }
 
     /// The image of a texture with its sampler and transform.
@@ -186,6 +193,12 @@ impl<'a> Textures<'a> {
 /// A colour as a number: textures give their luminance, which is that of a grey.
 pub fn number(colour: Textured) -> Textured<f64> {
     colour.map(|[grey, ..]| grey)
+}
+
+/// The name of a file without folders and ending.
+fn stem(path: &str) -> &str {
+    let file = path.rsplit('/').next().unwrap_or_default();
+    file.rsplit_once('.').map_or(file, |(stem, _)| stem)
 }
 
 /// Code of filters without interpolation.

@@ -7,9 +7,10 @@ use rayon::prelude::*;
 use super::{
     accessor::{Column, Picks},
     buffers::Buffers,
-    document::{Document, Index, Primitive},
+    document::{Document, Index, Primitive, Wanted},
     draco,
     refusal::Found,
+    tangents,
     triangles::{Mode, compact},
 };
 use crate::model::{Model, turn_normals};
@@ -36,8 +37,8 @@ impl<'a> Vertices<'a> {
         Vertices { document, buffers, decompressed: HashMap::new() }
     }
 
-    /// The triangles of a primitive, with a set of its texture coordinates; `None` if there are none.
-    pub fn model(&mut self, primitive: &Primitive, uvs: Option<u32>, deformation: &Deformation) -> Found<Option<Model>> {
+    /// The triangles of a primitive, with what its material wants; `None` if there are none.
+    pub fn model(&mut self, primitive: &Primitive, wanted: &Wanted, deformation: &Deformation) -> Found<Option<Model>> {
         let Some(positions) = primitive.attributes.position else { return Ok(None) };
         self.decompressed = draco::columns(self.document, self.buffers, primitive)?;
         let positions = self.column(positions)?;
@@ -46,7 +47,7 @@ impl<'a> Vertices<'a> {
         if triangles.is_empty() {
             return Ok(None);
         }
-        let mut model = self.rest(primitive, uvs, &picks, &positions)?;
+        let mut model = self.rest(primitive, wanted, &picks, &positions)?;
         model.triangles = triangles;
         self.morph(primitive, &picks, &deformation.weights, &mut model)?;
         if !deformation.joints.is_empty() {
@@ -59,6 +60,10 @@ impl<'a> Vertices<'a> {
             // A normal without direction is left out: the surface has the one of the triangle there.
             normals.par_iter_mut().for_each(|n| *n = Vec3::from(*n).try_normalize().unwrap_or(Vec3::ZERO).to_array());
             turn_normals(&model.vertices, normals, &model.triangles);
+        }
+        if wanted.tangents && model.tangents.is_none() {
+            self.buffers.spend(32 * model.vertices.len() as u64, "tangents")?;
+            model.tangents = tangents::averaged(&model);
         }
         Ok(Some(model))
     }
@@ -102,19 +107,22 @@ impl<'a> Vertices<'a> {
     }
 
     /// Vertices as the file states them.
-    fn rest(&self, primitive: &Primitive, uvs: Option<u32>, picks: &Picks, positions: &Column) -> Found<Model> {
-        let (attributes, count) = (&primitive.attributes, positions.count);
+    fn rest(&self, primitive: &Primitive, wanted: &Wanted, picks: &Picks, positions: &Column) -> Found<Model> {
+        let attributes = primitive.attributes.visible(wanted);
+        let (uvs, tangents, count) = (attributes.uvs(0), attributes.tangent, positions.count);
         let bytes = |index: Option<Index>, bytes: u64| if index.is_some() { bytes } else { 0 };
-        let vertex = 12 + bytes(attributes.normal, 12) + bytes(uvs, 8) + bytes(attributes.color, 16);
+        let vertex = 12 + bytes(attributes.normal, 12) + bytes(uvs, 8) + bytes(attributes.color, 16) + bytes(tangents, 16);
         self.buffers.spend(vertex * picks.len() as u64, "vertices")?;
         let normals = attributes.normal.map(|index| self.attribute(index, count, "NORMAL")?.reals(picks));
-        let uvs = uvs.and_then(|set| attributes.uvs(set)).map(|index| self.uvs(index, count, picks));
+        let uvs = uvs.map(|index| self.uvs(index, count, picks));
         let colours = attributes.color.map(|index| self.colours(index, count, picks));
+        let tangents = tangents.map(|index| self.tangents(index, count, picks));
         Ok(Model {
             vertices: positions.reals(picks)?,
             normals: normals.transpose()?,
             uvs: uvs.transpose()?,
             colours: colours.transpose()?,
+            tangents: tangents.transpose()?,
             ..Model::default()
         })
     }
@@ -123,6 +131,12 @@ impl<'a> Vertices<'a> {
         let uvs: Vec<[f32; 2]> = self.attribute(index, count, "TEXCOORD")?.reals(picks)?;
         // v of glTF points down.
         Ok(uvs.into_iter().map(|[u, v]| [finite(u), 1.0 - finite(v)]).collect())
+    }
+
+    /// Directions and hands, as the renderer takes them: green of glTF's normal maps points up in the image, too.
+    fn tangents(&self, index: Index, count: usize, picks: &Picks) -> Found<Vec<[f32; 4]>> {
+        let tangents: Vec<[f32; 4]> = self.attribute(index, count, "TANGENT")?.reals(picks)?;
+        Ok(tangents.into_iter().map(|tangent| tangent.map(finite)).collect())
     }
 
     fn colours(&self, index: Index, count: usize, picks: &Picks) -> Found<Vec<[f32; 4]>> {
@@ -138,17 +152,20 @@ impl<'a> Vertices<'a> {
     fn morph(&self, primitive: &Primitive, picks: &Picks, weights: &[f64], model: &mut Model) -> Found<()> {
         let weighted = primitive.targets.iter().zip(weights).filter(|(_, weight)| **weight != 0.0);
         for (target, weight) in weighted {
-            let add = |index: Option<Index>, to: &mut Vec<[f32; 3]>| -> Found<()> {
-                let Some(index) = index else { return Ok(()) };
-                let by = self.displacement(index, picks)?;
-                for (to, by) in to.iter_mut().zip(by) {
+            let by = |index: Option<Index>| index.map(|index| self.displacement(index, picks)).transpose();
+            let add = |by: Option<Vec<[f32; 3]>>, to: &mut [[f32; 3]]| {
+                for (to, by) in to.iter_mut().zip(by.into_iter().flatten()) {
                     *to = (Vec3::from(*to) + Vec3::from(by) * *weight as f32).to_array();
                 }
-                Ok(())
             };
-            add(target.position, &mut model.vertices)?;
+            add(by(target.position)?, &mut model.vertices);
             if let Some(normals) = &mut model.normals {
-                add(target.normal, normals)?;
+                add(by(target.normal)?, normals);
+            }
+            if let Some(tangents) = &mut model.tangents {
+                for ([x, y, z, _], by) in tangents.iter_mut().zip(by(target.tangent)?.into_iter().flatten()) {
+                    [*x, *y, *z] = (Vec3::new(*x, *y, *z) + Vec3::from(by) * *weight as f32).to_array();
+                }
             }
         }
         Ok(())
@@ -190,6 +207,10 @@ impl<'a> Vertices<'a> {
                 let cofactors = DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y));
                 let normal = cofactors * Vec3::from(normals[vertex]).as_dvec3();
                 normals[vertex] = normal.normalize_or_zero().as_vec3().to_array();
+            }
+            if let Some(tangents) = &mut model.tangents {
+                let [x, y, z, hand] = tangents[vertex];
+                tangents[vertex] = (linear * Vec3::new(x, y, z).as_dvec3()).as_vec3().extend(hand).to_array();
             }
         }
         Ok(())

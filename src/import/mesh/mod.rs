@@ -23,9 +23,14 @@ use std::path::Path;
 use glam::DVec3;
 
 use self::{library::Library, map::Map, material::Appearance, textures::Textures};
-use super::{Folder, ImportOptions, Imported, Names, Remarks, studio};
+use super::{
+    Folder, ImportOptions, Imported, Names, Remarks,
+    lighting::{self, Sizes},
+    studio,
+};
 use crate::{
     declare::{Textured, key_of_file},
+    file::cut,
     material::Lambertian,
     memory::{Size, reserve},
     model::{Model, ModelFormatError, Part, Smoothing, images_of, read_parts},
@@ -64,15 +69,15 @@ pub fn read(path: &Path, options: &ImportOptions, folder: &Folder) -> Result<Imp
         textures: Textures::new(folder.clone()),
         names: Names::default(),
         meshes: Names::default(),
+        areas: Vec::new(),
     };
     for part in parts.list {
         objects.add(part, &mut to).map_err(|error| SceneError::of_file(path, error.to_string(), "raise the memory limit"))?;
     }
     studio::frame(&mut to.description, bounds);
     to.remarks.add(&*file, "no camera", "a camera that shows everything", "the view differs from the original");
-    if to.description.objects.iter().all(|object| object.emission.is_none()) {
-        studio::light(&mut to.description, &mut to.assets, &mut to.remarks, &file);
-    }
+    let sizes = Sizes { areas: objects.areas, bounds };
+    lighting::complete(&mut to, folder, &sizes, &file);
     Ok(to)
 }
 
@@ -122,6 +127,8 @@ struct Objects<'a> {
     textures: Textures,
     names: Names,
     meshes: Names,
+    /// Of each object that emits, m².
+    areas: Vec<f64>,
 }
 
 impl Objects<'_> {
@@ -133,6 +140,7 @@ impl Objects<'_> {
             None => Appearance { material: self.plain(&part, to), emission: None },
         };
         to.description.materials.insert(name.clone(), material);
+        self.areas.push(if emission.is_some() { lighting::area(&part.model) } else { 0.0 });
         let is_flat = match part.model.smoothing {
             Smoothing::Unstated => self.is_flat && part.model.normals.is_none(),
             Smoothing::Flat => part.model.normals.is_none(),
@@ -202,5 +210,5 @@ impl Objects<'_> {
 
 /// A name that every file system allows.
 fn file_name(name: &str) -> String {
-    name.chars().take(60).map(|c| if c.is_alphanumeric() || "-_".contains(c) { c } else { '_' }).collect()
+    cut(name, 120).chars().map(|c| if c.is_alphanumeric() || "-_".contains(c) { c } else { '_' }).collect()
 }

@@ -2,20 +2,41 @@
 //!
 //! Wavefront Technologies, "Appendix B2. MTL material format", 1995. `Ke` and the keys of physically based materials (`Pr Pm Ps Pc Pcr
 //! aniso anisor norm`) are extensions that exporters such as Blender's write.
-use std::collections::BTreeMap;
-
 use super::map::Map;
 use crate::{import::Remarks, model::number, quote};
+
+/// What a material states, by its keys. Materials have few statements, and files many materials: a tree would take kilobytes for each.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Statements<T>(Vec<(&'static str, T)>);
+
+impl<T> Default for Statements<T> {
+    fn default() -> Statements<T> {
+        Statements(Vec::new())
+    }
+}
+
+impl<T> Statements<T> {
+    fn get(&self, key: &str) -> Option<&T> {
+        self.0.iter().find(|(of, _)| *of == key).map(|(_, value)| value)
+    }
+
+    /// The last statement counts.
+    fn insert(&mut self, key: &'static str, value: T) {
+        self.0.retain(|(of, _)| *of != key);
+        self.0.reserve_exact(1);
+        self.0.push((key, value));
+    }
+}
 
 /// A material of an MTL file: the values that it states.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mtl {
     /// Diffuse, specular and emitted colours, and the transmission filter: `Kd Ks Ke Tf`.
-    pub colours: BTreeMap<&'static str, [f64; 3]>,
+    pub colours: Statements<[f64; 3]>,
     /// `Ns Ni d Tr illum Pr Pm Ps Pc Pcr aniso anisor`.
-    pub numbers: BTreeMap<&'static str, f64>,
+    pub numbers: Statements<f64>,
     /// Textures by their keys in lower case, such as `map_kd`; bump maps are `bump`.
-    pub maps: BTreeMap<&'static str, Map>,
+    pub maps: Statements<Map>,
 }
 
 const COLOURS: [&str; 4] = ["Kd", "Ks", "Ke", "Tf"];

@@ -39,7 +39,8 @@ pub(super) fn texts(p: &mut dyn Parameters, title: &mut String, notes: &mut Stri
 
 pub(super) fn settings_and_truth(p: &mut dyn Parameters, render: &mut RenderDescription, truth: &mut Option<TruthDescription>) {
     const RENDER: Parameter = Parameter::new("render", "The settings that the scene opens with.").aliases("integrator settings");
-    const TRUTH: Parameter = Parameter::new("truth", "What the image must converge to, if it is known.").aliases("reference");
+    const TRUTH: Parameter =
+        Parameter::new("truth", "What the image must converge to, if it is known.").title("Reference").aliases("reference");
     p.optional_part(&RENDER, render);
     p.optional_table(&TRUTH, truth);
 }

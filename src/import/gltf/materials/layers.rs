@@ -19,8 +19,12 @@ impl MaterialImport<'_, '_> {
             self.remark("KHR_materials_dispersion", "one index of refraction", "refracted light has no coloured fringes");
         }
         let Some(described) = self.extensions.transmission.as_deref() else { return };
-        principled.transmission_weight =
-            self.number(described.transmission_factor, described.transmission_texture.as_ref(), Channel::Red);
+        principled.transmission_weight = self.number(
+            "transmissionFactor",
+            described.transmission_factor,
+            described.transmission_texture.as_ref(),
+            Channel::Red,
+        );
         if principled.transmission_weight == Textured::Constant(0.0) {
             return;
         }
@@ -41,7 +45,7 @@ impl MaterialImport<'_, '_> {
 
     fn volume(&mut self, volume: &Volume, principled: &mut Principled) {
         let distance = volume.attenuation_distance.filter(|distance| *distance > 0.0 && distance.is_finite());
-        let colour = volume.attenuation_color.map(|x| x.clamp(0.0, 1.0));
+        let colour = self.units("attenuationColor", volume.attenuation_color);
         let Some(distance) = distance.filter(|_| colour != [1.0; 3]) else { return };
         if principled.base_color != Textured::grey(1.0) {
             self.remark(
@@ -57,9 +61,11 @@ impl MaterialImport<'_, '_> {
     /// The clear coat, which does not darken the base.
     pub(super) fn coat(&mut self, principled: &mut Principled) {
         let Some(described) = self.extensions.clearcoat.as_deref().filter(|coat| coat.clearcoat_factor > 0.0) else { return };
-        principled.coat_weight = self.number(described.clearcoat_factor, described.clearcoat_texture.as_ref(), Channel::Red);
+        principled.coat_weight =
+            self.number("clearcoatFactor", described.clearcoat_factor, described.clearcoat_texture.as_ref(), Channel::Red);
         let map = described.clearcoat_roughness_texture.as_ref();
-        principled.coat_roughness = self.number(described.clearcoat_roughness_factor, map, Channel::Green);
+        principled.coat_roughness =
+            self.number("clearcoatRoughnessFactor", described.clearcoat_roughness_factor, map, Channel::Green);
         principled.coat_ior = COAT_IOR;
         principled.coat_darkening = Textured::Constant(0.0);
         let same = |a: &TextureInfo, b: Option<&TextureInfo>| b.is_some_and(|b| a.index == b.index);
@@ -77,7 +83,7 @@ impl MaterialImport<'_, '_> {
 
     pub(super) fn sheen(&mut self, principled: &mut Principled) {
         let Some(described) = self.extensions.sheen.as_deref() else { return };
-        let factor = described.sheen_color_factor.map(|x| x.clamp(0.0, 1.0));
+        let factor = self.units("sheenColorFactor", described.sheen_color_factor);
         let strongest = factor.iter().fold(0.0, |a: f64, b| a.max(*b));
         if strongest == 0.0 {
             return;
@@ -85,22 +91,22 @@ impl MaterialImport<'_, '_> {
         principled.fuzz_weight = Textured::Constant(strongest);
         principled.fuzz_color = self.colour(factor.map(|x| x / strongest), described.sheen_color_texture.as_ref());
         let map = described.sheen_roughness_texture.as_ref();
-        principled.fuzz_roughness = self.number(described.sheen_roughness_factor, map, Channel::Alpha);
+        principled.fuzz_roughness = self.number("sheenRoughnessFactor", described.sheen_roughness_factor, map, Channel::Alpha);
         self.remark("KHR_materials_sheen (Charlie)", "the fuzz of OpenPBR", "the sheen has a similar strength and another shape");
     }
 
     pub(super) fn iridescence(&mut self, principled: &mut Principled) {
         let Some(described) = self.extensions.iridescence.as_deref().filter(|film| film.iridescence_factor > 0.0) else { return };
         principled.thin_film_weight =
-            self.number(described.iridescence_factor, described.iridescence_texture.as_ref(), Channel::Red);
-        principled.thin_film_ior = described.iridescence_ior.clamp(1.0, 20.0);
+            self.number("iridescenceFactor", described.iridescence_factor, described.iridescence_texture.as_ref(), Channel::Red);
+        principled.thin_film_ior = self.within("iridescenceIor", described.iridescence_ior, [1.0, 20.0]);
         let ends = [described.iridescence_thickness_minimum, described.iridescence_thickness_maximum];
         let [least, most] = ends.map(|thickness| (thickness / NANOMETRES).clamp(0.0, 10.0));
-        principled.thin_film_thickness = match self.number(1.0, described.iridescence_thickness_texture.as_ref(), Channel::Green)
-        {
-            Textured::Constant(_) => Textured::Constant(most),
-            texture => self.textures.ramp(self.to, texture, [0.0, 1.0], [least, most]),
-        };
+        principled.thin_film_thickness =
+            match self.number("", 1.0, described.iridescence_thickness_texture.as_ref(), Channel::Green) {
+                Textured::Constant(_) => Textured::Constant(most),
+                texture => self.textures.ramp(self.to, texture, [0.0, 1.0], [least, most]),
+            };
     }
 
     /// Widths α_t = mix(α, 1, s²) and α_b = α of glTF; α_t = α √(2/(1 + (1 − a)²)) and α_b = (1 − a) α_t of OpenPBR.
@@ -116,7 +122,7 @@ impl MaterialImport<'_, '_> {
             );
         }
         principled.tangent_rotation = described.anisotropy_rotation.to_degrees();
-        let stretch = described.anisotropy_strength.clamp(0.0, 1.0).powi(2);
+        let stretch = self.within("anisotropyStrength", described.anisotropy_strength, [0.0, 1.0]).powi(2);
         let Textured::Constant(roughness) = principled.specular_roughness else {
             principled.specular_roughness_anisotropy = Textured::Constant(stretch);
             self.remark(

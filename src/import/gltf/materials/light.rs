@@ -2,7 +2,6 @@
 use super::MaterialImport;
 use crate::{
     declare::Textured,
-    import::gltf::{document::TextureInfo, textures::Use},
     light::emission::{radiance::Radiance, texture::Texture},
     material::{Lambertian, Material},
     scene::description::{EmissionDescription, EmissionSource},
@@ -19,7 +18,7 @@ impl MaterialImport<'_, '_> {
         let factor = self.material.emissive_factor.map(|x| x.max(0.0));
         let strength = self.extensions.emissive_strength.as_ref().map_or(1.0, |described| described.emissive_strength);
         let map = self.material.emissive_texture.as_deref();
-        if factor == [0.0; 3] || strength <= 0.0 || self.is_black(map) {
+        if factor == [0.0; 3] || strength <= 0.0 {
             return None;
         }
         let colour = self.colour(factor, map);
@@ -28,15 +27,12 @@ impl MaterialImport<'_, '_> {
 
     /// A surface that shows its colour whatever the light: it reflects nothing and emits the color.
     pub(super) fn unlit(&mut self) -> (Material, Option<EmissionDescription>) {
-        let described = self.described();
-        let is_black =
-            described.base_color_factor[..3].iter().all(|x| *x <= 0.0) || self.is_black(described.base_color_texture.as_ref());
         let black = Lambertian { albedo: Textured::grey(0.0) }.into();
-        if is_black {
+        let colour = self.base_colour();
+        if colour == Textured::grey(0.0) {
             return (black, None);
         }
-        let colour = self.base_colour();
-        let emission = self.emitting(colour, 1.0);
+        let emission = EmissionDescription { two_sided: true, ..self.emitting(colour, 1.0) };
         self.remark("KHR_materials_unlit", "emission of the colour, without reflection", "the surface also lights others");
         (black, Some(emission))
     }
@@ -47,11 +43,6 @@ impl MaterialImport<'_, '_> {
             Textured::Texture(name) => Texture { name }.into(),
         };
         EmissionDescription { source, two_sided: self.material.double_sided, scale: scale.clamp(0.0, 1e12) }
-    }
-
-    fn is_black(&mut self, map: Option<&TextureInfo>) -> bool {
-        let of = Use { map, surface: self.surface, place: self.place };
-        self.textures.is_black(self.to, &of)
     }
 
     /// The opacity by the alpha mode; `None` is 1.
@@ -66,10 +57,17 @@ impl MaterialImport<'_, '_> {
             }
         };
         let alpha = match self.extensions.specular_glossiness.as_deref() {
-            Some(described) => self.number(described.diffuse_factor[3], described.diffuse_texture.as_ref(), Channel::Alpha),
+            Some(described) => {
+                self.number("diffuseFactor", described.diffuse_factor[3], described.diffuse_texture.as_ref(), Channel::Alpha)
+            }
             None => {
                 let described = self.described();
-                self.number(described.base_color_factor[3], described.base_color_texture.as_ref(), Channel::Alpha)
+                self.number(
+                    "baseColorFactor",
+                    described.base_color_factor[3],
+                    described.base_color_texture.as_ref(),
+                    Channel::Alpha,
+                )
             }
         };
         let alpha = self.with_vertex_alpha(alpha);

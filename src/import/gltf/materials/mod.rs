@@ -1,5 +1,6 @@
 //! Materials: glTF's metallic-roughness model and its extensions as `principled`, OpenPBR Surface.
 mod base;
+mod interface;
 mod layers;
 mod light;
 
@@ -49,6 +50,8 @@ struct MaterialImport<'w, 'a> {
     place: &'w str,
     /// Whether Blender wrote the file.
     is_of_blender: bool,
+    /// Whether Noisefall wrote it.
+    is_ours: bool,
 }
 
 impl<'a> Materials<'a> {
@@ -64,6 +67,15 @@ impl<'a> Materials<'a> {
         // Without textures, the coordinates give the tangents of anisotropic materials.
         let uvs = wanted.filter(has).or_else(|| (0..4).find(has));
         Ok(SurfaceInputs { uvs, colours: primitive.attributes.color.is_some() })
+    }
+
+    /// Whether relief or highlights of a material follow tangents.
+    pub fn follows_tangents(&self, material: Option<Index>) -> bool {
+        let material = material.and_then(|index| self.document.materials.get(index as usize));
+        material.is_some_and(|material| {
+            let anisotropy = material.extensions.as_deref().and_then(|extensions| extensions.anisotropy.as_deref());
+            material.normal_texture.is_some() || anisotropy.is_some_and(|found| found.anisotropy_strength > 0.0)
+        })
     }
 
     /// The material for a surface.
@@ -86,6 +98,7 @@ impl<'a> Materials<'a> {
             surface,
             place: &place,
             is_of_blender: self.document.asset.generator.contains("Blender I/O"),
+            is_ours: self.document.asset.generator == "Noisefall",
         };
         let (description, emission) = work.make();
         to.description.materials.insert(name.clone(), description);
@@ -102,11 +115,12 @@ fn maps(material: &Material) -> impl Iterator<Item = &TextureInfo> {
     let maps = [
         specular.and_then(|specular| specular.diffuse_texture.as_ref()),
         pbr.and_then(|pbr| pbr.base_color_texture.as_ref()),
+        specular.and_then(|specular| specular.specular_glossiness_texture.as_ref()),
         pbr.and_then(|pbr| pbr.metallic_roughness_texture.as_ref()),
         material.normal_texture.as_deref(),
         material.emissive_texture.as_deref(),
     ];
-    maps.into_iter().flatten()
+    maps.into_iter().flatten().chain(material.extensions.as_deref().into_iter().flat_map(MaterialExtensions::maps))
 }
 
 impl MaterialImport<'_, '_> {
@@ -119,10 +133,10 @@ impl MaterialImport<'_, '_> {
         }
         let principled = self.principled();
         let transmits = principled.transmission_weight != Textured::Constant(0.0);
-        let is_one_sided = is_culled && !transmits;
-        if is_one_sided {
-            let effect = "back faces are black; a rasterizer shows what lies behind them";
-            self.remark("`doubleSided` is false", "`two_sided = false`", effect);
+        // Our own exporter writes what it means; elsewhere it is a hint for rasterizers, which show what lies behind.
+        let is_one_sided = is_culled && !transmits && self.is_ours;
+        if is_culled && !transmits && !is_one_sided {
+            self.remark("`doubleSided` is false", "two sides", "a rasterizer shows what lies behind back faces");
         }
         if self.material.occlusion_texture.is_some() {
             let effect = "none: the renderer computes occlusion itself";
@@ -146,9 +160,37 @@ impl MaterialImport<'_, '_> {
         self.textures.colour(self.to, factor.map(|x| x.max(0.0)), &of, Encoding::Srgb)
     }
 
-    fn number(&mut self, factor: f64, map: Option<&TextureInfo>, channel: Channel) -> Textured<f64> {
+    /// A fraction of the file, by its key.
+    fn number(&mut self, key: &str, factor: f64, map: Option<&TextureInfo>, channel: Channel) -> Textured<f64> {
+        let factor = self.within(key, factor, [0.0, 1.0]);
         let of = Use { map, surface: self.surface, place: self.place };
-        self.textures.number(self.to, factor.clamp(0.0, 1.0), &of, channel)
+        self.textures.number(self.to, factor, &of, channel)
+    }
+
+    /// A colour of fractions, by its key.
+    fn unit_colour(&mut self, key: &str, factor: [f64; 3], map: Option<&TextureInfo>) -> Textured {
+        let factor = self.units(key, factor);
+        self.colour(factor, map)
+    }
+
+    fn units(&mut self, key: &str, factor: [f64; 3]) -> [f64; 3] {
+        let taken = factor.map(|x| x.clamp(0.0, 1.0));
+        if taken != factor {
+            self.remark(format!("`{key}` {factor:?}"), format!("{taken:?}"), "the colour is out of its range, 0 to 1");
+        }
+        taken
+    }
+
+    fn within(&mut self, key: &str, x: f64, [least, most]: [f64; 2]) -> f64 {
+        let taken = x.clamp(least, most);
+        if taken != x {
+            self.remark(format!("`{key}` {x}"), taken.to_string(), format!("the number is out of its range, {least} to {most}"));
+        }
+        taken
+    }
+
+    fn product(&mut self, a: Textured<f64>, b: Textured<f64>) -> Textured<f64> {
+        number(self.textures.times(self.to, a.map(|x| [x; 3]), b.map(|x| [x; 3])))
     }
 
     /// A colour times that of the vertices.

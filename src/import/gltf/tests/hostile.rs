@@ -132,6 +132,12 @@ fn containers_that_end_early_are_refused() {
         assert!(refused(&whole[..end]), "{end} bytes");
     }
     assert!(refused(b"glTF\x01\0\0\0\x0c\0\0\0") && refused(&glb(&[])) && refused(&glb(&[(b"BIN\0", b"1234")])));
+    for old in
+        ["{\"meshes\":{\"m\":{}}}", "{\"asset\":{\"version\":\"1.0\"}}", "{\"asset\":{\"version\":1.0},\"nodes\":{\"n\":{}}}"]
+    {
+        let error = read_bytes("a.gltf", old.as_bytes(), &ImportOptions::default()).err().expect("it is old").report();
+        assert!(error.contains("glTF 1.0") && error.contains("gltf-pipeline"), "{error}");
+    }
     assert!(refused(b"{}") && refused(b"{\"asset\":{\"version\":\"1.0\"}}") && refused(b"\xff\xfe{"));
     assert!(refused(b"{\"asset\":{\"version\":\"2.1\",\"minVersion\":\"2.1\"}}"));
 }

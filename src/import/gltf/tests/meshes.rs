@@ -28,6 +28,30 @@ fn binary_files_hold_their_buffer() {
 }
 
 #[test]
+fn data_uris_and_paths_of_other_writers_are_read() {
+    let bytes: Vec<u8> = CORNERS.iter().flat_map(|x| x.to_le_bytes()).collect();
+    let text = STANDARD.encode(&bytes);
+    let escaped = text.replace('+', "%2B").replace('/', "%2F").replace('=', "%3D");
+    let uris = [
+        format!("DATA:;base64,{text}"),
+        format!("data:a/b;BASE64,{}", text.trim_end_matches('=')),
+        format!("data:;base64,{escaped}"),
+    ];
+    for uri in uris {
+        let json = triangle(json!({ "buffers": [{ "byteLength": 36, "uri": uri }] }));
+        assert_eq!(model(&imported(&json), 0).vertices.len(), 3, "{uri}");
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::create_dir(folder.path().join("sub"))
+        .and_then(|()| fs::write(folder.path().join("sub/a b.bin"), &bytes))
+        .expect("it is written");
+    let json = triangle(json!({ "buffers": [{ "byteLength": 36, "uri": "sub\\a%20b.bin" }] }));
+    let path = folder.path().join("scene.gltf");
+    fs::write(&path, json.to_string()).expect("it is written");
+    assert!(import::read(&path, &ImportOptions::default()).is_ok());
+}
+
+#[test]
 fn a_large_buffer_stays_on_disk_and_gives_the_same_mesh() {
     // Corners, a gap as large as a file that is not read at once, and indices behind it.
     const GAP: usize = 33 << 20;

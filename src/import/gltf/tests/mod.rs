@@ -1,5 +1,8 @@
 //! glTF files that are made in the tests.
+mod frames;
 mod hostile;
+mod interfaces;
+mod light;
 mod looks;
 mod meshes;
 mod poses;

@@ -1,0 +1,113 @@
+//! Settings that a render does not use, and why.
+use super::{CameraRays, RenderSettings, Reuse, Scene, Sharing};
+
+impl Scene {
+    /// Says which settings have no effect in this scene, and why. `resolved` are the same settings where it is decided what pixels share and
+    /// which estimator renders.
+    pub fn unused_settings(&self, rays: &CameraRays, asked: &RenderSettings, resolved: &RenderSettings) -> Vec<String> {
+        let sharing = self.sharing(rays, resolved);
+        let has_light_paths = self.traces_light_paths(resolved);
+        let why = [
+            self.why_not_adaptive(asked, sharing, has_light_paths),
+            why_not_shared(asked, sharing, has_light_paths),
+            why_not_merged(asked, resolved),
+        ];
+        let named = ["adaptive", "reuse", "merging"].into_iter().zip(why);
+        named.filter_map(|(name, why)| Some(format!("`{name}` is not used: {}", why?))).collect()
+    }
+
+    fn why_not_adaptive(&self, asked: &RenderSettings, sharing: Sharing, has_light_paths: bool) -> Option<String> {
+        let obstacle = match sharing {
+            Sharing::Nothing => has_light_paths.then(|| "paths from lights bring light to any pixel".to_owned()),
+            Sharing::Merged => Some("pixels share merged vertices".to_owned()),
+            shared => Some(format!("pixels have {}; --reuse off leaves each its own", shared.name())),
+        };
+        obstacle.filter(|_| asked.adaptive)
+    }
+}
+
+fn why_not_shared(asked: &RenderSettings, sharing: Sharing, has_light_paths: bool) -> Option<String> {
+    if matches!(asked.reuse, Reuse::Auto | Reuse::Off) || sharing == Sharing::asked(asked.reuse) {
+        return None;
+    }
+    Some(match sharing {
+        Sharing::Merged => "pixels share merged vertices".to_owned(),
+        Sharing::Nothing if has_light_paths => "paths from lights are shared by all pixels already".to_owned(),
+        Sharing::Nothing => "pixels share nothing, because this scene and these settings do not allow it".to_owned(),
+        other => format!("pixels have {}, because this scene and these settings allow no more", other.name()),
+    })
+}
+
+/// Obstacles of the scene have notes of their own.
+fn why_not_merged(asked: &RenderSettings, resolved: &RenderSettings) -> Option<String> {
+    let other = format!("it belongs to the estimator `bidirectional`, not to `{}`", resolved.estimator.name());
+    (asked.merging && !resolved.estimator.connects()).then_some(other)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Estimator, built_in, parse};
+
+    const GLASS: &str = "format = 1\ncamera = { eye = [0, 0, 4], look_at = [0, 0, 0], fov = 40, resolution = [16, 16] }\n\
+         materials.glass.dielectric = { ior = 1.5 }\nmaterials.sheer = { lambertian.albedo = 0.5, opacity = 0.5 }\n\
+         [[objects]]\nshape.sphere = { center = [0, 0, 0], radius = 1 }\nmaterial = 'sheer'\n\
+         [[objects]]\nshape.sphere = { center = [0, 3, 0], radius = 1 }\nemission.radiance = 1\n";
+
+    fn said(scene: &Scene, asked: RenderSettings) -> String {
+        let rays = scene.rays(&scene.camera);
+        // Nothing is undecided here but what `auto` shares.
+        scene.unused_settings(&rays, &asked, &RenderSettings { merging: scene.merges(&asked), ..asked }).join("\n")
+    }
+
+    #[test]
+    fn each_setting_that_has_no_effect_is_named_with_the_reason() {
+        let (open, sheer) = (built_in(), parse("sheer", GLASS.to_owned()).expect("it is a scene"));
+        let base = RenderSettings { estimator: Estimator::Mis, reuse: Reuse::Off, ..RenderSettings::default() };
+        let light = RenderSettings { estimator: Estimator::Bidirectional, ..base };
+        for (scene, asked, expected) in [
+            (&open, base, ""),
+            (&open, RenderSettings { adaptive: true, ..base }, ""),
+            (&open, RenderSettings { reuse: Reuse::On, ..base }, ""),
+            (&open, RenderSettings { reuse: Reuse::Both, ..base }, ""),
+            (&open, RenderSettings { merging: true, ..light }, ""),
+            (
+                &open,
+                RenderSettings { adaptive: true, reuse: Reuse::On, ..base },
+                "`adaptive` is not used: pixels have shared paths",
+            ),
+            (
+                &open,
+                RenderSettings { adaptive: true, reuse: Reuse::Bright, ..base },
+                "`adaptive` is not used: pixels have shared bright samples",
+            ),
+            (&open, RenderSettings { adaptive: true, ..light }, "`adaptive` is not used: paths from lights"),
+            (
+                &open,
+                RenderSettings { adaptive: true, merging: true, ..light },
+                "`adaptive` is not used: pixels share merged vertices",
+            ),
+            (&open, RenderSettings { reuse: Reuse::On, ..light }, "`reuse` is not used: paths from lights"),
+            (
+                &open,
+                RenderSettings { reuse: Reuse::On, max_bounces: Some(1), ..base },
+                "`reuse` is not used: pixels share nothing",
+            ),
+            (&sheer, RenderSettings { reuse: Reuse::On, ..base }, "`reuse` is not used: pixels share nothing"),
+            (
+                &sheer,
+                RenderSettings { reuse: Reuse::Both, ..base },
+                "`reuse` is not used: pixels have shared bright samples, because",
+            ),
+            (
+                &open,
+                RenderSettings { merging: true, ..base },
+                "`merging` is not used: it belongs to the estimator `bidirectional`",
+            ),
+        ] {
+            let said = said(scene, asked);
+            assert!(said.starts_with(expected) && said.is_empty() == expected.is_empty(), "{asked:?}: {said}");
+            assert!(said.lines().count() <= 1, "{said}");
+        }
+    }
+}
