@@ -1,5 +1,5 @@
 //! Quotes of foreign text in messages: shortened, and without control characters.
-use std::path::Path;
+use std::{borrow::Cow, path::Path};
 
 /// Maximum number of characters of a quoted piece.
 const LONGEST_PIECE: usize = 60;
@@ -44,6 +44,23 @@ pub fn message(text: &str) -> String {
     cut(&(short + rest), LONGEST_MESSAGE)
 }
 
+/// A whole text of several lines as it goes to a terminal. The escape sequences are also those of JSON, in which only strings have such
+/// characters.
+pub fn lines(text: &str) -> Cow<'_, str> {
+    let is_kept = |c: char| !acts(c) || c == '\n' || c == '\t';
+    if text.chars().all(is_kept) {
+        return Cow::Borrowed(text);
+    }
+    let mut quoted = String::with_capacity(text.len());
+    for c in text.chars() {
+        match is_kept(c) {
+            true => quoted.push(c),
+            false => quoted += &format!("\\u{:04x}", u32::from(c)),
+        }
+    }
+    Cow::Owned(quoted)
+}
+
 /// Truncates a text to a number of characters and marks the cut.
 fn cut(text: &str, most: usize) -> String {
     let mut short: String = text.chars().take(most).map(printable).collect();
@@ -82,6 +99,16 @@ mod tests {
         assert_eq!(piece("a\x1b[31mb\r\n\u{9b}c\u{202e}d\u{feff}\0"), "a\\u{1b}[31mb\\r\\n\\u{9b}c\\u{202e}d\\u{feff}\\0");
         assert_eq!(piece("ordinary: ρ = ½, “é”, \\ and 🙂"), "ordinary: ρ = ½, “é”, \\ and 🙂");
         assert_eq!(path(Path::new("a\x07b.toml")), "a\\u{7}b.toml");
+    }
+
+    #[test]
+    fn lines_keep_their_ends_and_json_stays_json() {
+        assert_eq!(lines("two\n\tlines of “text”\n"), "two\n\tlines of “text”\n");
+        assert_eq!(lines("a\x1b]0;b\x07\r\u{9b}31m\u{202e}"), "a\\u001b]0;b\\u0007\\u000d\\u009b31m\\u202e");
+        let title = "a\u{9b}31m\u{202e}\u{feff}\x1b[0m";
+        let json = serde_json::to_string(title).expect("it is a text");
+        assert_ne!(lines(&json), json);
+        assert_eq!(serde_json::from_str::<String>(&lines(&json)).expect("it is JSON"), title);
     }
 
     #[test]

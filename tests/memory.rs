@@ -38,7 +38,11 @@ fn probe() {
         set_limit(allowed);
     }
     let before = MEMORY.allocated();
-    let refused = if file.extension().is_some_and(|extension| extension == "toml") {
+    let is_foreign = noisefall::import::is_foreign(&file);
+    let refused = if is_foreign {
+        // An image carries the text of the scene.
+        noisefall::import::load(&file).map(|scene| assert!(scene.source.len() > 1000)).map_err(|error| error.report())
+    } else if file.extension().is_some_and(|extension| extension == "toml") {
         load(&file).map_err(|error| error.report()).and_then(|scene| {
             let resolution = scene.camera.resolution;
             if resolution[0] < 1000 {
@@ -154,6 +158,33 @@ fn allocated_memory_is_counted() {
     assert_counted("PLY", &file("ply.toml", &object("mesh = { path = 'large.ply' }")));
 
     assert_counted("picture", &file("picture.toml", &scene(1200, "")));
+}
+
+#[test]
+fn many_small_things_of_other_programs_take_little_memory_each() {
+    const COUNT: usize = 20_000;
+    let folder = tempfile::tempdir().expect("a folder");
+    png(&folder.path().join("a.png"), 1);
+    let many = |one: &str| one.repeat(COUNT);
+    let xml =
+        |one: &str| format!("<scene version=\"3.0.0\"><emitter type=\"constant\"/><shape type=\"sphere\"/>{}</scene>", many(one));
+    let materials: String = (0..COUNT).map(|number| format!("newmtl m{number}\nmap_Kd a{number}.png\n")).collect();
+    fs::write(folder.path().join("many.mtl"), materials).expect("it is written");
+    // Bytes for each: of the objects some are in the tree, and some on their way into the text.
+    for (name, text, most) in [
+        ("rectangles.xml", xml("<shape type=\"rectangle\"/>"), 3000),
+        ("points.xml", xml("<emitter type=\"point\"/>"), 3000),
+        ("disks.pbrt", format!("WorldBegin\nLightSource \"infinite\"\n{}", many("Shape \"disk\"\n")), 3000),
+        ("points.pbrt", format!("WorldBegin\nShape \"sphere\"\n{}", many("LightSource \"point\"\n")), 3000),
+        ("textures.obj", "mtllib many.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m1\nf 1 2 3\n".to_owned(), 1500),
+    ] {
+        let path = folder.path().join(name);
+        fs::write(&path, text).expect("it is written");
+        let said = probed(&path, u64::MAX / 2);
+        let peak = said.split("PEAK ").nth(1).and_then(|rest| rest.split_whitespace().next()?.parse::<usize>().ok());
+        let each = peak.unwrap_or_else(|| panic!("{name}: {said}")).saturating_sub(12_000_000) / COUNT;
+        assert!(!said.contains("REFUSED") && each < most, "{name}: {each} bytes each");
+    }
 }
 
 #[test]

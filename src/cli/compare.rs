@@ -57,6 +57,9 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
         Ok(output) => output,
         Err(mistake) => return Ok(wrong_usage(&mistake)),
     };
+    if let Some(no_image) = output.as_ref().filter(|output| output.format().is_none()) {
+        return Ok(wrong_usage(&format!("{no_image}: a difference is an image: the name must end in .png or .exr")));
+    }
     output.as_ref().map_or(Ok(()), Output::check)?;
     if is_png(&arguments.a) != is_png(&arguments.b) {
         tell("note: a PNG is clipped at 1 and rounded to display codes, an EXR is not: they differ by more than noise");

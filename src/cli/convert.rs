@@ -40,7 +40,9 @@ pub struct Arguments {
 
 pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let Arguments { scene: path, output, options } = arguments;
-    export::check(output).map_err(|error| error.to_string())?;
+    if let Err(unknown) = export::check(output) {
+        return Ok(wrong_usage(&unknown.to_string()));
+    }
     if is_same(path, output) {
         return Ok(wrong_usage(&format!("{}: the converted scene would replace the scene itself", output.display())));
     }
@@ -48,7 +50,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let of_text = || describe(&path.display().to_string(), scene.source.clone()).map(Arc::new);
     let description = description.map_or_else(of_text, Ok).map_err(|error| error.report())?;
     let folder = path.parent().unwrap_or(Path::new(""));
-    let source = ExportSource { description: &description, assets: &scene.assets, folder };
+    let source = ExportSource { description: &description, assets: &scene.assets, folder, allow_outside: options.allow_outside };
     let prepared = export::prepare(source, output).map_err(|error| error.to_string())?;
     options.report(output, &prepared.remarks, "written exactly")?;
     let exported = prepared.write().map_err(|error| error.to_string())?;

@@ -184,10 +184,10 @@ impl Resumed {
         self.file.header()
     }
 
-    /// Opens the scene of the file.
-    pub fn open(&self) -> Result<Opened, Failure> {
+    /// Opens the scene of the file, which may read files outside of its folder if the user says so again.
+    pub fn open(&self, allow_outside: bool) -> Result<Opened, Failure> {
         let progress = Progress::default();
-        with_bar(&progress, || reopen(&self.header().scene, &self.path, &progress)).map_err(|error| error.report())
+        with_bar(&progress, || reopen(&self.header().scene, &self.path, allow_outside, &progress)).map_err(|error| error.report())
     }
 
     /// The error for an option that would change the image. `was` are the options of the image so far.

@@ -1,12 +1,25 @@
 //! `render --tev`: shows the image in tev while it is rendered.
-use std::sync::Arc;
+use std::{
+    sync::{
+        Arc,
+        atomic::{AtomicBool, Ordering},
+    },
+    time::Duration,
+};
 
 use noisefall::render::{
     Frame,
     tev::{Tev, TevError, TevStream, check_address},
 };
 
-use super::messages::{Failure, tell};
+use super::{
+    messages::{Failure, tell},
+    stop::now_says,
+};
+
+/// Longest wait for the last frame: of a render that is finished, and of one that was interrupted.
+const PATIENTLY: Duration = Duration::from_secs(10);
+const BRIEFLY: Duration = Duration::from_secs(1);
 
 /// Parses the address of tev.
 pub fn address(text: &str) -> Result<String, String> {
@@ -39,9 +52,13 @@ impl LiveView {
         None
     }
 
-    /// Waits until the last frame is sent.
-    pub fn finish(self) {
-        if let Some(Err(failure)) = self.stream.map(TevStream::finish) {
+    /// Waits until the last frame is sent, but not long. An interruption ends the connection.
+    pub fn finish(self, stop: &AtomicBool) {
+        let Some(stream) = self.stream else { return };
+        now_says("interrupted: closing the connection to tev");
+        let was_interrupted = stop.load(Ordering::Relaxed);
+        let most = if was_interrupted { BRIEFLY } else { PATIENTLY };
+        if let Err(failure) = stream.finish(most, || !was_interrupted && stop.load(Ordering::Relaxed)) {
             tell(&warning(&failure));
         }
     }

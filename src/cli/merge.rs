@@ -1,7 +1,6 @@
 //! `noisefall merge`: joins files of samples, in any order and grouping, to the bits of one run.
 use std::{
-    collections::BTreeSet,
-    path::{Path, PathBuf},
+    path::PathBuf,
     process::ExitCode,
     sync::atomic::{AtomicBool, Ordering},
     thread::sleep,
@@ -13,7 +12,7 @@ use noisefall::{
     render::{
         checkpoint::EXTENSION,
         image_file::{self, Format},
-        split::{Join, SampleFile, SampleFileError, SampleRanges, write},
+        split::{Join, SampleFile, SampleRanges, write},
     },
 };
 
@@ -23,6 +22,7 @@ use super::{
     output::Output,
     split_image::{SplitImage, is_sample_file, without_samples},
     stop::{INTERRUPTED, stop_signal},
+    watched_files::Watch,
 };
 
 const NOTES: &str = "\
@@ -67,9 +67,10 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let output = match Output::of(&arguments.output, arguments.format) {
         Ok(output) => output,
-        Err(mistake) => return Ok(wrong_usage(&mistake)),
+        Err(mistake) => return Ok(wrong_usage(&format!("{mistake}; or in .{EXTENSION}, for samples to be joined further"))),
     };
     check(&output)?;
+    arguments.display.unused(output.format()).into_iter().for_each(tell);
     let joined = match arguments.watch {
         Some(every) => arguments.watch(every)?,
         None => Some(arguments.join()?),
@@ -87,9 +88,6 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
 fn check(output: &Output) -> Result<(), Failure> {
     match output.file() {
         Some(path) if is_sample_file(output) => file::check(path).map_err(|error| error.to_string()),
-        Some(path) if Format::of(path).is_err() => {
-            Err(format!("{}: the name must end in .exr, .png or .{EXTENSION}", path.display()))
-        }
         Some(path) => image_file::check_target(path).map_err(|error| error.to_string()),
         None => output.check(),
     }
@@ -114,49 +112,13 @@ impl Arguments {
     /// Joins files as they arrive until all samples are there. `None` after an interruption.
     fn watch(&self, every: Duration) -> Result<Option<Join>, Failure> {
         let stop = stop_signal("interrupted: nothing is written")?;
-        let mut join: Option<Join> = None;
-        loop {
-            for path in self.present() {
-                if join.as_ref().is_some_and(|join| join.has(&path)) {
-                    continue;
-                }
-                // It may still be on its way: the next look tells.
-                let Ok(file) = whole(&path) else { continue };
-                let mut joined = match join.take() {
-                    Some(join) => join,
-                    None => Join::begin(&file).map_err(|error| error.to_string())?,
-                };
-                joined.enter(&file).and_then(|()| joined.add(file)).map_err(|error| error.to_string())?;
-                let missing = joined.samples().missing(self.until);
-                let left = if missing.is_empty() { "complete".to_owned() } else { format!("missing: {missing}") };
-                tell(&format!("{}: joined; samples {}, {left}", quote::path(&path), joined.samples()));
-                join = Some(joined);
-            }
-            let is_complete = |join: &Join| join.samples().missing(self.until).is_empty();
-            if join.as_ref().is_some_and(is_complete) {
-                return Ok(join);
-            }
+        let mut watch = Watch::new(&self.files, &self.output);
+        while !watch.look(self.until)? {
             if !wait(every, &stop) {
                 return Ok(None);
             }
         }
-    }
-
-    /// The files that are there now, those in folders included.
-    fn present(&self) -> BTreeSet<PathBuf> {
-        let mut present = BTreeSet::new();
-        for path in &self.files {
-            match std::fs::read_dir(path) {
-                Ok(entries) => present.extend(entries.flatten().map(|entry| entry.path()).filter(|path| self.is_source(path))),
-                Err(_) => _ = present.insert(path.clone()),
-            }
-        }
-        present
-    }
-
-    /// Whether a file of a folder is to be joined.
-    fn is_source(&self, path: &Path) -> bool {
-        path.extension().is_some_and(|extension| extension == EXTENSION) && *path != self.output
+        Ok(watch.into_join())
     }
 
     fn deliver(&self, join: Join, output: &Output, missing: SampleRanges) -> Result<ExitCode, Failure> {
@@ -175,12 +137,6 @@ impl Arguments {
         let exposure = header.image.as_ref().map_or(0.0, |image| image.exposure);
         image.deliver(picture, self.display.display(exposure))
     }
-}
-
-/// Opens a file, if all of it is there.
-fn whole(path: &Path) -> Result<SampleFile, SampleFileError> {
-    SampleFile::open(path)?.read(|_, _| Ok::<(), SampleFileError>(()))?;
-    SampleFile::open(path)
 }
 
 /// Waits; `false` if it was interrupted.

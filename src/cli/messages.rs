@@ -1,15 +1,19 @@
 //! Output of the commands. Results go to standard output, everything else to standard error. Either may be closed by its reader.
+//!
+//! Nothing else prints: what files bring along, such as titles and names, has no effect on the terminal here.
 use std::{
     io::{ErrorKind, Write, stderr, stdout},
     process::ExitCode,
 };
+
+use noisefall::quote;
 
 /// Error message of a command, of one or several lines.
 pub type Failure = String;
 
 /// Prints a line to standard output. A reader that has gone away, as in `… | head`, is not an error.
 pub fn print(text: &str) -> Result<(), Failure> {
-    match writeln!(stdout(), "{text}") {
+    match writeln!(stdout(), "{}", quote::lines(text)) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(format!("standard output: {error}")),
         _ => Ok(()),
     }
@@ -17,7 +21,7 @@ pub fn print(text: &str) -> Result<(), Failure> {
 
 /// Prints a line to standard error. Failures to do so are ignored.
 pub fn tell(text: &str) {
-    let _ = writeln!(stderr(), "{text}");
+    let _ = writeln!(stderr(), "{}", quote::lines(text));
 }
 
 /// Reports wrong usage. Returns the exit code for it.

@@ -42,8 +42,10 @@ mod study;
 mod summary;
 #[cfg(feature = "reports")]
 mod triangle;
+mod unused;
 #[cfg(feature = "reports")]
 mod validate;
+mod watched_files;
 
 use std::{
     ffi::OsString,
@@ -119,6 +121,7 @@ enum Command {
 }
 
 pub fn run() -> ExitCode {
+    stop::survive_size_limits();
     if let Some(mistake) = mistaken_command(&std::env::args_os().skip(1).collect::<Vec<_>>()) {
         return wrong_usage(&mistake);
     }

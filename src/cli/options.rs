@@ -26,6 +26,22 @@ pub struct DisplayOptions {
 }
 
 impl DisplayOptions {
+    /// Says that these options have no effect on an output of this format, or on a file of samples; `None` if they have, or are not given.
+    pub fn unused(&self, format: Option<Format>) -> Option<&'static str> {
+        let said = match format {
+            Some(Format::Png) => return None,
+            Some(Format::Exr) => {
+                "note: an EXR stores the radiance unchanged; --exposure, --white-balance and --tone affect a PNG only"
+            }
+            None => "note: a file of samples has no display; --exposure, --white-balance and --tone affect a PNG only",
+        };
+        self.is_given().then_some(said)
+    }
+
+    fn is_given(&self) -> bool {
+        self.exposure.is_some() || self.white_balance.is_some() || self.tone != ToneMap::default()
+    }
+
     /// The display of a scene that has this exposure.
     pub fn display(&self, of_scene: f32) -> Display {
         Display {

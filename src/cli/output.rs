@@ -8,9 +8,10 @@ use std::{
 };
 
 use noisefall::{
-    file::WriteError,
+    file::{WriteError, replace, save_elsewhere},
     render::{
         Display, Frame,
+        checkpoint::is_kept_file,
         image_file::{Contents, Format, ImageError, check_target},
         layers::Channel,
     },
@@ -29,7 +30,7 @@ pub enum Output {
 }
 
 impl Output {
-    /// The destination that `-o` and `--format` name. Fails if they contradict each other.
+    /// The destination that `-o` and `--format` name. Fails if they contradict each other, or if the name says no format.
     pub fn of(path: &Path, format: Option<Format>) -> Result<Output, String> {
         if path == Path::new(STREAM) {
             return format.map(Output::Stream).ok_or_else(|| format!("-o {STREAM} needs --format png or --format exr"));
@@ -39,11 +40,12 @@ impl Output {
                 let ([name, format], path) = ([by_name, format].map(Format::name), path.display());
                 Err(format!("{path}: the name ends in .{name}, but --format says {format}; leave --format out"))
             }
+            (Err(unknown), _) if !is_kept_file(path) => Err(unknown.to_string()),
             _ => Ok(Output::File(path.to_owned())),
         }
     }
 
-    /// The format of the image. `None` for a file with an unknown extension, which [`Output::check`] rejects.
+    /// The format of the image. `None` for a file of samples.
     pub fn format(&self) -> Option<Format> {
         match self {
             Output::File(path) => Format::of(path).ok(),
@@ -74,23 +76,24 @@ impl Output {
     /// Writes the image. If the reader of standard output has gone away, there is no message, but the exit code reports a
     /// failure.
     pub fn write(&self, frame: &Frame, channels: &[Channel], display: Display, settings: &str) -> Result<ExitCode, Failure> {
-        let contents = Contents { frame, channels, settings };
-        let save = |path: &Path| contents.save(display, path);
+        let format = self.format().ok_or_else(|| format!("{self}: the format is not known"))?;
+        let bytes = Contents { frame, channels, settings }.encode(display, format).map_err(|error| error.to_string())?;
         match self {
-            Output::File(path) => match save(path) {
+            Output::File(path) => match replace(path, &bytes) {
                 Ok(()) => Ok(ExitCode::SUCCESS),
                 Err(error) => {
                     let name = path.file_name().unwrap_or_default().to_string_lossy();
-                    Err(rescue(&advise(error), &name, save))
+                    Err(rescue(&advise(error.into()), &name, &bytes))
                 }
             },
             Output::Stream(format) => {
-                let bytes = contents.encode(display, *format).map_err(|error| error.to_string())?;
                 let mut stream = stdout().lock();
                 match stream.write_all(&bytes).and_then(|()| stream.flush()) {
                     Ok(()) => Ok(ExitCode::SUCCESS),
                     Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(ExitCode::FAILURE),
-                    Err(error) => Err(rescue(&format!("standard output: {error}"), &format!("picture.{}", format.name()), save)),
+                    Err(error) => {
+                        Err(rescue(&format!("standard output: {error}"), &format!("picture.{}", format.name()), &bytes))
+                    }
                 }
             }
         }
@@ -126,10 +129,9 @@ fn advise(error: ImageError) -> Failure {
 }
 
 /// Saves an image that cannot be written to its destination in the folder for temporary files, and extends the error by its path.
-fn rescue(error: &str, name: &str, save: impl Fn(&Path) -> Result<(), ImageError>) -> Failure {
-    let candidates = (0..).map(|i| std::env::temp_dir().join(format!("noisefall-{}-{i}-{name}", std::process::id())));
-    let saved = { candidates }.find(|path| !path.exists()).filter(|path| save(path).is_ok());
-    saved.map_or_else(|| error.to_owned(), |path| format!("{error}\nthe image was saved as {} instead", path.display()))
+fn rescue(error: &str, name: &str, image: &[u8]) -> Failure {
+    let saved = save_elsewhere(name, image);
+    saved.map_or_else(|_| error.to_owned(), |path| format!("{error}\nthe image was saved as {} instead", path.display()))
 }
 
 /// Whether standard output was closed when the program started. Rust then opens `/dev/null` in its place for reading and writing;
@@ -165,8 +167,12 @@ mod tests {
         assert_eq!(of("a.PNG", Some(Format::Png)), Ok(Output::File("a.PNG".into())));
         let contradiction = of("a.png", Some(Format::Exr)).expect_err("it is refused");
         assert!(contradiction.contains("ends in .png, but --format says exr"), "{contradiction}");
-        // The extension rules: a format does not stand in for it, which `check` refuses.
-        assert!(of("a", Some(Format::Png)).expect("a file").check().is_err_and(|error| error.contains("must end in .png")));
+        // The extension rules: a format does not stand in for it.
+        for unknown in ["a", "a.jpg", "a.png.tiff"] {
+            let mistake = of(unknown, Some(Format::Png)).expect_err("it is refused");
+            assert!(mistake.contains("must end in .png (as shown) or .exr (linear), such as a."), "{mistake}");
+        }
+        assert_eq!(of("a.nf", None), Ok(Output::File("a.nf".into())));
     }
 
     #[test]

@@ -196,7 +196,7 @@ impl Rendering {
 
     /// Waits until the live view has the last image. Fails if the render could not be kept.
     pub fn finish(self) -> Result<(), Failure> {
-        self.live.finish();
+        self.live.finish(&self.stop);
         self.checkpoints.failure.map_or(Ok(()), |error| Err(format!("the render is not kept: {error}")))
     }
 }

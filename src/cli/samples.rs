@@ -31,6 +31,7 @@ use super::{
     sequence::{DROPPED, Shot, UNFINISHED},
     split_image::{SplitImage, is_sample_file, without_samples},
     stop::{INTERRUPTED, stop_signal},
+    unused::tell_unused,
 };
 
 /// Ends of samples that are rendered at least so far apart: an interruption waits for one.
@@ -97,6 +98,7 @@ impl SampleJob {
         let request = RenderRequest { scene: self.scene.clone(), camera: shot.camera, settings: self.settings };
         let header = self.header(&request)?;
         let rays = self.scene.rays(&shot.camera);
+        tell_unused(&self.threads, &self.scene, &rays, &self.settings);
         let settings = self.threads.install(|| resolved(&self.scene, &rays, &self.settings));
         let job = PassJob { scene: &self.scene, rays: &rays, settings: &settings };
         let start = Instant::now();

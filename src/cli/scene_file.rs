@@ -27,7 +27,7 @@ pub struct SceneOptions {
     variant: Option<String>,
     /// Read files outside the folder of the scene too, if it names them
     #[arg(long, help_heading = HEADING)]
-    allow_outside: bool,
+    pub allow_outside: bool,
     /// Fail if anything in the scene cannot be imported exactly
     #[arg(long, help_heading = HEADING)]
     pub strict: bool,
@@ -50,12 +50,31 @@ impl SceneOptions {
     /// Opens a scene file of any format, and prints the remarks about it on standard error.
     pub fn open(&self, path: &Path) -> Result<Opened, Failure> {
         let options = self.import_options();
-        if options != ImportOptions::default() && !is_foreign(path) {
-            tell("note: -D, --at, --variant and --allow-outside affect scenes of other programs only");
+        if let Some(note) = self.unused(path) {
+            tell(&note);
         }
         let opened = with_bar(&options.progress, || import::open(path, &options)).map_err(|error| error.report())?;
         self.report(path, &opened.remarks, "imported exactly")?;
         Ok(opened)
+    }
+
+    /// Says which options have no effect on a scene with this name.
+    fn unused(&self, path: &Path) -> Option<String> {
+        let extension = path.extension().unwrap_or_default().to_ascii_lowercase();
+        let is_any = |names: &[&str]| names.iter().any(|name| extension == *name);
+        let (is_gltf, is_mitsuba) = (is_any(&["gltf", "glb"]), is_any(&["xml"]));
+        let unused = [
+            ("-D", !self.defines.is_empty() && !is_mitsuba, "scenes of Mitsuba"),
+            ("--at", self.at.is_some() && !is_gltf, "scenes in glTF"),
+            ("--variant", self.variant.is_some() && !is_gltf, "scenes in glTF"),
+            ("--allow-outside", self.allow_outside && !is_foreign(path), "scenes of other programs, and `convert`,"),
+        ];
+        let unused: Vec<String> = unused
+            .iter()
+            .filter(|(_, is_unused, _)| *is_unused)
+            .map(|(name, _, of)| format!("{name} affects {of} only"))
+            .collect();
+        (!unused.is_empty()).then(|| format!("note: {}", unused.join("; ")))
     }
 
     /// Prints the remarks about a file on standard error, or fails if there are any and `--strict` is given. `done` is what they were
@@ -74,11 +93,16 @@ impl SceneOptions {
 
     /// The options as words of a command, each with a space before it.
     pub fn words(&self) -> String {
+        let outside = if self.allow_outside { " --allow-outside" } else { "" };
+        self.words_of_scene() + outside
+    }
+
+    /// The same without the permission to read files outside, which the user gives again each time.
+    pub fn words_of_scene(&self) -> String {
         let defines = self.defines.iter().map(|(name, value)| format!("-D {}", quoted(&format!("{name}={value}"))));
         let time = self.at.map(|time| format!("--at {time}"));
         let variant = self.variant.as_ref().map(|name| format!("--variant {}", quoted(name)));
-        let outside = self.allow_outside.then(|| "--allow-outside".to_owned());
-        defines.chain(time).chain(variant).chain(outside).map(|word| format!(" {word}")).collect()
+        defines.chain(time).chain(variant).map(|word| format!(" {word}")).collect()
     }
 }
 

@@ -12,16 +12,16 @@ use crate::{
     },
 };
 
-/// Largest and smallest size of a new mesh relative to the scene. A mesh beyond them has another unit of length.
+/// Largest and smallest size of a new mesh relative to what is seen around it. A mesh beyond them has another unit of length.
 const SIZES: [f64; 2] = [0.5, 0.01];
 
 impl Document {
     /// The edit that adds a mesh file, and the path of the new object. `bounds` are the corners of its box in the file. The mesh stands
-    /// upright on the floor at the placement, or below it, and is scaled by a power of ten if it would be a speck or larger than the
-    /// scene. It has the first diffuse material of the scene. `scene` is the compiled scene of this document.
+    /// upright on the floor at the placement, or below it, and is scaled by a power of ten if it would be a speck or too large for
+    /// what is seen there. It has the first diffuse material of the scene. `scene` is the compiled scene of this document.
     pub fn add_mesh(&self, file: &str, bounds: [DVec3; 2], placement: Placement, scene: &Scene) -> (Edit, Path) {
         let [min, max] = bounds;
-        let factor = factor((max - min).max_element(), placement.scene_size);
+        let factor = factor((max - min).max_element(), placement.extent);
         let size = (max - min) * factor;
         let at = placement.on_floor(scene, 0.5 * size.x.max(size.z));
         let foot = DVec3::new(0.5 * (min.x + max.x), min.y, 0.5 * (min.z + max.z));
@@ -52,10 +52,10 @@ impl Document {
     }
 }
 
-/// The power of ten that gives a mesh a size that fits the scene; both in metres.
-fn factor(size: f64, scene_size: f64) -> f64 {
+/// The power of ten that gives a mesh a size that fits this extent; both in metres.
+fn factor(size: f64, extent: f64) -> f64 {
     let mut exponent = 0;
-    let ratio = |exponent: i32| size * 10f64.powi(exponent) / scene_size;
+    let ratio = |exponent: i32| size * 10f64.powi(exponent) / extent;
     if ratio(0).is_finite() && ratio(0) > 0.0 {
         while ratio(exponent) > SIZES[0] {
             exponent -= 1;

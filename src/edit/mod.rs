@@ -82,6 +82,7 @@ mod defaults;
 mod document;
 mod history;
 mod import;
+mod kept_path;
 mod kind;
 mod meaning;
 mod names;

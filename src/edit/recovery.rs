@@ -1,16 +1,19 @@
 //! Keeps unsaved changes in a file in case the program ends unexpectedly.
 use std::{
-    fs, io,
+    io,
     path::{Path as FilePath, PathBuf, absolute},
 };
 
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
-use super::Document;
+use super::{
+    Document,
+    kept_path::{of_json, to_json},
+};
 use crate::{
-    file::{WriteError, open_regular, replace},
-    scene::{Camera, RenderSettings, SceneError, describe},
+    file::{WriteError, read_text, replace},
+    scene::{self, Camera, RenderSettings, SceneError, describe},
 };
 
 /// The start of the first line of a recovery file. The path of the scene file follows as a JSON string, or `{"from": …}` with the file of
@@ -31,6 +34,9 @@ pub struct WindowView {
     /// The exposure in stops.
     pub exposure: f32,
 }
+
+/// Most bytes of a recovery file: a scene, and the lines before it.
+const LONGEST: u64 = scene::LARGEST_FILE + (1 << 20);
 
 /// A scene with changes that are not saved.
 #[derive(Clone, Debug, PartialEq)]
@@ -65,8 +71,8 @@ impl Recovery {
     /// Writes a recovery file, whole or not at all. It is a scene file itself, with one or two lines of comment before its text.
     pub fn write(&self, file: &FilePath) -> Result<(), WriteError> {
         let first = match (&self.path, &self.origin) {
-            (Some(path), _) => format!("{FIRST_LINE}{}", json!(path.to_string_lossy())),
-            (None, Some(origin)) => format!("{FIRST_LINE}{}", json!({ "from": origin.to_string_lossy() })),
+            (Some(path), _) => format!("{FIRST_LINE}{}", to_json(path)),
+            (None, Some(origin)) => format!("{FIRST_LINE}{}", json!({ "from": to_json(origin) })),
             (None, None) => WITHOUT_FILE.to_owned(),
         };
         let second = self.view.as_ref().map_or_else(String::new, |view| format!("{VIEW_LINE}{}\n", json!(**view)));
@@ -75,7 +81,7 @@ impl Recovery {
 
     /// Reads a recovery file; `None` if there is none.
     pub fn read(file: &FilePath) -> io::Result<Option<Recovery>> {
-        let text = match open_regular(file).and_then(io::read_to_string) {
+        let text = match read_text(file, LONGEST) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
             read => read?,
         };
@@ -84,7 +90,7 @@ impl Recovery {
         let source = if first == WITHOUT_FILE { Some(Value::Null) } else { named };
         let wrong = || io::Error::new(io::ErrorKind::InvalidData, "it is not a recovery file");
         let source = source.ok_or_else(wrong)?;
-        let [path, origin] = [&source, &source["from"]].map(|path| path.as_str().map(PathBuf::from));
+        let [path, origin] = [&source, &source["from"]].map(of_json);
         let view = text.strip_prefix(VIEW_LINE).and_then(|after| after.split_once('\n'));
         let (view, text) = view.map_or((None, text), |(view, text)| (serde_json::from_str(view).ok(), text));
         Ok(Some(Recovery { path, origin, view, text: text.to_owned() }))
@@ -101,7 +107,7 @@ impl Recovery {
             (None, None) => Document::untitled(&self.text)?,
         };
         // What is in the file now tells later whether it was changed outside.
-        let on_disk = self.path.as_ref().and_then(|path| fs::read_to_string(path).ok());
+        let on_disk = self.path.as_ref().and_then(|path| scene::read_text(path).ok());
         document.differs_from(on_disk.unwrap_or_default());
         Ok(document)
     }

@@ -55,7 +55,7 @@ impl Placement {
             return self;
         }
         let start = self.at + self.normal * clearance;
-        let floor = surface_below(scene, start, STEP * self.scene_size, |_| true);
+        let floor = surface_below(scene, start, STEP * scene.size, |_| true);
         Placement { at: DVec3 { y: floor.unwrap_or(start.y), ..start }, normal: DVec3::Y, ..self }
     }
 
@@ -71,7 +71,7 @@ impl Placement {
     /// The height over this floor at which a lamp has room, metres.
     pub fn lamp_height(&self, scene: &Scene) -> f64 {
         let wanted = SIZES_OF_LAMP_HEIGHT * self.size();
-        let [o, d] = [self.at + DVec3::Y * (STEP * self.scene_size), DVec3::Y].map(|v| V::splat(One, v.as_vec3().to_array()));
+        let [o, d] = [self.at + DVec3::Y * (STEP * scene.size), DVec3::Y].map(|v| V::splat(One, v.as_vec3().to_array()));
         let above = scene.shapes.closest(One, M(true), o, d, F(0.0));
         if above.primitive.0 == MISS { wanted } else { wanted.min(PART_OF_ROOM * f64::from(above.t.0)) }
     }

@@ -1,8 +1,10 @@
 //! Names of files that every system accepts, and that do not lead out of their folder.
 use std::collections::HashSet;
 
-/// Longest part of a path, in characters.
-const LONGEST: usize = 80;
+use crate::file::short_name;
+
+/// Longest part of a path, in bytes. A number may follow.
+const LONGEST: usize = 120;
 
 /// Names that mean devices on Windows, with any extension.
 const DEVICES: [&str; 6] = ["con", "prn", "aux", "nul", "com", "lpt"];
@@ -35,13 +37,7 @@ impl FileNames {
 fn harmless(part: &str) -> String {
     let is_bad = |c: char| c.is_control() || "<>:\"|?*".contains(c);
     let part: String = part.chars().map(|c| if is_bad(c) { '_' } else { c }).collect();
-    let part = part.trim().trim_end_matches('.');
-    let length = part.chars().count();
-    let (stem, extension) = part.rsplit_once('.').filter(|(_, extension)| extension.len() < 8).unwrap_or((part, ""));
-    let short = match length > LONGEST {
-        true => stem.chars().take(LONGEST - 8).collect::<String>() + if extension.is_empty() { "" } else { "." } + extension,
-        false => part.to_owned(),
-    };
+    let short = short_name(part.trim().trim_end_matches('.'), LONGEST);
     let device: String = short.split('.').next().unwrap_or_default().chars().filter(|c| !c.is_ascii_digit()).collect();
     let is_device = DEVICES.contains(&device.to_lowercase().as_str());
     if is_device || short.starts_with('.') { format!("_{short}") } else { short }
@@ -69,6 +65,11 @@ mod tests {
         for (wanted, expected) in cases {
             assert_eq!(names.free(wanted), expected, "{wanted}");
         }
-        assert!(names.free(&format!("{}.ply", "ü".repeat(500))).chars().count() <= LONGEST);
+        for letter in ["ü", "🙂"] {
+            let long = format!("{}.ply", letter.repeat(200));
+            let [first, second] = [(); 2].map(|()| names.free(&long));
+            assert!(first.len() <= LONGEST && second.len() <= LONGEST + 2 && first != second, "{first}, {second}");
+            assert!(first.ends_with(".ply") && second.ends_with(" 2.ply"), "{first}, {second}");
+        }
     }
 }

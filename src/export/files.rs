@@ -1,7 +1,6 @@
 //! The files that a scene names, beside an exported scene.
 use std::{
     collections::{BTreeMap, btree_map::Entry},
-    fs,
     io::Read,
     path::{Path, PathBuf},
     sync::Arc,
@@ -9,7 +8,7 @@ use std::{
 
 use super::{ExportError, ExportSource, file_names::FileNames};
 use crate::{
-    file::{WriteError, open_regular, replace},
+    file::{LONGEST_NAME, WriteError, check_below, open_regular, replace_below, short_name},
     memory::{Size, reserve},
     model::{Model, encode_ply},
 };
@@ -42,7 +41,7 @@ impl ExportedFiles {
         let parent = scene.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let root = parent.canonicalize().map_err(|_| no_folder(scene, parent))?;
         let stem = scene.file_stem().unwrap_or_default().to_string_lossy();
-        let data = format!("{stem}.files");
+        let data = format!("{}.files", short_name(&stem, LONGEST_NAME - ".files".len()));
         let mut files = ExportedFiles { folder: scene.with_file_name(&data), files: BTreeMap::new() };
         let (mut names, mut moved) = (FileNames::default(), Vec::new());
         for named in named {
@@ -77,15 +76,14 @@ impl ExportedFiles {
     /// Writes all files. Returns the numbers of those from memory and of copies.
     pub fn write(&self) -> Result<[usize; 2], ExportError> {
         let mut counts = [0; 2];
-        for (name, content) in self.files.values().filter_map(|file| file.copy.as_ref()) {
-            let path = self.folder.join(name);
-            let folder = path.parent().unwrap_or(&self.folder);
-            fs::create_dir_all(folder)
-                .map_err(|error| WriteError::Failed { path: folder.to_owned(), reason: error.to_string() })?;
+        let copies = || self.files.values().filter_map(|file| file.copy.as_ref());
+        copies().try_for_each(|(name, _)| check_below(&self.folder, name))?;
+        for (name, content) in copies() {
+            let replace = |bytes: &[u8]| replace_below(&self.folder, name, bytes);
             match content {
-                FileContent::Mesh(model) => replace(&path, &encode_ply(model)?)?,
-                FileContent::Bytes(bytes) => replace(&path, bytes)?,
-                FileContent::Disk(from) => replace(&path, &bytes(from)?)?,
+                FileContent::Mesh(model) => replace(&encode_ply(model)?)?,
+                FileContent::Bytes(bytes) => replace(bytes)?,
+                FileContent::Disk(from) => replace(&bytes(from)?)?,
             }
             counts[usize::from(matches!(content, FileContent::Disk(_)))] += 1;
         }
@@ -123,6 +121,8 @@ pub fn bytes(from: &Path) -> Result<Vec<u8>, ExportError> {
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::*;
     use crate::{
         declare::Assets,
@@ -163,7 +163,7 @@ mod tests {
             assets.insert(path, triangle());
         }
         let description = scene(&["meshes/a.ply", "../../meshes/A.ply", "meshes/a.ply"], "wood.png");
-        let source = ExportSource { description: &description, assets: &assets, folder: from.path() };
+        let source = ExportSource { description: &description, assets: &assets, folder: from.path(), allow_outside: false };
         let done = write(source, &to.path().join("room.toml")).expect("it is written");
         assert_eq!((done.written, done.copied, done.folder), (2, 1, Some(to.path().join("room.files"))));
         let text = fs::read_to_string(to.path().join("room.toml")).expect("it is there");
@@ -184,7 +184,7 @@ mod tests {
         fs::create_dir(folder.path().join("textures")).expect("a folder");
         fs::write(folder.path().join("textures/wood.png"), "wood").expect("it is written");
         let (description, assets) = (scene(&[], "textures/../textures/wood.png"), Assets::default());
-        let source = ExportSource { description: &description, assets: &assets, folder: folder.path() };
+        let source = ExportSource { description: &description, assets: &assets, folder: folder.path(), allow_outside: false };
         let done = write(source, &folder.path().join("room.toml")).expect("it is written");
         let text = fs::read_to_string(folder.path().join("room.toml")).expect("it is there");
         assert_eq!((done.written, done.copied, done.folder, named(&text)), (0, 0, None, vec!["textures/wood.png".to_owned()]));
@@ -198,7 +198,7 @@ mod tests {
         let mut assets = Assets::default();
         assets.insert("a.ply", triangle());
         let description = scene(&["a.ply"], "wood.png");
-        let source = ExportSource { description: &description, assets: &assets, folder: from.path() };
+        let source = ExportSource { description: &description, assets: &assets, folder: from.path(), allow_outside: false };
         for name in ["room.toml", "room.xml"] {
             let path = to.path().join(name);
             fs::write(&path, "old").expect("it is written");
@@ -211,7 +211,7 @@ mod tests {
     fn nothing_is_written_if_a_file_is_missing() {
         let folder = tempfile::tempdir().expect("a folder");
         let (description, assets) = (scene(&[], "wood.png"), Assets::default());
-        let source = ExportSource { description: &description, assets: &assets, folder: folder.path() };
+        let source = ExportSource { description: &description, assets: &assets, folder: folder.path(), allow_outside: false };
         let error = write(source, &folder.path().join("room.toml")).expect_err("it is missing");
         assert!(error.to_string().contains("wood.png"), "{error}");
         assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 0);

@@ -26,12 +26,15 @@ mod substitutes;
 mod textures;
 mod toml;
 
-use std::path::{Path, PathBuf};
+use std::{
+    collections::HashSet,
+    path::{Path, PathBuf},
+};
 
 use crate::{
-    declare::Assets,
+    declare::{Assets, for_each_file},
     file::{WriteError, replace},
-    import::Remarks,
+    import::{self, Remarks},
     memory::TooMuch,
     quote,
     scene::description::SceneDescription,
@@ -46,6 +49,8 @@ pub struct ExportSource<'a> {
     pub assets: &'a Assets,
     /// The folder of files on disk that have relative paths.
     pub folder: &'a Path,
+    /// Whether files outside of that folder may be copied.
+    pub allow_outside: bool,
 }
 
 /// A scene in another format, before anything is written.
@@ -91,6 +96,14 @@ pub enum ExportError {
         /// The message of the operating system.
         reason: String,
     },
+    /// A file that the scene names, and that must not be copied.
+    #[error("{}: {reason}; --allow-outside permits it", quote::path(path))]
+    Outside {
+        /// The file.
+        path: PathBuf,
+        /// Where it lies.
+        reason: &'static str,
+    },
     /// The scene exceeds the limit of the format.
     #[error("{}: the scene would be {size}, more than a scene file may have", quote::path(path))]
     TooLong {
@@ -111,7 +124,23 @@ type Translator = fn(ExportSource, &Path) -> Result<Prepared, ExportError>;
 
 /// Translates a scene to the format that the name of the file asks for. Nothing is written.
 pub fn prepare(source: ExportSource, path: &Path) -> Result<Prepared, ExportError> {
-    check(path)?(source, path)
+    let translate = check(path)?;
+    check_files(source)?;
+    translate(source, path)
+}
+
+/// Checks that all files on disk may be copied: those in the folder of the scene, and those that its reader was allowed to read.
+fn check_files(source: ExportSource) -> Result<(), ExportError> {
+    let folder = if source.folder.as_os_str().is_empty() { Path::new(".") } else { source.folder };
+    let root = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
+    let known: HashSet<&str> = source.assets.paths().chain(source.assets.sources()).collect();
+    let mut refused = None;
+    for_each_file(&mut source.description.clone(), &mut |named| {
+        let resolved = folder.join(&*named).canonicalize().ok().filter(|_| !known.contains(named.as_str()));
+        let reason = resolved.and_then(|file| import::refusal(&root, &file));
+        refused = refused.take().or_else(|| Some(ExportError::Outside { path: PathBuf::from(&*named), reason: reason? }));
+    });
+    refused.filter(|_| !source.allow_outside).map_or(Ok(()), Err)
 }
 
 /// Writes a scene. Its meshes and textures go to the folder `NAME.files` beside the file `NAME.toml`, which is written last. Each file

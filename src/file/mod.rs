@@ -1,8 +1,11 @@
 //! File access: opens files that a user names, and replaces files atomically.
+mod below;
 mod durable;
+mod elsewhere;
 #[cfg(test)]
 pub mod faults;
 mod numbered;
+mod short_name;
 mod target;
 
 use std::{
@@ -11,7 +14,10 @@ use std::{
     path::Path,
 };
 
+pub use below::{check_below, replace_below};
+pub use elsewhere::save_elsewhere;
 pub use numbered::numbered;
+pub use short_name::{LONGEST_NAME, cut, short_name};
 pub use target::{WriteError, check, replace, replace_by};
 
 /// Opens a regular file for reading. Anything else is an error: reading from a pipe could wait for ever. So is a pointer of Git LFS,
@@ -24,6 +30,10 @@ pub fn open_regular(path: &Path) -> io::Result<File> {
         return Err(io::Error::other(format!("it is not a regular file{what}")));
     }
     let mut file = File::open(path)?;
+    // It may have been replaced meanwhile.
+    if !file.metadata()?.is_file() {
+        return Err(io::Error::other("it is not a regular file"));
+    }
     if found.len() <= LONGEST_POINTER && is_pointer(&mut file)? {
         return Err(io::Error::other("it is a pointer of Git LFS, not the file itself; fetch that with `git lfs pull`"));
     }
@@ -40,6 +50,17 @@ fn is_pointer(file: &mut File) -> io::Result<bool> {
     file.by_ref().take(START.len() as u64).read_to_end(&mut start)?;
     file.rewind()?;
     Ok(start == START)
+}
+
+/// Reads a regular file of at most so many bytes as text.
+pub fn read_text(path: &Path, most: u64) -> io::Result<String> {
+    let mut text = String::new();
+    // Reading stops at the limit even if the file is smaller now, because it may grow meanwhile.
+    open_regular(path)?.take(most + 1).read_to_string(&mut text)?;
+    if text.len() as u64 > most {
+        return Err(io::Error::new(io::ErrorKind::FileTooLarge, format!("it has more than {most} bytes")));
+    }
+    Ok(text)
 }
 
 #[cfg(test)]

@@ -6,7 +6,10 @@ use ::image::{
     codecs::{bmp::BmpDecoder, jpeg::JpegDecoder, png::PngDecoder, tga::TgaDecoder, webp::WebPDecoder},
 };
 
-use super::{Encoding, ImageFormatError, LONGEST_SIDE, Picture, Pixel, Source, check_length, check_size, length, pixels, room};
+use super::{
+    Encoding, ImageFormatError, LONGEST_SIDE, Picture, Pixel, Source, check_length, check_size, check_unpacked, length, pixels,
+    room,
+};
 use crate::{
     math::colour::linear_from_srgb,
     memory::{Reservation, reserve},
@@ -28,39 +31,40 @@ pub(super) fn png<P: Pixel>(file: &mut dyn Source, encoding: Encoding) -> Result
     let (width, height) = size_of_png(file)?;
     check_size(width.into(), height.into())?;
     let length = length(file)?;
-    decode(PngDecoder::with_limits(file, limits(CHUNKS)).map_err(ImageFormatError::broken)?, [0, length], encoding)
+    decode(PngDecoder::with_limits(file, limits(CHUNKS)).map_err(ImageFormatError::broken)?, [0, length, length], encoding)
 }
 
 pub(super) fn jpeg<P: Pixel>(file: &mut dyn Source, encoding: Encoding) -> Result<Picture<P>, ImageFormatError> {
     let (_file, length) = whole(file)?;
-    decode(JpegDecoder::new(file).map_err(ImageFormatError::broken)?, [JPEG, length], encoding)
+    decode(JpegDecoder::new(file).map_err(ImageFormatError::broken)?, [JPEG, length, length], encoding)
 }
 
 pub(super) fn tga<P: Pixel>(file: &mut dyn Source, encoding: Encoding) -> Result<Picture<P>, ImageFormatError> {
     let length = length(file)?;
-    decode(TgaDecoder::new(file).map_err(ImageFormatError::broken)?, [TGA, length], encoding)
+    decode(TgaDecoder::new(file).map_err(ImageFormatError::broken)?, [TGA, length, length], encoding)
 }
 
 pub(super) fn webp<P: Pixel>(file: &mut dyn Source, encoding: Encoding) -> Result<Picture<P>, ImageFormatError> {
-    let _file = whole(file)?;
-    decode(WebPDecoder::new(file).map_err(ImageFormatError::broken)?, [WEBP, ANY_LENGTH], encoding)
+    let (_file, length) = whole(file)?;
+    decode(WebPDecoder::new(file).map_err(ImageFormatError::broken)?, [WEBP, ANY_LENGTH, length], encoding)
 }
 
 pub(super) fn bmp<P: Pixel>(file: &mut dyn Source, encoding: Encoding) -> Result<Picture<P>, ImageFormatError> {
     let length = length(file)?;
-    decode(BmpDecoder::new(file).map_err(ImageFormatError::broken)?, [0, length], encoding)
+    decode(BmpDecoder::new(file).map_err(ImageFormatError::broken)?, [0, length, length], encoding)
 }
 
-/// Decodes the pixels of a file whose header has been read. `besides`: bytes per pixel that the decoder takes for itself. `length`: that
-/// of the file, bytes.
+/// Decodes the pixels of a file whose header has been read. `besides`: bytes per pixel that the decoder takes for itself. `holds`: bytes
+/// that bound the pixels it can hold at all. `length`: that of the file, bytes.
 fn decode<P: Pixel>(
     mut decoder: impl ImageDecoder,
-    [besides, length]: [u64; 2],
+    [besides, holds, length]: [u64; 3],
     encoding: Encoding,
 ) -> Result<Picture<P>, ImageFormatError> {
     let (width, height) = decoder.dimensions();
     check_size(width.into(), height.into())?;
-    check_length(width.into(), height.into(), length)?;
+    check_length(width.into(), height.into(), holds)?;
+    check_unpacked(width.into(), height.into(), length)?;
     let size = decoder.total_bytes() + besides * u64::from(width) * u64::from(height);
     let _room = room::<P>(width, height, 0)?;
     let _bytes = reserve(BYTES, size)?;

@@ -6,7 +6,7 @@
 //! The `image` crate reads this format too, but it does not apply the exposure and has no limit for the length of a header line.
 use std::io::{BufRead, Read};
 
-use super::{ImageFormatError, Picture, Pixel, Source, check_size, length, pixels, room};
+use super::{ImageFormatError, Picture, Pixel, Source, check_size, check_unpacked, length, pixels, room};
 
 /// Maximum length of a header line.
 const LONGEST_LINE: u64 = 4096;
@@ -21,6 +21,7 @@ pub(super) fn decode<P: Pixel>(file: &mut dyn Source) -> Result<Picture<P>, Imag
     let layout = Layout::read(&text_line(file)?)?;
     let [width, height] = layout.size();
     check_size(width.into(), height.into())?;
+    check_unpacked(width.into(), height.into(), length)?;
     // A line has a pixel or more, and old runs are of any length.
     if 4 * u64::from(layout.lines) > length {
         return Err(ImageFormatError::broken("the file ends within its pixels"));

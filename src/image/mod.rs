@@ -40,6 +40,9 @@ pub const MOST_PIXELS: u64 = 1 << 27;
 const DENSEST: u64 = 8 * 1032;
 /// Ends of the names of image files that are read.
 pub const EXTENSIONS: [&str; 10] = ["png", "jpg", "jpeg", "tga", "webp", "bmp", "exr", "hdr", "pic", "pfm"];
+/// Pixels that any file may have, and further ones per byte: a small file must not unpack to gigabytes.
+const FREE_PIXELS: u64 = 1 << 25;
+const PIXELS_PER_BYTE: u64 = 8;
 /// Maximum radiance.
 const BRIGHTEST: f32 = 1e15;
 
@@ -285,6 +288,16 @@ fn check_length(width: u64, height: u64, length: u64) -> Result<(), ImageFormatE
         return Err(ImageFormatError::broken(reason));
     }
     Ok(())
+}
+
+/// Checks that a file does not unpack to far more than its size. All formats that pack pixels come through here.
+fn check_unpacked(width: u64, height: u64, length: u64) -> Result<(), ImageFormatError> {
+    if width * height <= length.saturating_mul(PIXELS_PER_BYTE).saturating_add(FREE_PIXELS) {
+        return Ok(());
+    }
+    let reason =
+        format!("its {width} × {height} pixels are packed into {length} bytes; scale it down, or save it without compression");
+    Err(ImageFormatError::broken(reason))
 }
 
 /// The length of a file, bytes. It is at its beginning afterwards.

@@ -1,16 +1,32 @@
-//! Memory of meshes and images that an imported scene keeps.
+//! Memory of what an imported scene keeps: meshes, images, and its description.
 use crate::{
     declare::Assets,
     memory::{Size, TooMuch, reserve},
     model::Model,
+    scene::description::{LampDescription, MaterialDescription, ObjectDescription, SceneDescription},
+    texture::TextureKind,
 };
 
-/// Reserves the memory of all files, for as long as they exist.
-pub fn reserve_assets(assets: &mut Assets) -> Result<(), TooMuch> {
+/// Bytes of an item of the description besides: names, lists of transforms, and its text in an image.
+const BESIDES: u64 = 512;
+
+/// The bytes of a description.
+fn described(description: &SceneDescription) -> u64 {
+    let SceneDescription { objects, lamps, materials, textures, .. } = description;
+    let bytes = |count: usize, size: usize| count as u64 * (size as u64 + BESIDES);
+    bytes(objects.len(), size_of::<ObjectDescription>())
+        + bytes(lamps.len(), size_of::<LampDescription>())
+        + bytes(materials.len(), size_of::<MaterialDescription>())
+        + bytes(textures.len(), size_of::<TextureKind>())
+}
+
+/// Reserves the memory of the description and of all files, for as long as the files exist.
+pub fn reserve_kept(assets: &mut Assets, description: &SceneDescription) -> Result<(), TooMuch> {
     let mesh = |path: &str| Some(assets.get::<Model>(path)?.bytes());
     let image = |path: &str| Some(assets.get::<Vec<u8>>(path)?.len() as u64);
-    let bytes = assets.paths().filter_map(|path| mesh(path).or_else(|| image(path))).sum();
-    let memory = reserve(format_args!("{} of meshes and textures", Size(bytes)), bytes)?;
+    let files: u64 = assets.paths().filter_map(|path| mesh(path).or_else(|| image(path))).sum();
+    let bytes = files + described(description);
+    let memory = reserve(format_args!("{} of objects, meshes and textures", Size(bytes)), bytes)?;
     assets.keep_reserved(memory);
     Ok(())
 }
@@ -34,6 +50,9 @@ mod tests {
         let mut assets = Assets::default();
         assets.insert("meshes/a.ply", model);
         assets.insert("textures/a.png", vec![0u8; 100]);
-        assert!(reserve_assets(&mut assets).is_ok());
+        let mut description = SceneDescription::default();
+        assert!(reserve_kept(&mut assets, &description).is_ok() && described(&description) == 0);
+        description.lamps = vec![LampDescription::default(); 1000];
+        assert!(described(&description) > 500_000);
     }
 }

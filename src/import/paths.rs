@@ -8,8 +8,9 @@ use std::{
 
 use super::{
     ImportOptions,
+    budget::Budget,
     missing::{Missing, Unresolved},
-    spelling,
+    reach, spelling,
 };
 use crate::{progress::Progress, quote};
 
@@ -26,6 +27,8 @@ pub struct Folder {
     found: Arc<Mutex<BTreeSet<String>>>,
     /// The files that were not found, and that the scene needs.
     pub missing: Missing,
+    /// What the scene may make of its files.
+    pub budget: Budget,
     /// The progress of the reader.
     pub progress: Progress,
 }
@@ -37,7 +40,15 @@ impl Folder {
         let typed = parent.unwrap_or(Path::new(".")).to_owned();
         let root = typed.canonicalize().unwrap_or_else(|_| typed.clone());
         let (allow_outside, progress) = (options.allow_outside, options.progress.clone());
-        Folder { typed, root, allow_outside, found: Arc::default(), missing: Missing::default(), progress }
+        Folder {
+            typed,
+            root,
+            allow_outside,
+            found: Arc::default(),
+            missing: Missing::default(),
+            budget: Budget::default(),
+            progress,
+        }
     }
 
     /// The file at a path that the scene names. It exists, and lies within the folder, links followed. The message of an error does
@@ -66,16 +77,53 @@ impl Folder {
             ErrorKind::NotFound => Unresolved { message: format!("`{shown}`: there is no such file"), is_missing: true },
             _ => Unresolved::refused(format!("`{shown}` cannot be found: {error}")),
         })?;
-        if full.starts_with(&self.root) || self.allow_outside {
-            self.note(&full);
-            return Ok(full);
+        match reach::refusal(&self.root, &full).filter(|_| !self.allow_outside) {
+            Some(why) => Err(Unresolved::refused(format!("`{shown}` {why}; {ADVICE}"))),
+            None => {
+                self.note(&full);
+                Ok(full)
+            }
         }
-        Err(Unresolved::refused(format!("`{shown}` lies outside the folder of the scene; {ADVICE}")))
+    }
+
+    /// A folder in which the scene looks for files, and which it may share with others beside it.
+    pub fn shared_folder(&self, named: &str) -> Result<PathBuf, String> {
+        let (shown, path) = (quote::path(Path::new(named)), Path::new(named));
+        if is_absolute(path) && !self.allow_outside {
+            return Err(format!("`{shown}` is an absolute path; {ADVICE}"));
+        }
+        let shared = self.typed.join(path).canonicalize().ok().filter(|shared| shared.is_dir());
+        let shared = shared.ok_or_else(|| format!("the search folder `{shown}` does not exist"))?;
+        let refusal = reach::refusal_to_share(&self.root, path, &shared).filter(|_| !self.allow_outside);
+        refusal.map_or(Ok(shared), |why| Err(format!("the search folder `{shown}` {why}; {ADVICE}")))
+    }
+
+    /// The file at a path in such a folder, if there is one that may be read.
+    pub fn in_shared_folder(&self, folder: &Path, named: &str) -> Option<PathBuf> {
+        let inside = (!named.is_empty() && !is_absolute(Path::new(named))).then(|| folder.join(named).canonicalize().ok())??;
+        let is_read = self.allow_outside || reach::refusal(folder, &inside).is_none();
+        is_read.then(|| self.note(&inside))?;
+        Some(inside)
+    }
+
+    /// Whether messages may show what stands in a file: not in one that only lies in a folder that the scene shares.
+    pub fn may_quote(&self, file: &Path) -> bool {
+        self.allow_outside || file.canonicalize().is_ok_and(|file| file.starts_with(&self.root))
+    }
+
+    /// The scene file itself without links.
+    pub fn resolved(&self, scene: &Path) -> PathBuf {
+        scene.canonicalize().unwrap_or_else(|_| scene.to_owned())
     }
 
     /// The folder without links.
     pub fn root(&self) -> &Path {
         &self.root
+    }
+
+    /// The folder, as the user typed it.
+    pub fn path(&self) -> &Path {
+        &self.typed
     }
 
     /// Notes a file that was found elsewhere.
@@ -160,6 +208,28 @@ mod tests {
         let link = path.with_file_name("link.png");
         std::os::unix::fs::symlink("../secret.png", link).expect("it is made");
         assert!(folder.resolve("link.png").is_err_and(|error| error.message.contains("outside")));
+    }
+
+    #[test]
+    fn a_shared_folder_is_searched_and_hidden_files_in_it_are_not() {
+        let (outer, path) = scene();
+        fs::create_dir_all(outer.path().join("common/.keys")).expect("a folder");
+        for file in ["common/wood.png", "common/.keys/id"] {
+            fs::write(outer.path().join(file), "x").expect("it is written");
+        }
+        let folder = Folder::new(&path, &ImportOptions::default());
+        let common = folder.shared_folder("../common").expect("it is beside");
+        assert!(folder.in_shared_folder(&common, "wood.png").is_some_and(|wood| !folder.may_quote(&wood)));
+        for named in [".keys/id", "../secret.png", "", "none.png"] {
+            assert_eq!(folder.in_shared_folder(&common, named), None, "{named}");
+        }
+        for refused in ["..", "../common/.keys", "/tmp", "nowhere", "textures/wood.png"] {
+            assert!(folder.shared_folder(refused).is_err(), "{refused}");
+        }
+        let lax = Folder::new(&path, &ImportOptions { allow_outside: true, ..ImportOptions::default() });
+        let all = lax.shared_folder("..").expect("it is allowed");
+        let secret = lax.in_shared_folder(&all, "secret.png").expect("it is allowed");
+        assert!(lax.may_quote(&secret));
     }
 
     #[test]

@@ -1,9 +1,8 @@
 //! A camera and light for files that have none.
 use glam::DVec3;
 
-use super::Remarks;
+use super::Imported;
 use crate::{
-    declare::Assets,
     light::background::image::Image,
     scene::{
         Projection,
@@ -62,12 +61,12 @@ const SKY: &str = "textures/studio.hdr";
 const WIDTH: usize = 128;
 const HEIGHT: usize = 64;
 
-/// Adds a neutral studio sky, and a remark that says so: a grey room with a large soft light at the upper left and a weaker one at the
-/// right, as seen from +z.
-pub fn light(description: &mut SceneDescription, assets: &mut Assets, remarks: &mut Remarks, place: &str) {
-    assets.insert(SKY, sky());
-    description.background = Some(Image { path: SKY.to_owned(), ..Image::default() }.into());
-    remarks.add(place, "no light", "a neutral studio sky", "the light differs from the original");
+/// Adds a neutral studio sky, and a remark about what was found: a grey room with a large soft light at the upper left and a weaker one at
+/// the right, as seen from +z.
+pub fn light(to: &mut Imported, place: &str, found: impl Into<String>, effect: &str) {
+    to.assets.insert(SKY, sky());
+    to.description.background = Some(Image { path: SKY.to_owned(), ..Image::default() }.into());
+    to.remarks.add(place, found, "a neutral studio sky", effect);
 }
 
 /// A Radiance file of the sky, equirectangular.
@@ -84,7 +83,10 @@ fn sky() -> Vec<u8> {
     file
 }
 
-/// Radiance from a unit direction, W/(m² sr): about 0.75 in the mean. No grey surface is brighter than the display can show.
+/// Mean radiance of the sky, W/(m² sr).
+pub const RADIANCE: f64 = 0.75;
+
+/// Radiance from a unit direction, W/(m² sr). No grey surface is brighter than the display can show.
 fn radiance(direction: DVec3) -> f64 {
     let room = 0.35 + 0.25 * direction.y;
     let lamp = |towards: DVec3, radius: f64, radiance: f64| {
@@ -153,12 +155,12 @@ mod tests {
 
     #[test]
     fn the_sky_is_a_file_among_the_assets_and_a_remark() {
-        let (mut description, mut assets, mut remarks) = (SceneDescription::default(), Assets::default(), Remarks::default());
-        light(&mut description, &mut assets, &mut remarks, "a.gltf");
-        let Some(BackgroundDescription::Image(image)) = description.background else { panic!("an image") };
-        let file = assets.get::<Vec<u8>>(&image.path).expect("the file is there");
+        let mut to = Imported::default();
+        light(&mut to, "a.gltf", "no light", "the light differs");
+        let Some(BackgroundDescription::Image(image)) = to.description.background else { panic!("an image") };
+        let file = to.assets.get::<Vec<u8>>(&image.path).expect("the file is there");
         assert!(file.starts_with(b"#?RADIANCE") && file.len() > 4 * WIDTH * HEIGHT);
-        assert_eq!(remarks.len(), 1);
+        assert_eq!(to.remarks.len(), 1);
     }
 
     #[test]
@@ -169,16 +171,20 @@ mod tests {
         // The light that a grey surface reflects, by an integral over the sphere.
         const ROWS: usize = 90;
         let cell = std::f64::consts::PI / ROWS as f64;
+        let directions = || (0..ROWS * 2 * ROWS).map(|i| [i / (2 * ROWS), i % (2 * ROWS)].map(|x| (x as f64 + 0.5) * cell));
         let reflected = |normal: DVec3| {
-            let directions = (0..ROWS * 2 * ROWS).map(|i| [i / (2 * ROWS), i % (2 * ROWS)].map(|x| (x as f64 + 0.5) * cell));
             let light = |[theta, phi]: [f64; 2]| {
                 let direction = DVec3::new(theta.sin() * phi.cos(), theta.cos(), theta.sin() * phi.sin());
                 radiance(direction) * direction.dot(normal).max(0.0) * theta.sin()
             };
-            0.5 * directions.map(light).sum::<f64>() * cell * cell / std::f64::consts::PI
+            0.5 * directions().map(light).sum::<f64>() * cell * cell / std::f64::consts::PI
         };
         let brightest = reflected(DVec3::new(-1.0, 1.2, 0.8).normalize());
         assert!((0.7..1.0).contains(&brightest), "{brightest}");
+        let towards = |[theta, phi]: [f64; 2]| DVec3::new(theta.sin() * phi.cos(), theta.cos(), theta.sin() * phi.sin());
+        let part = |place: [f64; 2]| radiance(towards(place)) * place[0].sin();
+        let mean = directions().map(part).sum::<f64>() * cell * cell / (4.0 * std::f64::consts::PI);
+        assert!((mean / RADIANCE - 1.0).abs() < 0.05, "{mean}");
         for value in [0.1, 0.5, 1.0, 8.6] {
             let [mantissa, _, _, exponent] = rgbe(value);
             let read = f64::from(mantissa) / 256.0 * 2f64.powi(i32::from(exponent) - 128);

@@ -184,6 +184,11 @@ pub fn read_watched(path: &Path, progress: &Progress) -> Result<Model, ModelErro
     read_file(path, progress, decode).map_err(|problem| ModelError { path: path.to_owned(), problem })
 }
 
+/// Decodes the bytes of a PLY file.
+pub fn decode_ply(bytes: &[u8], progress: &Progress) -> Result<Model, ModelFormatError> {
+    if ply::is_ply(bytes) { completed(ply::decode(bytes, progress)?) } else { Err(ModelFormatError::NotAModel) }
+}
+
 /// Reads a mesh file as one mesh per material. Only OBJ files have several.
 pub fn read_parts(path: &Path, progress: &Progress) -> Result<ObjParts, ModelError> {
     read_file(path, progress, decode_parts).map_err(|problem| ModelError { path: path.to_owned(), problem })

@@ -20,7 +20,7 @@ use crate::{
 #[derive(Debug, thiserror::Error)]
 pub enum ImageError {
     /// The name has no known extension.
-    #[error("{}: the name must end in .png (as shown) or .exr (linear)", .0.display())]
+    #[error("{}: the name must end in .png (as shown) or .exr (linear), such as {}", .0.display(), as_png(.0))]
     Format(PathBuf),
     /// The file cannot be written.
     #[error(transparent)]
@@ -34,6 +34,11 @@ pub enum ImageError {
     /// The image is to be a reference, but it is biased.
     #[error("{}: the image is denoised, and so biased; a reference must be a render without --denoise", .0.display())]
     Denoised(PathBuf),
+}
+
+/// The name of a PNG in place of that of another file.
+fn as_png(path: &Path) -> String {
+    Path::new(path.file_name().unwrap_or_default()).with_extension("png").display().to_string()
 }
 
 /// Format of an image file.

@@ -42,6 +42,12 @@ impl Reference {
         Ok(Reference::Picture(Arc::new(picture), Arc::new(provenance)))
     }
 
+    /// The relative noise of the reference itself: the root of its relMSE; `None` if it is exact or does not tell.
+    pub fn relative_noise(&self) -> Option<f64> {
+        let Reference::Picture(_, provenance) = self else { return None };
+        provenance.rel_mse_estimate.map(f64::sqrt)
+    }
+
     /// Whether it is a denoised image. Nothing is compared with that, because it is biased.
     pub fn is_denoised(&self) -> bool {
         matches!(self, Reference::Picture(_, provenance) if provenance.is_denoised)

@@ -42,11 +42,20 @@ pub struct Curve {
     pub style: Style,
     /// Its points, x and y.
     pub points: Vec<(f64, f64)>,
+    /// Its colour, red, green and blue, if that is not by the order.
+    pub colour: Option<[u8; 3]>,
 }
 
 /// A curve of these points.
 pub fn curve(name: impl Into<String>, style: Style, points: Vec<(f64, f64)>) -> Curve {
-    Curve { name: name.into(), style, points }
+    Curve { name: name.into(), style, points, colour: None }
+}
+
+impl Curve {
+    /// Gives the curve a colour, red, green and blue.
+    pub fn coloured(self, colour: [u8; 3]) -> Curve {
+        Curve { colour: Some(colour), ..self }
+    }
 }
 
 /// A plot that can be written in several formats.
@@ -78,7 +87,7 @@ pub fn plot(caption: impl Into<String>, x: Axis, y: Axis, curves: &[Curve]) -> F
     Figure { caption: caption.into(), element: svg(ALONE, x, y, curves) }
 }
 
-/// Curves on common axes, coloured by their order; points and lines with the same name share a colour.
+/// Curves on common axes. Those without a colour are coloured by their order; points and lines with the same name share one.
 pub fn svg(size: (u32, u32), x: Axis, y: Axis, curves: &[Curve]) -> String {
     let mut svg = String::new();
     let drawn = draw(&SVGBackend::with_string(&mut svg, size).into_drawing_area(), 1, x, y, curves);
@@ -135,11 +144,15 @@ where
         .label_style(small)
         .axis_desc_style(("sans-serif", 14 * scale))
         .draw()?;
-    let mut names: Vec<&str> = Vec::new();
+    let mut names: Vec<(&str, Option<[u8; 3]>)> = Vec::new();
     for curve in curves {
-        let known = names.iter().position(|name| *name == curve.name);
+        let known = names.iter().position(|name| *name == (&curve.name, curve.colour));
         let number = known.unwrap_or(names.len());
-        let colour = if curve.style == Style::Guide { GREY } else { COLOURS[number % COLOURS.len()] };
+        let colour = match (curve.style, curve.colour) {
+            (Style::Guide, _) => GREY,
+            (_, Some([red, green, blue])) => RGBColor(red, green, blue),
+            _ => COLOURS[number % COLOURS.len()],
+        };
         let places = curve.points.iter().map(|&(a, b)| (x.place(a), y.place(b)));
         let line = colour.stroke_width(2 * scale);
         let series = match curve.style {
@@ -148,7 +161,7 @@ where
             Style::Points => chart.draw_series(places.map(|place| Circle::new(place, 3 * scale, colour.filled())))?,
         };
         if known.is_none() {
-            names.push(&curve.name);
+            names.push((&curve.name, curve.colour));
             series.label(&curve.name).legend(move |(x, y)| PathElement::new([(x, y), (x + 16 * scale as i32, y)], line));
         }
     }

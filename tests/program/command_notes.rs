@@ -79,3 +79,35 @@ fn a_link_is_written_through() {
         assert!(shell.path("link.png").is_symlink() && shell.path("disk/there.png").is_file());
     }
 }
+
+#[test]
+fn options_without_effect_are_named() {
+    let shell = Shell::new();
+    let small = ["--spp", "8", "--size", "16x16"];
+    let said = |rest: &[&str]| {
+        let done = shell.run(&[&["render", &scene("cornell_box")], &small[..], rest].concat());
+        assert!(done.status.success(), "{rest:?}: {}", text(&done.stderr));
+        text(&done.stderr)
+    };
+    for (options, note) in [
+        (&["-o", "a.png", "--adaptive", "on", "--reuse", "on"][..], "note: `adaptive` is not used: pixels have shared paths"),
+        (&["-o", "a.png", "--adaptive", "on", "--estimator", "bidirectional"], "note: `adaptive` is not used: paths from lights"),
+        (&["-o", "a.png", "--reuse", "both", "--estimator", "forward"], "note: `reuse` is not used: paths from lights"),
+        (&["-o", "a.png", "--merging", "on", "--estimator", "mis"], "note: `merging` is not used: it belongs to the estimator"),
+        (&["-o", "a.exr", "--tone", "aces"], "affect a PNG only"),
+        (&["-o", "a.png", "-D", "a=1", "--at", "2", "--variant", "b"], "note: -D affects scenes of Mitsuba only; --at affects"),
+    ] {
+        assert!(said(options).contains(note), "{options:?}: {}", said(options));
+    }
+    let plain = said(&["-o", "a.png", "--adaptive", "on", "--reuse", "off", "--estimator", "mis"]);
+    assert!(!plain.contains("shared") && !plain.contains("paths from lights"), "{plain}");
+    assert_eq!(said(&["-o", "a.png", "--reuse", "off"]), "");
+    let samples = ["--samples", "0..8", "--size", "16x16", "--adaptive", "on", "--reuse", "on", "--exposure", "1"];
+    let done = shell.run(&[&["render", &scene("cornell_box"), "-o", "a.nf"], &samples[..]].concat());
+    let notes = text(&done.stderr);
+    assert!(notes.contains("`adaptive` is not used") && notes.contains("a file of samples has no display"), "{notes}");
+    let merged = text(&shell.run(&["merge", "a.nf", "-o", "b.exr", "--tone", "agx"]).stderr);
+    assert!(merged.contains("affect a PNG only"), "{merged}");
+    let replayed = ["render", &scene("furnace"), "--pixel", "1,1", "--size", "8x8", "--spp", "9", "--exposure", "1"];
+    assert!(text(&shell.run(&replayed).stderr).contains("does not use --spp, --exposure"));
+}

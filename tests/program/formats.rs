@@ -89,7 +89,7 @@ fn a_scene_in_memory_and_the_exported_one_have_the_same_bits() {
     assert!(is_lit(&scene));
     let path = folder.path().join("out/tent.toml");
     fs::create_dir(folder.path().join("out")).expect("a folder");
-    let source = ExportSource { description: &description, assets: &assets, folder: folder.path() };
+    let source = ExportSource { description: &description, assets: &assets, folder: folder.path(), allow_outside: false };
     let exported = write(source, &path).expect("it is written");
     assert_eq!((exported.written, exported.copied), (3, 0));
     let read = load(&path).unwrap_or_else(|error| panic!("{}", error.report()));

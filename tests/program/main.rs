@@ -1,4 +1,5 @@
 //! Tests of the program: scene files, command line, worker, and the structure of the source.
+mod believing;
 mod bench;
 mod checkpoints;
 mod circles;
@@ -20,10 +21,12 @@ mod json_schema;
 mod layers;
 mod meanings;
 mod output;
+mod outside;
 mod partitions;
 mod pictures;
 mod python_types;
 mod ranges;
+mod readers;
 mod replay;
 mod reused_parts;
 mod scene_files;
@@ -38,6 +41,7 @@ mod tev;
 mod tev_server;
 mod textures;
 mod validate;
+mod waiting;
 mod warnings;
 mod worker;
 mod worker_edits;

@@ -43,8 +43,32 @@ fn a_format_and_a_name_that_disagree_are_wrong_usage() {
         assert!(text(&output.stderr).contains(message), "{rest:?}: {}", text(&output.stderr));
     }
     let no_name = shell.run(&["render", &furnace, "-o", "out", "--format", "png"]);
-    assert!(no_name.status.code() == Some(1) && text(&no_name.stderr).contains("must end in .png"));
+    assert!(no_name.status.code() == Some(2) && text(&no_name.stderr).contains("must end in .png"));
     assert_eq!(fs::read_dir(shell.path("")).expect("it is there").count(), 0);
+}
+
+#[test]
+fn a_name_that_says_no_known_format_is_wrong_usage_in_every_command() {
+    let shell = Shell::new();
+    let furnace = scene("furnace");
+    assert!(shell.run(&[&["render", &furnace, "-o", "a.exr"], &SMALL[..]].concat()).status.success());
+    for (command, advice) in [
+        (vec!["render", &furnace, "-o", "room.jpg"], "such as room.png"),
+        (vec!["render", &furnace, "-o", "room"], "such as room.png"),
+        (vec!["render", &furnace, "-o", "room-#.tif", "--turntable", "2"], "such as room-#.png"),
+        (vec!["render", &furnace, "-o", "room.jpeg", "--samples", "0..2"], "such as room.png"),
+        (vec!["merge", "a.nf", "-o", "room.jpg"], "such as room.png; or in .nf"),
+        (vec!["compare", "a.exr", "a.exr", "-o", "room.jpg"], "such as room.png"),
+        (vec!["compare", "a.exr", "a.exr", "-o", "room.nf"], ".png or .exr"),
+        (vec!["sheet", &furnace, "-o", "room.jpg"], ".png"),
+        (vec!["bench", &furnace, "-o", "room.jpg"], ".svg"),
+        (vec!["convert", &furnace, "-o", "room.blend"], ".toml, .xml, .gltf or .glb"),
+    ] {
+        let done = shell.run(&command);
+        let said = text(&done.stderr);
+        assert!(done.status.code() == Some(2) && said.contains(advice), "{command:?}: {said}");
+    }
+    assert_eq!(fs::read_dir(shell.path("")).expect("it is there").count(), 1, "only the first image");
 }
 
 /// A hard link to a file. Its content stays if the file is replaced, and changes if the file is overwritten.

@@ -1,5 +1,5 @@
 //! Images in tev while they are rendered.
-use std::{net::TcpListener, sync::Arc};
+use std::{net::TcpListener, sync::Arc, time::Duration};
 
 use noisefall::render::{
     Frame,
@@ -27,7 +27,7 @@ fn the_last_frame_is_in_tev_when_the_stream_is_finished() {
         stream.show("Room", &frame([7, 5], of));
     }
     assert!(stream.failure().is_none());
-    stream.finish().expect("it is sent");
+    stream.finish(Duration::from_secs(60), || false).expect("it is sent");
     let packets = server.finish();
     let channels = ["R", "G", "B"].map(str::to_owned).to_vec();
     let created = Packet::Create { name: "Room".to_owned(), grabs_focus: true, size: [7, 5], channels: channels.clone() };

@@ -49,7 +49,7 @@ impl Arguments {
         let resumed = self.keep.resume(file)?;
         let Header { camera, settings, scene, .. } = resumed.header().clone();
         self.check_same_image(&resumed)?;
-        let Opened { scene: opened, remarks, description } = resumed.open()?;
+        let Opened { scene: opened, remarks, description } = resumed.open(self.options.allow_outside)?;
         let path = Path::new(&scene.folder).join(&scene.name);
         Ok(Begun { scene: Arc::new(opened), path, description, remarks, camera, settings, resumed: Some(resumed) })
     }
@@ -57,7 +57,7 @@ impl Arguments {
     /// Refuses options that would change the image of a render that is continued.
     fn check_same_image(&self, resumed: &Resumed) -> Result<(), Failure> {
         let Header { camera, settings, .. } = resumed.header();
-        let of_scene = self.options.words();
+        let of_scene = self.options.words_of_scene();
         if !of_scene.is_empty() {
             return Err(resumed.has_scene(&of_scene));
         }

@@ -13,7 +13,7 @@ use std::{
 
 use noisefall::{
     math::SimdLevel,
-    render::{Budget, Display, RenderRequest, image_file::Format, sharing::resolved, threads::Threads, truth::Reference},
+    render::{Budget, RenderRequest, image_file::Format, sharing::resolved, threads::Threads, truth::Reference},
     render_file::Target,
     scene::{Estimator, RenderSettings, Scene},
 };
@@ -33,6 +33,7 @@ use super::{
     samples::{self, SampleJob},
     sequence::Shot,
     shot::Job,
+    unused::tell_unused,
 };
 
 /// Samples per pixel if neither the command nor the scene states a number.
@@ -49,12 +50,14 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let start = Instant::now();
     let begun = arguments.begin()?;
     begun.camera.check().map_err(|error| error.to_string())?;
+    output.iter().filter_map(|output| arguments.display.unused(output.format())).for_each(tell);
     if let (Some(range), Some(output)) = (&arguments.samples, &output) {
         let shots = arguments.sequence.shots(begun.camera, output, None)?;
         return arguments.sample_job(begun, range.clone())?.run(&shots);
     }
     let Begun { scene, path, description, remarks, camera, settings, resumed } = begun;
     if let Some(pixel) = arguments.pixel {
+        arguments.unused_by_replay().into_iter().for_each(|note| tell(&note));
         let which = arguments.sample.unwrap_or(Which::One(0));
         return replay::run(&scene, &camera, &settings, pixel, which, arguments.form()).map(|()| ExitCode::SUCCESS);
     }
@@ -71,10 +74,12 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let _memory = memory.map_err(|error| error.to_string())?;
     let reference = Reference::of(&scene);
     print_notes(&scene, &settings, reference.as_ref(), camera.resolution);
+    let rays = scene.rays(&camera);
     let threads = || Threads::new(arguments.threads.into(), SimdLevel::best()).map_err(|error| error.to_string());
     let of_images = threads()?;
+    tell_unused(&of_images, &scene, &rays, &settings);
     if settings.estimator == Estimator::Auto {
-        of_images.install(|| resolved(&scene, &scene.rays(&camera), &settings));
+        of_images.install(|| resolved(&scene, &rays, &settings));
         scene.estimator_in_force(&settings).iter().for_each(|chosen| tell(&format!("note: estimator `auto` is {chosen}")));
     }
     let request = RenderRequest { scene: scene.clone(), camera, settings };
@@ -165,10 +170,20 @@ impl Arguments {
             }
             return Layers::default();
         }
-        if self.display.display(0.0) != Display::default() {
-            tell("note: an EXR stores the radiance unchanged; --exposure, --white-balance and --tone affect a PNG only");
-        }
         layers
+    }
+
+    /// Says which options have no effect on the replay of a sample. A command that the program prints has all settings of the render.
+    fn unused_by_replay(&self) -> Option<String> {
+        let given = [
+            ("--spp", self.spp.is_some()),
+            ("--time", self.time.is_some()),
+            ("--noise", self.noise.is_some()),
+            ("--threads", self.threads > 0),
+            ("--exposure, --white-balance and --tone", self.display.unused(None).is_some()),
+        ];
+        let given: Vec<&str> = given.iter().filter(|(_, is_given)| *is_given).map(|(name, _)| *name).collect();
+        (!given.is_empty()).then(|| format!("note: --pixel replays single samples; it does not use {}", given.join(", ")))
     }
 
     /// The options that a range of samples excludes, and whether they are given.

@@ -57,11 +57,19 @@ impl Done<'_> {
             let longest = self.settings.last_bounce();
             notes.push(format!("warning: {cut_paths} paths were cut after {longest} bounces: the image is biased; use roulette"));
         }
+        if self.settings.adaptive && !self.frame.sharing.correlates() && self.frame.counts.is_empty() && !self.has_light_paths() {
+            notes.push("note: `adaptive` is not used: there are few samples, or a pilot found no gain in it".to_owned());
+        }
         if let Some(contradiction) = &self.contradiction {
             let why = self.bias().map_or_else(String::new, |why| format!(" (it is biased: {why})"));
             notes.push(format!("warning: {contradiction}{why}"));
         }
         notes
+    }
+
+    fn has_light_paths(&self) -> bool {
+        let in_force = self.scene.estimator_in_force(self.settings).map_or(self.settings.estimator, |chosen| chosen.estimator);
+        in_force.traces_light_paths()
     }
 
     /// Why the image is biased; `None` if it is not.

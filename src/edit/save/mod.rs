@@ -6,8 +6,10 @@
 //! | `tables.rs`, `lists.rs`, `named.rs` | update a table, a list or a table of named tables in the file |
 //! | `objects.rs` | the same for the objects, in any order |
 //! | `values.rs` | values in the style of a person |
+//! | `new_text.rs` | the text of a new file |
 mod lists;
 mod named;
+mod new_text;
 mod objects;
 mod outline;
 mod tables;
@@ -15,14 +17,13 @@ mod values;
 
 use toml_edit::DocumentMut;
 
+pub use self::new_text::new_text;
 use self::{
     objects::spread,
     outline::Table,
     tables::{Level, Update},
 };
 use super::{content::Content, origin::Origins};
-use crate::scene::description::SceneDescription;
-
 /// The text of a scene file.
 pub fn text(content: &Content) -> String {
     let base = &content.base;
@@ -36,14 +37,6 @@ pub fn text(content: &Content) -> String {
     spread(document.as_table_mut());
     Update { origins: &content.origins }.table(document.as_table_mut(), &was, &now, Level::Root);
     like(&base.text, document.to_string())
-}
-
-/// The text of a new scene file, without values that equal their defaults.
-pub fn new_text(description: &SceneDescription) -> String {
-    let (was, now) = (Table::default(), Table::of(description));
-    let mut document = DocumentMut::new();
-    Update { origins: &Origins::default() }.table(document.as_table_mut(), &was, &now, Level::Root);
-    document.to_string()
 }
 
 /// The text with the byte order mark and the line ends of another.

@@ -17,7 +17,7 @@ const BOUNDS: [DVec3; 2] = [DVec3::new(0.0, 3.0, 0.0), DVec3::new(2.0, 4.0, 2.0)
 fn transforms(at: DVec3, normal: DVec3, unit: f64) -> Vec<Transform> {
     let mut document = room();
     let scene = document.description().build(FilePath::new("")).unwrap_or_else(|error| panic!("{}", error.report()));
-    let placement = Placement { at, normal, scene_size: 5.0 };
+    let placement = Placement { at, normal, extent: 5.0 };
     let (edit, path) = document.add_mesh("some/chair.obj", BOUNDS.map(|corner| corner * unit), placement, &scene);
     does(&mut document, &edit);
     assert_eq!(path, Path::of("objects.3"));

@@ -19,7 +19,7 @@ fn every_shape_is_added_to_every_side_of_a_surface() {
     let at = DVec3::new(0.3217, 0.0, -0.41);
     for kind in ShapeKind::alternatives() {
         for normal in [DVec3::Y, DVec3::NEG_Y, DVec3::X, DVec3::NEG_Z, DVec3::new(0.6, 0.0, 0.8)] {
-            let placement = Placement { at, normal, scene_size: 5.0 };
+            let placement = Placement { at, normal, extent: 5.0 };
             let mut document = room();
             let (edit, path) = document.add_shape(kind.name(), &placement, None).expect("there is such a kind");
             does(&mut document, &edit);
@@ -44,7 +44,7 @@ fn every_shape_is_added_to_every_side_of_a_surface() {
 
 #[test]
 fn lamps_emit_away_from_what_they_hang_on() {
-    let placement = Placement { at: DVec3::new(0.0, 2.5, 0.0), normal: DVec3::NEG_Y, scene_size: 5.0 };
+    let placement = Placement { at: DVec3::new(0.0, 2.5, 0.0), normal: DVec3::NEG_Y, extent: 5.0 };
     let mut document = room();
     let (edit, _) = document.add_lamp("rectangle", &placement, 0.0).expect("there is such a kind");
     does(&mut document, &edit);
@@ -57,7 +57,7 @@ fn lamps_emit_away_from_what_they_hang_on() {
 
 #[test]
 fn new_lamps_are_as_bright_as_the_exposure_needs() {
-    let placement = Placement { at: DVec3::new(0.0, 2.5, 0.0), normal: DVec3::NEG_Y, scene_size: 5.0 };
+    let placement = Placement { at: DVec3::new(0.0, 2.5, 0.0), normal: DVec3::NEG_Y, extent: 5.0 };
     for (exposure, brightness) in [(0.0, 20.0), (3.0, 2.5), (-10.0, 2e4)] {
         let mut document = room();
         let (edit, path) = document.add_lamp("sphere", &placement, exposure).expect("there is such a kind");
@@ -72,7 +72,7 @@ fn lamp(document: &Document, place: usize) -> LampDescription {
 
 #[test]
 fn lamps_without_surface_are_added_duplicated_renamed_and_deleted() {
-    let placement = Placement { at: DVec3::new(0.3, 0.0, -0.4), normal: DVec3::Y, scene_size: 5.0 };
+    let placement = Placement { at: DVec3::new(0.3, 0.0, -0.4), normal: DVec3::Y, extent: 5.0 };
     for kind in LampKind::alternatives() {
         let mut document = room();
         let before = document.text();
@@ -99,7 +99,7 @@ fn lamps_without_surface_are_added_duplicated_renamed_and_deleted() {
 
 #[test]
 fn the_kind_and_the_parameters_of_a_lamp_change_by_their_paths() {
-    let placement = Placement { at: DVec3::ZERO, normal: DVec3::Y, scene_size: 5.0 };
+    let placement = Placement { at: DVec3::ZERO, normal: DVec3::Y, extent: 5.0 };
     let mut document = room();
     let (edit, added) = document.add_lamp_without_surface("point", &placement, 1.0, 0.0).expect("there is such a kind");
     does(&mut document, &edit);
@@ -114,7 +114,7 @@ fn the_kind_and_the_parameters_of_a_lamp_change_by_their_paths() {
 
 #[test]
 fn lamps_are_transformed_as_their_points_are() {
-    let placement = Placement { at: DVec3::new(0.5, 0.0, 0.0), normal: DVec3::Y, scene_size: 5.0 };
+    let placement = Placement { at: DVec3::new(0.5, 0.0, 0.0), normal: DVec3::Y, extent: 5.0 };
     let changes = [
         Transform::Translate(DVec3::new(0.5, -0.25, 1.0)),
         Transform::Rotate(Rotation { axis: DVec3::Z, degrees: 90.0 }),
@@ -148,7 +148,7 @@ fn lamps_are_transformed_as_their_points_are() {
 fn a_scene_without_materials_gets_one() {
     let bare = "format = 1\ncamera = { eye = [0, 0, 4], look_at = [0, 0, 0], fov = 40, resolution = [64, 64] }\nobjects = []\n";
     let mut document = Document::untitled(bare).unwrap_or_else(|error| panic!("{}", error.report()));
-    let placement = Placement { at: DVec3::ZERO, normal: DVec3::Y, scene_size: 1.0 };
+    let placement = Placement { at: DVec3::ZERO, normal: DVec3::Y, extent: 1.0 };
     let (edit, _) = document.add_shape("sphere", &placement, None).expect("there is such a kind");
     let inverse = does(&mut document, &edit);
     assert!(document.text().contains("grey"), "{}", document.text());
@@ -183,7 +183,7 @@ fn objects_are_transformed_as_their_points_are() {
     ];
     let pivot = DVec3::new(0.2, 0.3, -0.1);
     for kind in ShapeKind::alternatives() {
-        let placement = Placement { at: DVec3::ZERO, normal: DVec3::Y, scene_size: 5.0 };
+        let placement = Placement { at: DVec3::ZERO, normal: DVec3::Y, extent: 5.0 };
         let mut document = room();
         let (edit, _) = document.add_shape(kind.name(), &placement, None).expect("there is such a kind");
         does(&mut document, &edit);
@@ -239,7 +239,7 @@ fn closed_room() -> Document {
 #[test]
 fn objects_that_are_added_at_a_wall_stand_on_the_floor_and_lamps_hang_over_it_facing_down() {
     let scene = compiled(&closed_room());
-    let wall = Placement { at: DVec3::new(-1.5, 1.2, -1.0), normal: DVec3::X, scene_size: 5.0 };
+    let wall = Placement { at: DVec3::new(-1.5, 1.2, -1.0), normal: DVec3::X, extent: 5.0 };
     let floor = wall.on_floor(&scene, 0.5);
     assert!(floor.at.distance(DVec3::new(-1.0, 0.0, -1.0)) < 1e-5 && floor.normal == DVec3::Y, "{floor:?}");
     for placement in [wall, floor] {
@@ -251,9 +251,9 @@ fn objects_that_are_added_at_a_wall_stand_on_the_floor_and_lamps_hang_over_it_fa
         let ShapeKind::Rectangle(lamp) = &document.description().objects[4].shape else { panic!("it is a rectangle") };
         assert!(lamp.edge_u.cross(lamp.edge_v).normalize().distance(DVec3::NEG_Y) < 1e-9, "{at}");
     }
-    let ceiling = Placement { at: DVec3::new(0.5, 2.6, 0.5), normal: DVec3::NEG_Y, scene_size: 5.0 };
+    let ceiling = Placement { at: DVec3::new(0.5, 2.6, 0.5), normal: DVec3::NEG_Y, extent: 5.0 };
     assert_eq!(ceiling.hung(&scene).at, ceiling.at, "lamps hang on it");
     // Where there is little room above, a lamp is lower.
-    let low = Placement { at: DVec3::new(0.0, 2.1, 0.0), normal: DVec3::Y, scene_size: 5.0 };
+    let low = Placement { at: DVec3::new(0.0, 2.1, 0.0), normal: DVec3::Y, extent: 5.0 };
     assert!((low.lamp_height(&scene) - 0.6 * 0.4).abs() < 1e-3, "{}", low.lamp_height(&scene));
 }

@@ -12,7 +12,7 @@ use std::{
 
 use tempfile::NamedTempFile;
 
-use super::durable::fill;
+use super::{durable::fill, short_name::cut};
 
 /// Marks the name of a temporary file: `.picture.png.noisefall-AbC123.part`.
 const MARK: &str = ".noisefall-";
@@ -38,6 +38,18 @@ pub enum WriteError {
         /// The kind of item at the path.
         what: &'static str,
     },
+    /// A link stands where no link is followed.
+    #[error(
+        "{}: is not written: {} is a link, which may lead to a file of yours; remove the link",
+        path.display(),
+        link.display()
+    )]
+    Link {
+        /// The file.
+        path: PathBuf,
+        /// The link.
+        link: PathBuf,
+    },
     /// The system refuses.
     #[error("{}: cannot be written: {reason}", path.display())]
     Failed {
@@ -46,6 +58,12 @@ pub enum WriteError {
         /// The message of the operating system.
         reason: String,
     },
+}
+
+impl WriteError {
+    pub(super) fn failed(path: &Path, reason: &str) -> WriteError {
+        WriteError::Failed { path: path.to_owned(), reason: reason.to_owned() }
+    }
 }
 
 /// Checks whether a file can be written to this path, as far as this is known before there are bytes.
@@ -61,18 +79,7 @@ pub fn replace(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
 
 /// The same with bytes that are written piece by piece.
 pub fn replace_by(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), WriteError> {
-    let target = OutputFile::of(path)?;
-    let write = || {
-        let mut file = target.temporary()?;
-        #[cfg(test)]
-        if let Some(disk) = super::faults::disk(&target.path) {
-            return disk.put(file, &target.path, write);
-        }
-        fill(file.as_file_mut(), write)?;
-        file.persist(&target.path)?;
-        Ok(())
-    };
-    write().map_err(|error| failed(path, &error))
+    OutputFile::of(path)?.replace(write)
 }
 
 fn failed(path: &Path, error: &io::Error) -> WriteError {
@@ -82,13 +89,16 @@ fn failed(path: &Path, error: &io::Error) -> WriteError {
     let remedy = match error.kind() {
         ErrorKind::StorageFull | ErrorKind::QuotaExceeded => ": free some space there, or choose another disk",
         ErrorKind::ReadOnlyFilesystem | ErrorKind::PermissionDenied => ": choose another folder",
+        ErrorKind::FileTooLarge => ": raise the limit on the size of files (`ulimit -f`), or choose another disk",
         _ => "",
     };
     WriteError::Failed { path: path.to_owned(), reason: format!("{reason}{remedy}") }
 }
 
 /// A file to write.
-struct OutputFile {
+pub(super) struct OutputFile {
+    /// As it was given, for messages.
+    given: PathBuf,
     /// The path with symbolic links resolved: a rename to a link would replace the link.
     path: PathBuf,
     folder: PathBuf,
@@ -108,13 +118,46 @@ impl OutputFile {
             Err(error) => return Err(failed(path, &error)),
         }
         let end = through_links(path);
-        let parent = end.parent().filter(|folder| !folder.as_os_str().is_empty());
-        let folder = parent.unwrap_or_else(|| Path::new(".")).to_owned();
-        if !folder.is_dir() {
-            return Err(WriteError::NoFolder { path: path.to_owned(), folder });
+        let file = OutputFile::at(path, end);
+        if !file.folder.is_dir() {
+            return Err(WriteError::NoFolder { path: path.to_owned(), folder: file.folder });
         }
-        let name = end.file_name().unwrap_or_default().to_owned();
-        Ok(OutputFile { path: end, folder, name })
+        Ok(file)
+    }
+
+    /// A file that is no link, and whose folder may be missing.
+    pub(super) fn without_links(path: &Path) -> Result<OutputFile, WriteError> {
+        match fs::symlink_metadata(path) {
+            Ok(there) if there.is_symlink() => Err(WriteError::Link { path: path.to_owned(), link: path.to_owned() }),
+            Ok(there) => match other_than_a_file(there.file_type()) {
+                Some(what) => Err(WriteError::NotAFile { path: path.to_owned(), what }),
+                None => Ok(OutputFile::at(path, path.to_owned())),
+            },
+            Err(error) if error.kind() == ErrorKind::NotFound => Ok(OutputFile::at(path, path.to_owned())),
+            Err(error) => Err(failed(path, &error)),
+        }
+    }
+
+    fn at(given: &Path, path: PathBuf) -> OutputFile {
+        let parent = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+        let folder = parent.unwrap_or_else(|| Path::new(".")).to_owned();
+        let name = path.file_name().unwrap_or_default().to_owned();
+        OutputFile { given: given.to_owned(), path, folder, name }
+    }
+
+    /// Writes the file to the disk under another name, and renames it.
+    pub(super) fn replace(&self, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), WriteError> {
+        let write = || {
+            let mut file = self.temporary()?;
+            #[cfg(test)]
+            if let Some(disk) = super::faults::disk(&self.path) {
+                return disk.put(file, &self.path, write);
+            }
+            fill(file.as_file_mut(), write)?;
+            file.persist(&self.path)?;
+            Ok(())
+        };
+        write().map_err(|error| failed(&self.given, &error))
     }
 
     /// An empty file beside the target that disappears unless it is renamed. It is locked, and has the target's permissions.
@@ -191,15 +234,14 @@ fn through_links(path: &Path) -> PathBuf {
 /// The prefix of temporary files of a target. It is truncated for long names, because names have at most 255 bytes.
 fn prefix(name: &OsStr) -> OsString {
     const LONGEST: usize = 200;
-    const KEPT_LETTERS: usize = 40;
+    const KEPT_BYTES: usize = 80;
     let mut prefix = OsString::from(".");
     if name.len() <= LONGEST {
         prefix.push(name);
     } else {
         let mut hasher = DefaultHasher::new();
         name.hash(&mut hasher);
-        let start: String = name.to_string_lossy().chars().take(KEPT_LETTERS).collect();
-        prefix.push(format!("{start}-{:016x}", hasher.finish()));
+        prefix.push(format!("{}-{:016x}", cut(&name.to_string_lossy(), KEPT_BYTES), hasher.finish()));
     }
     prefix.push(MARK);
     prefix

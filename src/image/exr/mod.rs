@@ -7,8 +7,7 @@ use ::exr::{
 };
 
 use self::channels::{Channels, choose};
-
-use super::{ImageFormatError, Picture, Pixel, Source, check_length, check_size, length, room};
+use super::{ImageFormatError, Picture, Pixel, Source, check_length, check_size, check_unpacked, length, room};
 
 /// Blocks are decompressed in parallel, each in its own memory.
 const UNPACKING: u64 = 32 << 20;
@@ -25,6 +24,7 @@ pub(super) fn decode<P: Pixel>(file: &mut dyn Source) -> Result<Picture<P>, Imag
         return Err(ImageFormatError::broken("the file has no layers"));
     };
     check_length(largest.width() as u64, largest.height() as u64, length)?;
+    check_unpacked(largest.width() as u64, largest.height() as u64, length)?;
     let channels = choose(&headers).map_err(ImageFormatError::broken)?;
     let _room = room::<P>(largest.width() as u32, largest.height() as u32, UNPACKING)?;
     file.rewind()?;

@@ -4,7 +4,7 @@ mod pfm;
 
 use std::io::Cursor;
 
-use super::{Encoding, ImageFormatError, Opacity, Picture, Texels, check_length, decode, read_opacity_of};
+use super::{Encoding, ImageFormatError, Opacity, Picture, Texels, check_length, check_unpacked, decode, read_opacity_of};
 use crate::declare::Resources;
 
 fn read(bytes: &[u8]) -> Result<Picture, ImageFormatError> {
@@ -288,4 +288,29 @@ fn headers_that_claim_more_pixels_than_the_file_can_hold_are_refused() {
     let tall = read(&hdr(&format!("{HEADER}\n-Y 16384 +X 8\n"), &[])).expect_err("it has no pixels");
     assert!(tall.to_string().contains("ends within its pixels"), "{tall}");
     assert!(check_length(8256, 1, 1).is_ok() && check_length(8257, 1, 1).is_err());
+}
+
+#[test]
+fn small_files_do_not_unpack_to_gigabytes() {
+    // Flat images of half a gigabyte can be tiny; larger ones need bytes.
+    assert!(check_unpacked(8192, 4096, 1).is_ok() && check_unpacked(8192, 4098, 1).is_err());
+    assert!(check_unpacked(16_384, 8192, 12 << 20).is_ok() && check_unpacked(16_384, 8192, 9 << 20).is_err());
+    // Each format that packs pixels, at the limits of its size.
+    let [width, height] = [16_384u16, 8192];
+    let mut hdr = format!("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {height} +X {width}\n").into_bytes();
+    hdr.resize(4 * usize::from(height) + hdr.len(), 0);
+    let mut tga = vec![0, 0, 10, 0, 0, 0, 0, 0, 0, 0, 0, 0];
+    tga.extend([width.to_le_bytes(), height.to_le_bytes()].concat());
+    tga.extend([24, 0]);
+    tga.extend([255u8, 1, 2, 3].repeat(1 << 20));
+    let mut bmp = b"BM".to_vec();
+    bmp.extend([0u32, 0, 14 + 40 + 1024, 40, width.into(), height.into()].iter().flat_map(|word| word.to_le_bytes()));
+    bmp.extend([1u16, 8].iter().flat_map(|word| word.to_le_bytes()));
+    bmp.extend([1u32, 0, 0, 0, 256, 0].iter().flat_map(|word| word.to_le_bytes()));
+    bmp.resize(bmp.len() + 1024, 7);
+    bmp.extend([255u8, 9].repeat(1 << 19));
+    for (name, bytes) in [("HDR", hdr), ("TGA", tga), ("BMP", bmp)] {
+        let error = decode::<[f32; 3]>(&mut Cursor::new(&bytes[..]), Encoding::Srgb).expect_err("it is dense").to_string();
+        assert!(error.contains("16384 × 8192 pixels are packed into"), "{name}: {error}");
+    }
 }

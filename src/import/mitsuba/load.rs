@@ -1,7 +1,7 @@
 //! Loads the tree of a scene: parameters, defaults, includes, aliases and search folders.
 use std::{
     cell::Cell,
-    path::{Component, Path, PathBuf},
+    path::{Path, PathBuf},
 };
 
 use super::{
@@ -26,8 +26,6 @@ const MOST_ELEMENTS: usize = 4_000_000;
 /// Parameters, and folders of `<path>`: each use of either searches all of them.
 const MOST_PARAMETERS: usize = 1000;
 const MOST_FOLDERS: usize = 64;
-/// Steps upwards that a `<path>` may take, as many as Mitsuba's own scenes do.
-const HIGHEST: usize = 3;
 
 /// Where the files of a scene are looked for.
 pub struct FileSearch {
@@ -47,25 +45,18 @@ impl FileSearch {
 
     /// The file at a path that the scene names, in the search folders and then in the folder of the scene.
     ///
-    /// A relative `<path>` may leave the folder of the scene: it is how Mitsuba's scenes name a folder that they share. A file must
-    /// lie in that folder then.
+    /// A relative `<path>` may leave the folder of the scene: it is how Mitsuba's scenes name a folder that they share.
     pub fn resolve(&self, named: &str) -> Result<PathBuf, Unresolved> {
-        let shared = self.search.iter().find_map(|folder| {
-            let inside = Path::new(named).is_relative().then(|| folder.join(named).canonicalize().ok())??;
-            inside.starts_with(folder).then_some(inside)
-        });
-        shared.iter().for_each(|file| self.folder.note(file));
+        let shared = self.search.iter().find_map(|folder| self.folder.in_shared_folder(folder, named));
         shared.map_or_else(|| self.folder.resolve(named), Ok)
     }
 }
 
-struct Loader<'o> {
+struct Loader {
     tree: Tree,
     files: FileSearch,
-    allow_outside: bool,
     parameters: Substitutions,
     includes: usize,
-    main: &'o Path,
 }
 
 /// A file that is being read.
@@ -87,10 +78,8 @@ pub fn load(path: &Path, options: &ImportOptions, folder: &Folder) -> Result<(Tr
             parent: path.parent().unwrap_or(Path::new("")).to_owned(),
             search: Vec::new(),
         },
-        allow_outside: options.allow_outside,
         parameters: Substitutions::new(&options.defines),
         includes: 0,
-        main: path,
     };
     loader.read(path, None, 0, false)?;
     let unused = options.defines.iter().find(|(name, _)| loader.parameters.is_unused(name));
@@ -104,14 +93,19 @@ pub fn load(path: &Path, options: &ImportOptions, folder: &Folder) -> Result<(Tr
     }
 }
 
-impl Loader<'_> {
+impl Loader {
     /// Reads a file, and adds its elements to those of `parent`.
     fn read(&mut self, path: &Path, parent: Option<(usize, usize)>, depth: usize, is_old: bool) -> Result<(), SceneError> {
-        let source = markup::read(path)?;
+        let is_shown = self.files.folder.may_quote(path);
+        let unshown = |error: SceneError| {
+            let message = "this is no scene of Mitsuba; its text is not shown, because it lies outside the folder of the scene";
+            if is_shown { error } else { SceneError::of_file(path, message, "") }
+        };
+        let source = markup::read(path).map_err(unshown)?;
         // The tree keeps the text; the parser borrows its own.
         let text = markup::plain(&source);
         let number = self.tree.add_file(source);
-        let document = markup::parse(&text)?;
+        let document = markup::parse(&text).map_err(unshown)?;
         let root = document.root_element();
         let is_old = root.attribute("version").map_or(is_old, upgrade::is_old);
         let source = LoadedFile { number, depth, is_old };
@@ -208,24 +202,11 @@ impl Loader<'_> {
     }
 
     fn search(&mut self, element: &Node) -> Result<(), SceneError> {
-        let named = Path::new(attribute(element, "value"));
         let error = |message: String| self.tree.error(&element.place, message, "name a folder relative to the scene file");
-        if !named.is_relative() && !self.allow_outside {
-            return Err(error("the search folder is an absolute path; --allow-outside permits it".to_owned()));
-        }
         if self.files.search.len() >= MOST_FOLDERS {
             return Err(error(format!("there are more than {MOST_FOLDERS} search folders")));
         }
-        let steps = named.components().filter(|part| *part == Component::ParentDir).count();
-        if steps > HIGHEST && !self.allow_outside {
-            return Err(error(format!("the search folder is more than {HIGHEST} folders above; --allow-outside permits it")));
-        }
-        let beside = self.main.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        let folder = beside.join(named).canonicalize().map_err(|_| error("the search folder does not exist".to_owned()))?;
-        let own = beside.canonicalize().unwrap_or_else(|_| beside.to_owned());
-        if own != folder && own.starts_with(&folder) && !self.allow_outside {
-            return Err(error("the search folder holds the folder of the scene; --allow-outside permits it".to_owned()));
-        }
+        let folder = self.files.folder.shared_folder(attribute(element, "value")).map_err(error)?;
         self.files.search.insert(0, folder);
         Ok(())
     }

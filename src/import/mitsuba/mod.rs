@@ -36,7 +36,7 @@ use glam::DAffine3;
 
 pub use self::bsdfs::coat;
 use self::{context::Import, tree::Element};
-use super::{Folder, ImportOptions, Imported};
+use super::{Folder, ImportOptions, Imported, lighting};
 use crate::scene::SceneError;
 
 /// Reads the file.
@@ -50,7 +50,9 @@ pub fn read(path: &Path, options: &ImportOptions, folder: &Folder) -> Result<Imp
     import.remark_open_media();
     unread::report(&mut import, root);
     let Import { description, new_files, remarks, .. } = import;
-    Ok(Imported { description, assets: new_files.assets, remarks })
+    let mut to = Imported { description, assets: new_files.assets, remarks };
+    lighting::drop_black(&mut to, folder);
+    Ok(to)
 }
 
 fn scene(import: &mut Import, root: Element) -> Result<(), SceneError> {

@@ -42,6 +42,11 @@ impl Packed {
         Ok(Packed { bytes, unpacked: 0, _room: room })
     }
 
+    /// Bytes of the file.
+    pub fn length(&self) -> u64 {
+        self.bytes.len() as u64
+    }
+
     /// The mesh of a number. An error is the end of a sentence.
     pub fn mesh(&mut self, number: i64) -> Result<Model, String> {
         let number = usize::try_from(number).map_err(|_| "there is no mesh of this number")?;

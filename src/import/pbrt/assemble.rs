@@ -1,18 +1,13 @@
-//! The last step of a translation: assigns materials, which are all known by then, and adds light if there is none.
-use std::path::Path;
-
+//! The last step of a translation: assigns materials, which are all known by then.
 use super::import::Import;
-use crate::{
-    import::studio,
-    scene::{
-        SceneError,
-        description::{Material, ShapeKind},
-    },
+use crate::scene::{
+    SceneError,
+    description::{Material, ShapeKind},
 };
 
 impl Import {
-    /// Gives all objects their materials, and completes the scene.
-    pub fn assemble(&mut self, path: &Path) -> Result<(), SceneError> {
+    /// Gives all objects their materials, and remarks on what became of disks.
+    pub fn assemble(&mut self) -> Result<(), SceneError> {
         for (index, covering) in std::mem::take(&mut self.coverings).into_iter().enumerate() {
             let name = self.material(&covering.material, covering.opacity.as_ref(), &covering.place)?;
             let is_interface = matches!(self.description.materials[&name].kind, Material::Null(_));
@@ -26,11 +21,6 @@ impl Import {
         self.remark_disks();
         if !self.moves {
             self.description.camera.shutter = None;
-        }
-        let emits = self.description.objects.iter().any(|object| object.emission.is_some());
-        if !emits && self.description.lamps.is_empty() && self.description.background.is_none() {
-            let place = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-            studio::light(&mut self.description, &mut self.new_files.assets, &mut self.remarks, &place);
         }
         Ok(())
     }

@@ -34,7 +34,10 @@ mod transforms;
 use std::path::Path;
 
 use self::{directives::Interpreter, import::Import, tokens::Tokens};
-use super::{Folder, ImportOptions, Imported};
+use super::{
+    Folder, ImportOptions, Imported,
+    lighting::{self, Sizes},
+};
 use crate::scene::SceneError;
 
 /// Reads the file and all that it includes.
@@ -42,8 +45,11 @@ pub fn read(path: &Path, _: &ImportOptions, folder: &Folder) -> Result<Imported,
     let mut import = Import::new(folder.clone());
     let help = "a scene of pbrt-v4 is a text file; packed ones end in .pbrt.gz";
     let source = import.files.text(path).map_err(|message| SceneError::of_file(path, message, help))?;
-    let known = path.canonicalize().unwrap_or_else(|_| path.to_owned());
+    let known = folder.resolved(path);
     let mut import = Interpreter::new(import).run(Tokens::new(source), known)?;
-    import.assemble(path)?;
-    Ok(import.finish())
+    import.assemble()?;
+    let mut to = import.finish();
+    let (sizes, place) = (Sizes::unknown(&to), path.file_name().unwrap_or_default().to_string_lossy());
+    lighting::complete(&mut to, folder, &sizes, &place);
+    Ok(to)
 }

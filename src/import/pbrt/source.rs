@@ -58,7 +58,7 @@ impl SourceFiles {
 
     /// The text of a file, which may be packed by gzip. An error is a sentence without the path.
     pub fn text(&mut self, path: &Path) -> Result<Rc<SourceText>, String> {
-        let (bytes, room) = unpacked(path)?;
+        let (bytes, room) = unpacked(path, &self.folder)?;
         let length = bytes.len() as u64;
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         if !self.known.insert(path.display().to_string()) {
@@ -76,7 +76,7 @@ impl SourceFiles {
 }
 
 /// The bytes of a file, unpacked if its name ends in `.gz`.
-pub fn unpacked(path: &Path) -> Result<(Vec<u8>, Reservation), String> {
+pub fn unpacked(path: &Path, folder: &Folder) -> Result<(Vec<u8>, Reservation), String> {
     let message = |error: std::io::Error| format!("the file cannot be read: {error}");
     let file = open_regular(path).map_err(message)?;
     let length = file.metadata().map_err(message)?.len();
@@ -89,16 +89,19 @@ pub fn unpacked(path: &Path) -> Result<(Vec<u8>, Reservation), String> {
         file.take(LARGEST_FILE).read_to_end(&mut bytes).map_err(message)?;
         return Ok((bytes, room));
     }
+    folder.budget.packed(length);
     let mut unpacked = MultiGzDecoder::new(std::io::BufReader::new(file));
     // Little at a time: a small file can claim gigabytes.
-    const CHUNK: u64 = 1 << 24;
+    const CHUNK: u64 = 1 << 22;
     loop {
         let before = bytes.len();
         (&mut unpacked).take(CHUNK).read_to_end(&mut bytes).map_err(message)?;
         if bytes.len() == before {
             return Ok((bytes, room));
         }
-        room.grow("bytes of an unpacked file", (bytes.len() - before) as u64).map_err(|error| error.to_string())?;
+        let more = (bytes.len() - before) as u64;
+        folder.budget.unpack(more)?;
+        room.grow("bytes of an unpacked file", more).map_err(|error| error.to_string())?;
         if bytes.len() as u64 > LARGEST_FILE {
             return Err(format!("the unpacked file is larger than {LARGEST_FILE} bytes"));
         }

@@ -110,7 +110,7 @@ impl Import {
         if let Some(known) = self.known_spectra.get(&key) {
             return Ok(*known);
         }
-        let (bytes, _room) = unpacked(&path).map_err(wrong)?;
+        let (bytes, _room) = unpacked(&path, &self.files.folder).map_err(wrong)?;
         let text = String::from_utf8_lossy(&bytes);
         let colour = role.of_spectrum(&spectrum(parameter, Spectrum::parse(&text))?);
         self.known_spectra.insert(key, colour);

@@ -2,6 +2,9 @@
 use super::super::{FilePosition, ModelFormatError};
 use crate::quote;
 
+/// Longest header, bytes.
+const LONGEST: usize = 1 << 20;
+
 /// Encoding of the values.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Encoding {
@@ -118,6 +121,9 @@ impl Header {
             header.end += line.len();
             header.lines += 1;
             let place = FilePosition::Line(header.lines);
+            if header.end > LONGEST {
+                return Err(place.broken(format!("the header is longer than {LONGEST} bytes")));
+            }
             let line = line.trim_ascii();
             // Names, in whatever encoding, are only compared, and comments are not even that.
             let text = String::from_utf8_lossy(line);

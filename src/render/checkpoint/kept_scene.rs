@@ -75,13 +75,17 @@ pub fn file_differences(header: &Header, file: &Path) -> Vec<String> {
     header.files.iter().filter_map(|named| named.difference(&folder)).collect()
 }
 
-/// Opens the scene of a file again.
-pub fn reopen(kept: &KeptScene, file: &Path, progress: &Progress) -> Result<Opened, SceneError> {
+/// Opens the scene of a file again. That it may read files outside of its folder is for the user to say, and not for the file.
+pub fn reopen(kept: &KeptScene, file: &Path, allow_outside: bool, progress: &Progress) -> Result<Opened, SceneError> {
     let path = folder_of(kept, file).join(&kept.name);
     match &kept.choices {
         None => {
             let scene = parse_watched(&path.display().to_string(), kept.text.clone(), progress)?;
             Ok(Opened { scene, remarks: Remarks::default(), description: None })
+        }
+        Some(SceneChoices { allow_outside: true, .. }) if !allow_outside => {
+            let message = "the scene of this render reads files outside of its folder";
+            Err(SceneError::of_file(file, message, "if you trust the file and its scene, add --allow-outside"))
         }
         Some(SceneChoices { defines, time, variant, allow_outside }) => {
             let (defines, variant, progress) = (defines.clone(), variant.clone(), progress.clone());

@@ -9,7 +9,7 @@ use super::{ranges::SampleRanges, section, sums::TileSums};
 use crate::{
     file::{self, WriteError, open_regular},
     quote,
-    render::area::Area,
+    render::{adaptive::RATES, area::Area, block::goal, exact_sum::MOST_VALUES},
     render_file::{Header, Kind, Reader, RenderFileError, Writer},
 };
 
@@ -67,12 +67,18 @@ impl SampleFile {
     /// Gives the sums of each tile to `take`, row by row from the top left.
     pub fn read<E: From<SampleFileError>>(mut self, mut take: impl FnMut(usize, TileSums) -> Result<(), E>) -> Result<(), E> {
         let unreadable = |error| SampleFileError { path: self.path.clone(), error };
+        let counts = possible_counts(&self.samples, self.reader.header().settings.adaptive);
         let reader = &mut self.reader;
         for (place, area) in Area::tiles(reader.header().camera.resolution).enumerate() {
             let sums = match reader.section().map_err(unreadable)? {
                 Some((section::TAG, payload)) => section::decode(payload, place as u32, area).map_err(unreadable)?,
                 _ => return Err(unreadable(RenderFileError::contents(format!("tile {place} is missing"))).into()),
             };
+            if let Some(count) = sums.counts.iter().find(|count| !counts.contains(&u64::from(**count))) {
+                let claim =
+                    format!("tile {place} has {count} samples of a pixel, and its header says the samples {}", self.samples);
+                return Err(unreadable(RenderFileError::contents(claim)).into());
+            }
             take(place, sums)?;
         }
         match reader.section().map_err(unreadable)? {
@@ -80,6 +86,14 @@ impl SampleFile {
             Some((tag, _)) => Err(unreadable(RenderFileError::contents(format!("the section {tag} is not known"))).into()),
         }
     }
+}
+
+/// The numbers of samples that a block has with these samples of the average: adaptive sampling gives it one of several rates.
+fn possible_counts(samples: &SampleRanges, is_adaptive: bool) -> Vec<u64> {
+    let rates = if is_adaptive { RATES[0]..=RATES[1] } else { 0..=0 };
+    let at =
+        |rate: i32| samples.list().iter().map(|[start, end]| u64::from(goal(rate as i8, *end) - goal(rate as i8, *start))).sum();
+    rates.map(at).collect()
 }
 
 /// The samples of a file with this header, if it can be used.
@@ -90,5 +104,11 @@ fn samples(header: &Header) -> Result<SampleRanges, RenderFileError> {
     let camera = header.camera.check();
     camera.map_err(|error| RenderFileError::contents(format!("its camera cannot be used: {error}")))?;
     let samples = SampleRanges::of(&header.samples).filter(|samples| !samples.is_empty());
-    samples.ok_or_else(|| RenderFileError::contents("its ranges of samples are invalid"))
+    let samples = samples.ok_or_else(|| RenderFileError::contents("its ranges of samples are invalid"))?;
+    match samples.total() {
+        0..=MOST_VALUES => Ok(samples),
+        total => {
+            Err(RenderFileError::contents(format!("it says that it has {total} samples of a pixel; {MOST_VALUES} are the most")))
+        }
+    }
 }

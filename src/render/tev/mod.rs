@@ -42,6 +42,12 @@ pub enum TevError {
         /// The message of the operating system.
         reason: String,
     },
+    /// The last image was not taken in time.
+    #[error("tev at {address} takes the image too slowly: the connection is closed, and tev may not have the last image")]
+    Slow {
+        /// The address.
+        address: String,
+    },
 }
 
 /// Checks that a text is an address: HOST:PORT. Whether the host exists is not checked.

@@ -66,10 +66,21 @@ impl TevStream {
         self.ended.try_recv().ok()?.err()
     }
 
-    /// Sends the last frame, and ends the connection.
-    pub fn finish(mut self) -> Result<(), TevError> {
+    /// Sends the last frame, and ends the connection. A server that has not taken the frame after some time, or when `is_dropped` says so,
+    /// does not get it.
+    pub fn finish(mut self, most: Duration, is_dropped: impl Fn() -> bool) -> Result<(), TevError> {
+        /// Time between two looks at `is_dropped`.
+        const TICK: Duration = Duration::from_millis(20);
         self.wake = None;
-        self.ended.recv().unwrap_or(Ok(()))
+        let end = Instant::now() + most;
+        while Instant::now() < end && !is_dropped() {
+            match self.ended.recv_timeout(TICK) {
+                Err(RecvTimeoutError::Timeout) => {}
+                Err(RecvTimeoutError::Disconnected) => return Ok(()),
+                Ok(ended) => return ended,
+            }
+        }
+        Err(TevError::Slow { address: self.address.clone() })
     }
 }
 

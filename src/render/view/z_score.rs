@@ -12,7 +12,7 @@ impl Quantity for ZScore {
     const WORD: Word = Word {
         name: "z-score",
         title: "Z-score",
-        doc: "(estimate - truth)/standard error. Unbiased images show noise without structure; independent samples follow the unit normal distribution unless light is rare.",
+        doc: "(estimate - reference)/standard error. Unbiased images show noise without structure; independent samples follow the unit normal distribution unless light is rare.",
     };
 
     const HAS_SCORES: bool = true;
@@ -22,7 +22,7 @@ impl Quantity for ZScore {
     }
 
     fn missing() -> &'static str {
-        "No reference: open a scene with [truth] at its own camera (Home), or drop a reference EXR of this size"
+        "No reference: render or open one of this size (panel Display). That of a scene is for its own camera (Home)."
     }
 
     fn field(sources: &Sources) -> Field {

@@ -4,6 +4,7 @@ use std::{fs, path::Path};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use crate::{
+    file::read_text,
     math::SimdLevel,
     render::{
         film::Film,
@@ -19,6 +20,8 @@ const BLOCK: u32 = 16;
 const MOST_SIGMAS: f64 = 4.5;
 /// Limit of the root mean square of their z-scores. Two images in 10⁶ exceed it by chance, if three channels count as one number.
 const MOST_RMS: f64 = 1.2;
+/// Most bytes of the block means of a scene.
+const LONGEST: u64 = 64 << 20;
 const UNREAD: &str = "its block means cannot be read";
 
 macro_rules! carried {
@@ -65,7 +68,7 @@ fn references(validation: &Validation) -> Vec<Reference> {
 
 impl Reference {
     fn read(path: &Path, name: String) -> Reference {
-        let means = fs::read_to_string(path.with_extension("txt")).map_err(|error| format!("{UNREAD}: {error}"));
+        let means = read_text(&path.with_extension("txt"), LONGEST).map_err(|error| format!("{UNREAD}: {error}"));
         Reference { name, scene: load(path).map_err(|error| error.report()), means }
     }
 }

@@ -18,11 +18,17 @@ pub fn serialized(import: &mut Import, element: Element, placed: Placed) -> Resu
     let name = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
     let file = import.shared_model(&key, &name, |import| {
         let error = |message: &str| element.error(format!("the mesh cannot be read: {message}"), "this file cannot be used");
+        let budget = import.files.folder.budget.clone();
         let packed = match import.packed.entry(path.clone()) {
             Entry::Occupied(known) => known.into_mut(),
-            Entry::Vacant(free) => free.insert(Packed::read(&path).map_err(|reason| error(&reason))?),
+            Entry::Vacant(free) => {
+                let packed = Packed::read(&path).map_err(|reason| error(&reason))?;
+                budget.packed(packed.length());
+                free.insert(packed)
+            }
         };
         let model = packed.mesh(number).map_err(|reason| error(&reason))?;
+        budget.unpack(model.bytes()).map_err(|reason| error(&reason))?;
         Ok(Variant { flip_v, charted, face_normals }.of(model))
     })?;
     let mirrors = placed.is_mirrored();

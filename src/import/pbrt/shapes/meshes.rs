@@ -32,9 +32,10 @@ impl Import {
         entity.ignore(&["faceIndices"]);
         let patches: Vec<[u32; 4]> = patches.chunks_exact(4).map(|p| [p[0], p[1], p[2], p[3]]).collect();
         let is_flat = patches.iter().all(|patch| is_flat(patch.map(|i| Vec3::from(corners.vertices[i as usize]))));
+        let fine = 2 * u64::from(STEPS * STEPS) * patches.len() as u64;
         let steps = match patches.len() {
             _ if is_flat => 1,
-            0..=MANY => STEPS,
+            0..=MANY if self.files.folder.budget.make(fine) => STEPS,
             _ => FEW_STEPS,
         };
         // A patch without coordinates spans the unit square, so that its corners are its own.

@@ -5,7 +5,7 @@ use super::{Areas, Built};
 use crate::{
     file::open_regular,
     import::pbrt::{import::Import, parameters::Entity, source::unpacked},
-    model::read_watched,
+    model::decode_ply,
     scene::SceneError,
 };
 
@@ -33,11 +33,9 @@ impl Import {
             return Ok(Built::mesh(name, known.clone(), *smooth, Areas::Unknown));
         }
         let wrong = |message: String| entity.error(message, "this mesh cannot be used");
-        let (bytes, _room) = unpacked(path).map_err(wrong)?;
-        let mut file = tempfile::Builder::new().suffix(".ply").tempfile().map_err(|error| wrong(error.to_string()))?;
-        std::io::Write::write_all(&mut file, &bytes).map_err(|error| wrong(error.to_string()))?;
-        let read = read_watched(file.path(), &self.files.folder.progress);
-        let mut model = read.map_err(|error| wrong(format!("`{name}`: {}", error.problem)))?;
+        let (bytes, _room) = unpacked(path, &self.files.folder).map_err(wrong)?;
+        let read = decode_ply(&bytes, &self.files.folder.progress);
+        let mut model = read.map_err(|problem| wrong(format!("`{name}`: {problem}")))?;
         super::meshes::face_normals(&mut model);
         let smooth = model.normals.is_some();
         let described = self.new_files.add_model(name, model);

@@ -29,13 +29,15 @@ impl Import {
         entity.ignore(&["scheme"]);
         let wanted = entity.integer("levels", 3)?.clamp(0, 16) as usize;
         let mut mesh = Triangles { points, faces: indices.chunks_exact(3).map(|face| [face[0], face[1], face[2]]).collect() };
-        let fits = |levels: &usize| mesh.faces.len() << (2 * levels) <= MOST_TRIANGLES;
+        let budget = self.files.folder.budget.clone();
+        let triangles = |levels: usize| mesh.faces.len() << (2 * levels);
+        let fits =
+            |levels: &usize| triangles(*levels) <= MOST_TRIANGLES && (*levels == 0 || budget.make(triangles(*levels) as u64));
         let levels = (0..=wanted).rev().find(fits).unwrap_or(0);
         if levels < wanted {
             self.remark(entity, &format!("{levels} levels of subdivision"), "the surface has visible triangles");
         }
-        let bytes = (mesh.faces.len() as u64) << (2 * levels);
-        let room = reserve("triangles of a subdivision", BYTES * bytes);
+        let room = reserve("triangles of a subdivision", BYTES * triangles(levels) as u64);
         let _room = room.map_err(|error| entity.error(error.to_string(), "too much memory"))?;
         for _ in 0..levels {
             mesh = mesh.subdivided();

@@ -1,4 +1,5 @@
 //! Small texts, and the descriptions that they become.
+mod bombs;
 mod cameras;
 mod hostile;
 mod lights;

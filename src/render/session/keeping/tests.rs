@@ -133,7 +133,7 @@ fn a_scene_is_opened_again_from_the_file_and_what_has_changed_is_noticed() {
     let header = kept_header(&request, kept, None, Target::default(), &threads()).expect("its files are there");
     assert_eq!(header.files.len(), 1);
     let nf = folder.path().join("a.nf");
-    let again = reopen(&header.scene, &nf, &Default::default()).expect("it opens").scene;
+    let again = reopen(&header.scene, &nf, false, &Default::default()).expect("it opens").scene;
     let again = RenderRequest { scene: Arc::new(again), ..request.clone() };
     assert_eq!((file_differences(&header, &nf), probe_difference(&header, &again, &threads())), (vec![], None));
     let other = RenderRequest { settings: RenderSettings { seed: 9, ..settings }, ..again };
