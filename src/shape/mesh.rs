@@ -313,8 +313,8 @@ mod tests {
             let corners = data.triangles.iter().map(|triangle| triangle.map(|vertex| data.vertices[vertex as usize]));
             corners.map(|[_, b, _]| b[0] == 1.0).collect::<Vec<_>>()
         };
-        assert_eq!(triangles(true), [false, true], "the first triangle is turned round");
-        assert_eq!(triangles(false), [true, true], "flat meshes do not read the normals");
+        assert_eq!(triangles(Some(true)), [false, true], "the first triangle is turned round");
+        assert_eq!(triangles(Some(false)), [true, true], "flat meshes do not read the normals");
     }
 
     #[test]
