@@ -13,7 +13,7 @@ use crate::viewer::dialogs::{
     save_target::SaveTarget,
     sequence::{self, SequenceAnswer, SequenceDialog},
 };
-use crate::viewer::panels::exports::{self, ExportCommand};
+use crate::viewer::panels::exports::{self, StopCommand};
 
 impl App {
     /// Opens the dialog of an export.
@@ -114,9 +114,9 @@ impl App {
         }
         let sequence = sequence.map(|task| (task.progress(), task.request.spp));
         match Panel::bottom("exports").show(ui, |ui| exports::show(ui, tev, sequence, reference)).inner {
-            Some(ExportCommand::StopTev) => self.background.tev.stop(),
-            Some(ExportCommand::StopSequence) => self.background.sequence.iter().for_each(SequenceTask::stop),
-            Some(ExportCommand::StopReference) => self.background.reference.iter().for_each(ReferenceTask::stop),
+            Some(StopCommand::Tev) => self.background.tev.stop(),
+            Some(StopCommand::Sequence) => self.background.sequence.iter().for_each(SequenceTask::stop),
+            Some(StopCommand::Reference) => self.background.reference.iter().for_each(ReferenceTask::stop),
             None => {}
         }
     }

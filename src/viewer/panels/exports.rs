@@ -7,12 +7,12 @@ use crate::viewer::background::{
     tev_link::{TevLink, TevState},
 };
 
-/// What a button of the line asks for.
+/// What a button of the line stops.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ExportCommand {
-    StopTev,
-    StopSequence,
-    StopReference,
+pub enum StopCommand {
+    Tev,
+    Sequence,
+    Reference,
 }
 
 /// Shows the line. The number beside the progress of a sequence are the samples of a whole frame.
@@ -21,7 +21,7 @@ pub fn show(
     tev: &TevLink,
     sequence: Option<(SequenceProgress, u32)>,
     reference: Option<ReferenceProgress>,
-) -> Option<ExportCommand> {
+) -> Option<StopCommand> {
     let mut command = None;
     ui.horizontal_wrapped(|ui| {
         if let Some((progress, spp)) = sequence {
@@ -32,7 +32,7 @@ pub fn show(
             ui.add(ProgressBar::new(part).desired_width(160.0).text(format!("{:.0} %", 100.0 * part)));
             let doc = "Drops the unfinished frame. Finished frames stay.";
             if ui.button("Stop rendering").on_hover_text(doc).clicked() {
-                command = Some(ExportCommand::StopSequence);
+                command = Some(StopCommand::Sequence);
             }
         }
         if let Some(progress) = reference {
@@ -40,7 +40,7 @@ pub fn show(
                 ui.separator();
             }
             if show_reference(ui, progress) {
-                command = Some(ExportCommand::StopReference);
+                command = Some(StopCommand::Reference);
             }
         }
         if (sequence.is_some() || reference.is_some()) && tev.state() != TevState::Off {
@@ -53,7 +53,7 @@ pub fn show(
         };
         ui.label(text).on_hover_text("tev gets the image at most once a second.");
         if ui.button("Stop sending").on_hover_text("Ends the connection. tev keeps the image.").clicked() {
-            command = Some(ExportCommand::StopTev);
+            command = Some(StopCommand::Tev);
         }
     });
     command
