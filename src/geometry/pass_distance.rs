@@ -8,7 +8,7 @@ use super::{
     mesh::Mesh,
     tables::{AtFlat, SPHERE, Tables},
 };
-use crate::math::{F, Lanes, Pick, U, V};
+use crate::math::{F, Lanes, M, Pick, U, V};
 
 /// From this number of radii on, the thickness of a round shape does not count beside its distance. Rays miss less than 10⁻⁵ of a nearer one
 /// by rounding.
@@ -74,5 +74,11 @@ impl Isosurface {
 fn to_front<L: Lanes>(o: V<L>, d: V<L>) -> F<L> {
     let square = d.length_squared();
     let t = -(o.dot(d) / square + 1.0 / square.sqrt());
-    o.length_squared().above(FAR * FAR).pick(t, t.splat(f32::NAN))
+    is_far(o).pick(t, t.splat(f32::NAN))
+}
+
+/// Whether a point relative to the middle of a round shape, in radii, is far from it.
+#[inline(always)]
+pub(super) fn is_far<L: Lanes>(from_middle: V<L>) -> M<L> {
+    from_middle.length_squared().above(FAR * FAR)
 }

@@ -7,6 +7,7 @@ use std::f32::consts::TAU;
 use super::{
     direction_sample::DirectionSample,
     flat::{is_ellipse, is_rectangle},
+    pass_distance::is_far,
     quadric::Local,
     rectangle::SphericalRectangle,
     shape::Outline,
@@ -52,7 +53,7 @@ impl Tables {
             pdf = here.pick(SeenFlat::new(here, rows, from_anchor, l.rows(&self.normals, primitive)).pdf(l, wi), pdf);
         }
         if let Some((here, quadric)) = self.quadric(l, tag) {
-            let of_cylinder = cylinder_pdf(l, &quadric, x, wi);
+            let (of_cylinder, _) = cylinder_pdf(l, &quadric, x, wi);
             let of_ellipsoid = seen_from(l, &quadric, x).pdf() * stretch(&quadric, wi);
             pdf = here.pick(quadric.is_cylinder.pick(of_cylinder, of_ellipsoid), pdf);
         }
@@ -142,7 +143,13 @@ fn toward_quadric<L: Lanes>(l: L, quadric: &Local<L>, x: V<L>, u: (F<L>, F<L>)) 
     let way = quadric.is_cylinder.pick(side - quadric.place(x), cone.sample(u));
     let world = a * way.x + (b * way.y + c * way.z);
     let wi = world.normalized();
-    let (of_cylinder, front) = sampled_cylinder_pdf(l, quadric, side, way, world.length_squared().sqrt());
+    let (mut of_cylinder, mut front) = cylinder_pdf(l, quadric, x, wi);
+    let is_far = is_far(quadric.across(quadric.place(x)));
+    if is_far.any() {
+        let (pdf, enters) = sampled_cylinder_pdf(l, quadric, side, way, world.length_squared().sqrt());
+        of_cylinder = is_far.pick(pdf, of_cylinder);
+        front = (is_far & enters) | (!is_far & front);
+    }
     let of_ellipsoid = cone.pdf() * stretch(quadric, wi);
     DirectionSample {
         wi,
@@ -182,18 +189,21 @@ fn sampled_cylinder_pdf<L: Lanes>(l: L, quadric: &Local<L>, side: V<L>, way: V<L
 }
 
 /// The pdf of points that are uniform in angle and height: t²/(2π |∂x/∂φ × ∂x/∂z · ω|), summed over both intersections with the
-/// direction, because either may have been sampled.
+/// direction, because either may have been sampled; and whether the front is hit first.
 #[inline(always)]
-fn cylinder_pdf<L: Lanes>(l: L, quadric: &Local<L>, x: V<L>, wi: V<L>) -> F<L> {
+fn cylinder_pdf<L: Lanes>(l: L, quadric: &Local<L>, x: V<L>, wi: V<L>) -> (F<L>, M<L>) {
     let [near, far] = quadric.intersections(x, wi);
-    density_of_place(l, quadric, x, wi, near.value()) + density_of_place(l, quadric, x, wi, far.value())
+    let (of_near, met_near, front_near) = density_of_place(l, quadric, x, wi, near.value());
+    let (of_far, _, front_far) = density_of_place(l, quadric, x, wi, far.value());
+    (of_near + of_far, (met_near & front_near) | (!met_near & front_far))
 }
 
-/// For the intersection at distance `t`: its pdf, 0 if it does not exist.
+/// For the intersection at distance `t`: its pdf, whether it exists, and whether its front is visible.
 #[inline(always)]
-fn density_of_place<L: Lanes>(l: L, quadric: &Local<L>, x: V<L>, wi: V<L>, t: F<L>) -> F<L> {
+fn density_of_place<L: Lanes>(l: L, quadric: &Local<L>, x: V<L>, wi: V<L>, t: F<L>) -> (F<L>, M<L>, M<L>) {
     let nearing = quadric.gradient(quadric.place(x + wi * t)).dot(wi);
+    let met = t.above(0.0);
     // Infinite only at the very edge that is seen.
     let density = t * t * quadric.determinant() / nearing.abs().max(l.f(1e-20)) * (1.0 / TAU);
-    t.above(0.0).pick(density, l.f(0.0))
+    (met.pick(density, l.f(0.0)), met, nearing.below(0.0))
 }

@@ -70,7 +70,7 @@ pub fn complete(to: &mut Imported, folder: &Folder, sizes: &Sizes, place: &str) 
 /// A part as percentage of two digits.
 fn percent(part: f64) -> String {
     let percent = 100.0 * part;
-    if percent >= 0.1 { format!("{percent:.1} %") } else { format!("{percent:.0e} %") }
+    if percent >= 0.1 { format!("{percent:.1} %") } else { format!("{percent:.2} %") }
 }
 
 /// The mean luminance of the emission of each object, as the renderer takes it; 0 without emission. An image that cannot be read counts as

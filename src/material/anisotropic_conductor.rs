@@ -1,13 +1,13 @@
 //! Rough metal whose facets are wider along one tangent than along the other, such as brushed steel, or have the Beckmann distribution.
 //!
-//! The facets are those of `anisotropy.rs`. The light that single scattering loses is restored as in `conductor.rs`, by the table of
+//! The facets are those of `anisotropy.rs`. The light that single scattering loses is restored as in `conductor_bsdf.rs`, by the table of
 //! `anisotropic_loss.rs`. With Beckmann facets, there is single scattering only.
 use super::{
     Local, Materials, Shade, Stage,
     anisotropic_loss::AnisotropicLoss,
     anisotropy::Widths,
     beckmann::Beckmann,
-    conductor::{ConductorBsdf, FacetLoss},
+    conductor_bsdf::{ConductorBsdf, FacetLoss},
     conductor_fresnel::ConductorRow,
 };
 use crate::{

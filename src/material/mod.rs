@@ -16,6 +16,7 @@ pub mod blend;
 mod bsdf;
 mod compiled;
 pub mod conductor;
+mod conductor_bsdf;
 mod conductor_fresnel;
 pub mod dielectric;
 mod dielectric_albedo;

@@ -53,7 +53,7 @@ pub struct Model {
     pub uvs: Option<Vec<[f32; 2]>>,
     /// One per vertex: linear Rec. 709 and opacity.
     pub colours: Option<Vec<[f32; 4]>>,
-    /// One per vertex: a direction in the surface and a handedness; see [`crate::geometry::MeshData::tangents`].
+    /// One per vertex: a direction in the surface and a handedness, as meshes of the renderer have it.
     pub tangents: Option<Vec<[f32; 4]>>,
     /// How the surface is smoothed where the file has no normals.
     pub smoothing: Smoothing,

@@ -9,6 +9,8 @@ use crate::measure::{Floor, relative};
 /// Fewest pixels that make the estimate reliable. In the shipped scenes at 128 samples, 13 to 25 pixels carry the variance where the estimate
 /// is less than half of the error, and more than 30 where it is within 25 % of it.
 const FEWEST: f64 = 30.0;
+/// The same as a part of all pixels, for small images.
+const LEAST_PART: f64 = 1.0 / 16.0;
 
 /// Whether fewer pixels than that carry the error of an image, given the variances of its pixels.
 pub(super) fn has_heavy_tail(radiance: &[[f32; 3]], variance: &[[f32; 3]]) -> bool {
@@ -21,7 +23,7 @@ pub(super) fn has_heavy_tail(radiance: &[[f32; 3]], variance: &[[f32; 3]]) -> bo
     let chunks = radiance.par_chunks(4096).zip(variance.par_chunks(4096));
     let sums: Vec<[f64; 2]> = chunks.map(|(radiance, variance)| add(radiance.iter().zip(variance).map(of_pixel))).collect();
     let [sum, squares] = add(sums.into_iter());
-    sum * sum < FEWEST * squares
+    sum * sum < FEWEST.min(LEAST_PART * radiance.len() as f64) * squares
 }
 
 fn add(all: impl Iterator<Item = [f64; 2]>) -> [f64; 2] {

@@ -192,7 +192,7 @@ fn failures_exit_with_1_and_say_why_and_wrong_usage_with_2() {
         assert!(!text(&output.stderr).contains("panicked"));
     };
     fails(&["render", "nowhere.toml", "-o", "out.png"], 1, "there is no such file");
-    fails(&["render", &furnace, "-o", "out.jpg"], 1, ".png");
+    fails(&["render", &furnace, "-o", "out.jpg"], 2, ".png");
     fails(&["render", &furnace, "-o", "nowhere/out.png"], 1, "there is no folder");
     fails(&["render", &furnace, "-o", "out.png", "--size", "0x5"], 1, "resolution");
     fails(&["render", &furnace, "-o", "out.png", "--size", "99999x99999"], 1, "resolution");

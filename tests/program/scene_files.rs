@@ -209,7 +209,6 @@ fn invalid_materials_are_refused() {
     material("dielectric = { ior = 1.5, roughness = [0.1, 0.2, 0.3] }", "`roughness`: expected one number, found a list");
     material("dielectric = { ior = 1.5 }\ntwo_sided = false", "has two sides");
     material("conductor = { roughness = 0.1 }", "`conductor` has none of `eta`, `f0`, `reflectance`");
-    material("conductor = { eta = 0.0, k = 0.0 }", "both 0");
     material("conductor = { eta = nan, k = 1.0 }", "`eta` is out of range");
     material("conductor = { f0 = 0.5, reflectance = 0.5 }", "`f0` and `reflectance` exclude each other");
     material("conductor = { f0 = 0.5, roughness = -0.1 }", "`roughness` is negative");

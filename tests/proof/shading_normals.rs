@@ -213,12 +213,15 @@ fn bump_tilts_normals_against_the_slope_of_its_heights() {
 #[test]
 fn normal_maps_tilt_normals_along_u_and_against_v() {
     let files = Files::new();
-    // A flipped surface turns the frame about ∂p/∂u, and shows its back.
-    let sides = [(false, false, [1.0, -1.0]), (false, true, [1.0, -1.0]), (true, false, [-1.0, -1.0]), (true, true, [1.0, 1.0])];
+    // A flipped surface turns the frame about ∂p/∂u, and shows its back. With relief on both sides, the tilt of the back is turned about the
+    // normal, which need not be at right angles to ∂p/∂u on a smooth mesh.
+    let sides =
+        [(false, false, [1.0, -1.0]), (false, true, [1.0, -1.0]), (true, false, [-1.0, -1.0]), (true, true, [-1.0, -1.0])];
     for (flip, two_sided_relief, [red, green]) in sides {
         assert_normals(&files, &format!("normal_map = 'TILT'\ntwo_sided_relief = {two_sided_relief}"), flip, |place| {
             let [u, v] = place.along.map(DVec3::normalize);
-            u * (red * TILT.x) + v * (green * TILT.y) + place.normal * TILT.z
+            let tilted = (u * (red * TILT.x) + v * (green * TILT.y) + place.normal * TILT.z).normalize();
+            if flip && two_sided_relief { place.normal * (2.0 * place.normal.dot(tilted)) - tilted } else { tilted }
         });
     }
 }

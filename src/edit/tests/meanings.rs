@@ -66,14 +66,15 @@ fn try_all<T: OneOf + Clone>(change: impl Fn(&T, &'static str) -> T) -> usize {
     let mut kept = 0;
     for from in kinds() {
         let before = values(&mut TableOf(from.clone()), false);
-        let mut unusual = TableOf(from);
+        let mut unusual = TableOf(from.clone());
         values(&mut unusual, true);
-        let from = unusual.0;
+        let unusual = unusual.0;
         for plain in kinds().filter(|kind| kind.place() != from.place()) {
             let name = plain.name();
-            let defaults = values(&mut TableOf(plain), false);
-            for (parameter, value) in values(&mut TableOf(change(&from, name)), false) {
-                if defaults.iter().any(|(known, default)| known.key == parameter.key && *default == value) {
+            let changed = |from: &T| values(&mut TableOf(change(from, name)), false);
+            let usual = changed(&from);
+            for (parameter, value) in changed(&unusual) {
+                if usual.iter().any(|(known, default)| known.key == parameter.key && *default == value) {
                     continue;
                 }
                 let has_source = before.iter().any(|(source, _)| may_come_from(&parameter, source));

@@ -3,6 +3,7 @@
 //! G. Turk, "The PLY Polygon File Format", Stanford, 1994. Unknown elements and properties are skipped. Values of a text file may
 //! be spread over lines in any way. Strips of triangles (`tristrips`) and coordinates of corners (`texcoord`) are read too. Colours of whole numbers are sRGB, those of fractions are linear; opacity is linear.
 mod bulk;
+mod elements;
 mod header;
 mod slots;
 mod stream;
@@ -14,6 +15,7 @@ mod write;
 pub(super) use self::header::{images, is_ply};
 use self::{
     bulk::{BLOCK, Rows},
+    elements::{REPORT, corners, in_element, skip, skip_property},
     header::{Element, Encoding, Header, Kind, Layout},
     slots::{FIRST_COLOUR, FIRST_TANGENT, NUMBERS, OPACITY, linear, reserve_vertices, slots},
     values::{Binary, Text, Values},
@@ -28,9 +30,6 @@ use crate::{
     memory::{Reservation, TooMuch},
     progress::Progress,
 };
-
-/// Elements that are read between two reports of progress.
-const REPORT: u64 = 1 << 16;
 
 pub(super) fn decode(bytes: &[u8], progress: &Progress) -> Result<Model, ModelFormatError> {
     let header = Header::read(bytes)?;
@@ -202,56 +201,4 @@ fn read_polygon(
         before = Some((first, Some(next)));
         last.map_or(Ok(()), |last| add([first, last, next]))
     })
-}
-
-/// Reads the corners of a polygon.
-fn corners(
-    (count, kind): (Kind, Kind),
-    vertices: u64,
-    values: &mut impl Values,
-    mut add: impl FnMut(u32) -> Result<(), TooMuch>,
-) -> Result<(), ModelFormatError> {
-    let place = values.place();
-    let corners = values.integer(count)?;
-    if corners < 3 {
-        return Err(place.broken(format!("it has {corners} corners, not 3 or more")));
-    }
-    for _ in 0..corners {
-        let place = values.place();
-        let vertex = values.integer(kind)?;
-        let there = u64::try_from(vertex).ok().filter(|vertex| *vertex < vertices);
-        // The file is too short for vertices beyond 32 bits.
-        let missing = || place.broken(format!("vertex {vertex} does not exist: there are {vertices}, counted from 0"));
-        add(there.ok_or_else(missing)? as u32)?;
-    }
-    Ok(())
-}
-
-fn skip(element: &Element, values: &mut impl Values) -> Result<(), ModelFormatError> {
-    for index in 0..element.count {
-        for property in &element.properties {
-            skip_property(property.layout, values).map_err(|problem| in_element(problem, &element.name, index))?;
-        }
-    }
-    Ok(())
-}
-
-fn skip_property(layout: Layout, values: &mut impl Values) -> Result<(), ModelFormatError> {
-    match layout {
-        Layout::One(kind) => values.skip(kind, 1),
-        Layout::List(count, kind) => {
-            let place = values.place();
-            let count = values.integer(count)?;
-            let count = u64::try_from(count).map_err(|_| place.broken(format!("a list has {count} values")))?;
-            values.skip(kind, count)
-        }
-    }
-}
-
-/// Adds the element to an error, counted from 0.
-fn in_element(problem: ModelFormatError, name: &str, index: u64) -> ModelFormatError {
-    match problem {
-        ModelFormatError::Broken(place, reason) => place.broken(format!("{name} {index}: {reason}")),
-        problem => problem,
-    }
 }

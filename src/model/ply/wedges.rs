@@ -5,9 +5,8 @@ use super::{
         polygon::{self, Polygon},
         weld::distinct,
     },
-    REPORT, corners,
+    elements::{REPORT, corners, in_element, skip_property},
     header::{Element, Layout, Property},
-    in_element, skip_property,
     values::Values,
 };
 use crate::{

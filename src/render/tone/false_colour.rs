@@ -1,7 +1,7 @@
 //! Luminance on a logarithmic scale of colours, six decades around 1.
 use std::sync::LazyLock;
 
-use super::{Gain, Tone};
+use super::{FALSE_COLOUR_RANGE as RANGE, Gain, Tone};
 use crate::{declare::Word, math::colour::luminance, render::colour_map::ColourMap};
 
 pub(super) struct FalseColour;
@@ -23,9 +23,6 @@ impl Tone for FalseColour {
         pixels.extend(radiance.iter().map(|radiance| colours.of(luminance(*radiance) * scale)));
     }
 }
-
-/// The luminances of the first and the last colour, after exposure.
-pub(super) const RANGE: [f32; 2] = [1e-3, 1e3];
 
 static FALSE_COLOURS: LazyLock<FalseColours> = LazyLock::new(FalseColours::new);
 

@@ -10,7 +10,6 @@ mod reinhard;
 
 use serde::Serialize;
 
-use self::false_colour::RANGE as FALSE_COLOUR_RANGE;
 use super::{display::encode, white_balance::WhiteBalance};
 use crate::declare::Word;
 
@@ -47,6 +46,9 @@ pub fn to_srgb(radiance: &[[f32; 3]], display: Display, pixels: &mut Vec<[u8; 4]
     let balance = display.white_balance.matrix().map(|rows| rows.map(|row| row.map(|factor| factor * scale)));
     in_tone_map!(display.tone_map, T => T::show(radiance, &Gain { scale, balance }, pixels));
 }
+
+/// The luminances of the first and the last false colour, after exposure.
+const FALSE_COLOUR_RANGE: [f32; 2] = [1e-3, 1e3];
 
 /// The luminances at the ends of the colour scale, if the tone map is one.
 pub fn false_colour_range(display: Display) -> Option<[f32; 2]> {

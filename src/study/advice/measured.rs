@@ -2,7 +2,7 @@
 use rayon::prelude::*;
 
 use super::{
-    missing::missing,
+    missing::{Means, missing},
     rounds::{RoundPicture, Series},
 };
 use crate::{measure::Floor, scene::RenderSettings, study::outcome::ROUNDING};
@@ -22,15 +22,6 @@ pub struct Measured {
     pub found: f64,
     /// A lower bound of the relMSE of an image, from light that other settings have found in addition.
     pub missing: f64,
-}
-
-/// The mean of the images of some settings.
-pub struct Means {
-    pub radiance: Vec<f64>,
-    /// That of one image, from the spread of the images.
-    pub rel_mse: f64,
-    /// Number of images.
-    pub count: f64,
 }
 
 /// Compares the images of several settings, which must all converge to the same image.

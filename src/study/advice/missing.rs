@@ -2,10 +2,17 @@
 //!
 //! Images without a caustic agree with each other, so their spread says nothing of it. An image that is darker over a whole block of pixels
 //! than those of other settings, by more than their noise explains, must miss light; its error is at least what is missing.
-use super::measured::Means;
-
 /// Consecutive pixels that are compared by their mean.
 const BLOCK: usize = 128;
+
+/// The mean of the images of some settings.
+pub struct Means {
+    pub radiance: Vec<f64>,
+    /// relMSE of one image, from the spread of the images.
+    pub rel_mse: f64,
+    /// Number of images.
+    pub count: f64,
+}
 
 /// A lower bound of the relMSE of an image of settings with the mean images `own`, from the light that `other` settings have found in addition.
 /// 0 if they have found none.

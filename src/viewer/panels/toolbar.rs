@@ -51,7 +51,7 @@ const TOOLS: [(Tool, &str, &str); 4] = [
 
 impl Toolbar<'_> {
     pub fn show(&self, ui: &mut Ui) -> Option<Command> {
-        const WHOLE: f32 = 876.0;
+        const WHOLE: f32 = 868.0;
         const OF_REGION: f32 = 56.0;
         const OF_ENDS: f32 = 104.0;
         const OF_IMAGE: f32 = 42.0;
@@ -147,7 +147,7 @@ impl Toolbar<'_> {
 }
 
 /// Width of the zoom in percent, points.
-const ZOOM_WIDTH: f32 = 44.0;
+const ZOOM_WIDTH: f32 = 38.0;
 
 /// A zoom in percent.
 fn percent(zoom: f32) -> String {

@@ -36,7 +36,8 @@ fn suits_the_view(window: &Window, what: &str) {
     assert!((0.0..96.0).contains(&x) && (0.0..64.0).contains(&y), "{what}: {x} {y}");
     let [_, edge] = project(&camera, center + camera.axes()[1] * radius).expect("it is before the camera");
     let part = 2.0 * (y - edge) / 64.0;
-    assert!((0.04..0.8).contains(&part), "{what}: {part} of the height");
+    // The sphere around a mesh is larger than the mesh, which may stand nearer than the surface that was clicked.
+    assert!((0.04..1.2).contains(&part), "{what}: {part} of the height");
 }
 
 #[test]

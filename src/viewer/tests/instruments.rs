@@ -104,7 +104,7 @@ fn a_comparison_starts_with_one_click_and_both_sides_converge() {
     assert_eq!(window.state().session.comparison.map(|compare| compare.layout), Some(CompareLayout::SideBySide));
     click(&mut window, "Difference");
     wait(&mut window, "the difference", |app| {
-        app.results.legend.as_ref().is_some_and(|legend| legend.title == "Difference" && legend.scale.is_some())
+        app.results.legend.as_ref().is_some_and(|legend| legend.title == "Difference A − B" && legend.scale.is_some())
     });
     click(&mut window, "Wipe");
     wait(&mut window, "both pictures", |app| app.results.textures.iter().all(Option::is_some));
@@ -174,7 +174,11 @@ fn every_view_is_shown_with_a_legend_and_none_restarts() {
             if view == Shown::Difference {
                 click(w, "Pin this");
             }
-            let title = if view == Shown::Denoised { LABEL } else { name };
+            let title = match view {
+                Shown::Denoised => LABEL,
+                Shown::Difference => "Difference image − pinned image",
+                _ => name,
+            };
             wait(w, name, |app| app.results.legend.as_ref().is_some_and(|legend| legend.title == title));
         }
     });

@@ -180,6 +180,8 @@ fn both_themes_can_be_chosen_and_are_remembered() {
     for (name, dark, remembered) in
         [("Light", Some(false), Some("light")), ("Dark", Some(true), Some("dark")), ("As the system", None, None)]
     {
+        window.get_by_role_and_label(Role::ComboBox, "Theme").scroll_to_me();
+        window.run_steps(3);
         choose(&mut window, "Theme", name);
         window.run_steps(1);
         assert!(dark.is_none_or(|dark| window.ctx.global_style().visuals.dark_mode == dark), "{name}");

@@ -45,7 +45,7 @@ fn sharing_stays_as_it_is_while_other_settings_change_and_every_curve_names_it()
     assert_eq!(names.iter().filter(|name| name.contains("no sharing")).count(), 1, "{names:?}");
     let table = window.state().instruments.history.csv().expect("it is written");
     let table = String::from_utf8(table).expect("it is text");
-    assert!(table.starts_with("settings,sharing,") && table.contains(",on,") && table.contains(",off,"), "{table}");
+    assert!(table.starts_with("name,settings,sharing,") && table.contains(",on,") && table.contains(",off,"), "{table}");
 }
 
 #[test]

@@ -90,7 +90,7 @@ fn the_camera_of_the_scene_is_edited_and_the_window_follows_without_a_step() {
 fn title_and_settings_of_the_scene_have_rows_too() {
     let mut window = window("cornell_spheres");
     select(&mut window, Subject::Presentation);
-    assert!(window.query_by_label("Title").is_some() && window.query_by_label("Truth").is_some());
+    assert!(window.query_by_label("Title").is_some() && window.query_by_label("Reference").is_some());
     window.state_mut().edit(&Edit::set(Path::of("title"), OwnedValue::Text("Five balls".to_owned())));
     let title = |app: &App| app.session.opened.as_ref().is_some_and(|opened| opened.scene.title == "Five balls");
     wait(&mut window, "the scene under its new title", title);

@@ -53,6 +53,8 @@ fn what_is_shown_is_chosen_by_lists_buttons_and_keys() {
         window.run_steps(3);
         assert_eq!(window.state().window.tool, tool, "{label}");
     }
+    window.get_by_role_and_label(Role::CheckBox, "Frame times").scroll_to_me();
+    window.run_steps(3);
     check_box(&mut window, "Frame times");
     assert!(window.state().frame_times.shown);
     press(&mut window, Key::F12);

@@ -15,7 +15,7 @@ fn emission_that_lights_nothing_keeps_the_sky() {
     assert!(!has_sky && emits && !remarks.contains("sky"), "{remarks}");
     // Code 6 is a radiance of 0.0018.
     let (has_sky, emits, remarks) = lit(&glow, [6, 6, 6, 255]);
-    assert!(has_sky && emits && remarks.contains("only emission that gives 0.1 % of a studio's light"), "{remarks}");
+    assert!(has_sky && emits && remarks.contains("only emission that gives 0.06 % of a studio's light"), "{remarks}");
     let (has_sky, emits, remarks) = lit(&glow, [0, 0, 0, 255]);
     assert!(has_sky && !emits && remarks.contains("no light"), "{remarks}");
 }

@@ -162,7 +162,12 @@ impl Curve {
         if self.moments.iter().filter(|moment| moment.spp >= 4).any(|moment| moment.is_lower_bound) {
             return true;
         }
-        let scaled = self.doublings(HorizontalAxis::Samples).into_iter().map(|(n, noise)| noise * n.sqrt());
+        let doublings = self.doublings(HorizontalAxis::Samples);
+        // Two points are no curve.
+        if doublings.len() < 3 {
+            return false;
+        }
+        let scaled = doublings.into_iter().map(|(n, noise)| noise * n.sqrt());
         let mut least = f64::INFINITY;
         scaled.into_iter().any(|scaled| {
             least = least.min(scaled);

@@ -18,7 +18,7 @@ use crate::viewer::widgets::{
 /// Width of the source of light, so that the table fits beside the samples in a window of 1280 points.
 const TERM_WIDTH: f32 = 100.0;
 /// Width of the other columns, and the largest width of the names of vertices, points.
-const OTHERS: f32 = 424.0;
+const OTHERS: f32 = 446.0;
 const WIDEST_VERTEX: f32 = 260.0;
 /// More of a path than this nobody reads.
 pub const MOST_VERTICES: usize = 64;
