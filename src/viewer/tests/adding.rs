@@ -92,6 +92,7 @@ fn meshes_of_any_unit_suit_the_view() {
 #[test]
 fn shift_a_adds_where_the_pointer_is() {
     let mut window = window("cornell_spheres");
+    window.state_mut().window.panel = crate::viewer::panels::panel_tabs::PanelTab::Edit;
     window.hover_at(Pos2::new(472.0, 800.0));
     window.run_steps(2);
     let pixel = window.state().window.hovered.expect("it is over the image");
