@@ -218,13 +218,15 @@ fn a_conversion_follows_no_link_below_its_folder() {
             let inner = file.strip_prefix(&files).expect("it is inside");
             for (step, part) in inner.ancestors().enumerate() {
                 let name = format!("{extension}{number}{step}");
+                // Files are named after the scene.
+                let part = PathBuf::from(part.to_string_lossy().replace("plain", &name));
                 let (folder, mine) = (home.path(&format!("{name}.files")), home.path("mine"));
                 fs::create_dir_all(&mine).expect("a folder");
-                let link = folder.join(part);
+                let link = folder.join(&part);
                 fs::create_dir_all(link.parent().expect("a folder")).expect("folders");
                 let is_file = step == 0;
                 fs::write(mine.join("file"), "mine").expect("it is written");
-                let link = if part == Path::new("") { folder.clone() } else { link };
+                let link = if part.as_os_str().is_empty() { folder.clone() } else { link };
                 symlink(if is_file { mine.join("file") } else { mine.clone() }, link).expect("a link");
                 let done = convert(&format!("{name}.{extension}"));
                 let said = text(&done.stderr);

@@ -159,8 +159,8 @@ fn red_and_green() -> Arc<ImageTexture> {
 #[test]
 fn the_image_of_a_projector_continues_as_its_wrap_says() {
     let folder = tempfile::tempdir().expect("a folder");
-    let bytes = crate::import::pictures::png(2, 1, &[[255u8, 0, 0], [0, 255, 0]]).expect("it is encoded");
-    std::fs::write(folder.path().join("a.png"), bytes).expect("it is written");
+    let texels = [255, 0, 0, 0, 255, 0];
+    ::image::save_buffer(folder.path().join("a.png"), &texels, 2, 1, ::image::ExtendedColorType::Rgb8).expect("it is written");
     let resources = Resources::new(folder.path());
     let red = |wrap, filter, x: f32| {
         let lamp = Projector {

@@ -2,7 +2,7 @@
 use rayon::prelude::*;
 
 use super::{
-    missing::{Means, missing},
+    missing::missing,
     rounds::{RoundPicture, Series},
 };
 use crate::{measure::Floor, scene::RenderSettings, study::outcome::ROUNDING};
@@ -31,14 +31,10 @@ pub fn measured(series: &[Series]) -> Vec<Measured> {
     // If no image has light, all distances are 0.
     let weights: Vec<f64> = common.iter().map(|m| 1.0 / (m * m + floor).max(f64::MIN_POSITIVE)).collect();
     let mut all: Vec<Measured> = series.iter().map(|series| Measured::of(series, &common, &weights)).collect();
-    let of_settings = |(series, measured): (&Series, &Measured)| Means {
-        radiance: mean(series.pictures.iter()),
-        rel_mse: measured.rel_mse(&measured.rounds),
-        count: series.pictures.len() as f64,
-    };
-    let means: Vec<Means> = series.iter().zip(&all).map(of_settings).collect();
-    for (own, measured) in means.iter().zip(&mut all) {
-        measured.missing = means.iter().map(|other| missing(own, other, &common, floor)).fold(0.0, f64::max);
+    let images: Vec<Vec<&[[f32; 3]]>> =
+        series.iter().map(|series| series.pictures.iter().map(|picture| picture.radiance.as_slice()).collect()).collect();
+    for (own, measured) in images.iter().zip(&mut all) {
+        measured.missing = images.iter().map(|other| missing(own, other, &common, floor)).fold(0.0, f64::max);
     }
     all
 }
