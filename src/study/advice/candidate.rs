@@ -14,10 +14,8 @@ pub struct Candidate {
     pub relative: f64,
     /// Standard error of ln `relative`, that is, the relative standard error, from the spread over rounds.
     pub standard_error: f64,
-    /// relMSE of an image of `spp` samples per pixel; if it misses light, a lower bound.
+    /// relMSE of an image of `spp` samples per pixel.
     pub rel_mse: f64,
-    /// Whether most of that error is light that other candidates have found, and these settings have not.
-    pub misses_light: bool,
     /// Rendering time of such an image.
     pub seconds: f64,
     /// Samples per pixel.

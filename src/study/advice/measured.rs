@@ -1,10 +1,7 @@
 //! Noise and time of settings, from several images of each.
 use rayon::prelude::*;
 
-use super::{
-    missing::missing,
-    rounds::{RoundPicture, Series},
-};
+use super::rounds::{RoundPicture, Series};
 use crate::{measure::Floor, scene::RenderSettings, study::outcome::ROUNDING};
 
 /// Measurements of some settings, by round.
@@ -20,8 +17,6 @@ pub struct Measured {
     pub differences: Vec<Vec<f64>>,
     /// The light in the mean of these images, relative to m; about 1.
     pub found: f64,
-    /// A lower bound of the relMSE of an image, from light that other settings have found in addition.
-    pub missing: f64,
 }
 
 /// Compares the images of several settings, which must all converge to the same image.
@@ -30,13 +25,7 @@ pub fn measured(series: &[Series]) -> Vec<Measured> {
     let floor = Floor::DEFAULT.of(common.iter().map(|m| m * m).sum::<f64>() / common.len().max(1) as f64);
     // If no image has light, all distances are 0.
     let weights: Vec<f64> = common.iter().map(|m| 1.0 / (m * m + floor).max(f64::MIN_POSITIVE)).collect();
-    let mut all: Vec<Measured> = series.iter().map(|series| Measured::of(series, &common, &weights)).collect();
-    let images: Vec<Vec<&[[f32; 3]]>> =
-        series.iter().map(|series| series.pictures.iter().map(|picture| picture.radiance.as_slice()).collect()).collect();
-    for (own, measured) in images.iter().zip(&mut all) {
-        measured.missing = images.iter().map(|other| missing(own, other, &common, floor)).fold(0.0, f64::max);
-    }
-    all
+    series.iter().map(|series| Measured::of(series, &common, &weights)).collect()
 }
 
 /// The mean of images, per channel of each pixel.
@@ -69,7 +58,6 @@ impl Measured {
             log_seconds: pictures.iter().map(|picture| picture.seconds.ln()).collect(),
             differences: (0..pictures.len()).into_par_iter().map(before).collect(),
             found: if light > 0.0 { along(&own) / light } else { 1.0 },
-            missing: 0.0,
         }
     }
 
@@ -93,14 +81,9 @@ impl Measured {
         f64::exp(sum / count)
     }
 
-    /// The relMSE, but at least that of missing light and of rounding.
+    /// The relMSE, but at least that of rounding.
     pub fn noise(&self, rounds: &[u32]) -> f64 {
-        self.rel_mse(rounds).max(self.missing).max(ROUNDING)
-    }
-
-    /// Whether these settings miss light that makes up more of their error than what their images show.
-    pub fn misses_light(&self) -> bool {
-        self.missing > self.rel_mse(&self.rounds)
+        self.rel_mse(rounds).max(ROUNDING)
     }
 
     /// Indices of the images of these rounds.

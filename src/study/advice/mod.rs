@@ -10,7 +10,6 @@
 mod candidate;
 mod candidates;
 mod measured;
-mod missing;
 mod rank;
 mod rounds;
 #[cfg(test)]

@@ -16,6 +16,7 @@ fn part_of(done: usize, whole: usize) -> f32 {
 /// Shows the progress of the study, then its advice, until a setting is chosen or the window is closed.
 pub fn show(ctx: &egui::Context, adviser: &mut Option<Adviser>) -> Option<RenderSettings> {
     let study = adviser.as_mut()?;
+    study.receive();
     let (mut open, mut chosen) = (true, None);
     egui::Window::new("What should I use here?")
         .open(&mut open)
@@ -74,13 +75,7 @@ fn row(ui: &mut Ui, candidate: &Candidate, is_best: bool, is_current: bool) -> b
     let name = RichText::new(&candidate.name);
     ui.label(if is_best { name.strong() } else { name });
     ui.monospace(if is_current { "1".to_owned() } else { candidate.ratio() }).on_hover_text(HEADINGS[1].1);
-    let error = format!("{:.2} %", 100.0 * candidate.rel_mse.sqrt());
-    if candidate.misses_light {
-        ui.monospace(format!("≥ {error}"))
-            .on_hover_text("These settings miss light that others have found: their error is at least this.");
-    } else {
-        ui.monospace(error).on_hover_text(HEADINGS[2].1);
-    }
+    ui.monospace(format!("{:.2} %", 100.0 * candidate.rel_mse.sqrt())).on_hover_text(HEADINGS[2].1);
     let used = if is_current {
         ui.weak("in use");
         false
@@ -106,16 +101,12 @@ mod tests {
             relative: 2.0,
             standard_error: 0.1,
             rel_mse: 0.0025,
-            misses_light: false,
             seconds: 1.0,
             spp: 4,
             rounds: 8,
         };
         let harness = Harness::builder().build_ui(|ui| assert!(!row(ui, &candidate, true, false)));
         assert!(harness.query_by_label("5.00 %").is_some() && harness.query_by_label("2.00 ± 0.20").is_some());
-        let misses = Candidate { misses_light: true, ..candidate.clone() };
-        let harness = Harness::builder().build_ui(|ui| assert!(!row(ui, &misses, true, false)));
-        assert!(harness.query_by_label("≥ 5.00 %").is_some());
     }
 
     #[test]
@@ -132,7 +123,6 @@ mod tests {
             relative,
             standard_error: 0.1,
             rel_mse,
-            misses_light: false,
             seconds: 1.0,
             spp: 4,
             rounds: 8,
