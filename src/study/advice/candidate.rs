@@ -8,14 +8,16 @@ pub struct Candidate {
     pub settings: RenderSettings,
     /// Name: the differences from the settings in use.
     pub name: String,
-    /// 1/(relMSE · seconds); 0 if these settings found hardly any of the light that others found.
+    /// 1/(relMSE · seconds); 0 if these settings miss light that others found.
     pub efficiency: f64,
-    /// Efficiency relative to that of the settings in use; infinite if those found hardly any light.
+    /// Efficiency relative to that of the settings in use; infinite if those miss light that these found.
     pub relative: f64,
     /// Standard error of ln `relative`, that is, the relative standard error, from the spread over rounds.
     pub standard_error: f64,
-    /// relMSE of an image of `spp` samples per pixel.
+    /// relMSE of an image of `spp` samples per pixel; a lower bound if it misses light.
     pub rel_mse: f64,
+    /// Whether most of that error is light that other candidates found and these settings did not.
+    pub misses_light: bool,
     /// Rendering time of such an image.
     pub seconds: f64,
     /// Samples per pixel.

@@ -10,8 +10,9 @@ use crate::{
 const ROULETTES: [Roulette; 4] =
     [Roulette::by_throughput_from(2), Roulette::BY_THROUGHPUT, Roulette::by_throughput_from(8), Roulette::fixed(0.8)];
 
-/// Estimators to try. `forward` is good at caustics alone, and `auto` is one of the others.
-const ESTIMATORS: [Estimator; 4] = [Estimator::Path, Estimator::Light, Estimator::Mis, Estimator::Bidirectional];
+/// Estimators to try: all but `auto`, which is one of the others.
+const ESTIMATORS: [Estimator; 6] =
+    [Estimator::Path, Estimator::Light, Estimator::Mis, Estimator::Caustics, Estimator::Forward, Estimator::Bidirectional];
 
 /// The settings in use and each sampler.
 pub const MOST_OF_SECOND_STAGE: usize = 1 + Sampler::ALL.len();

@@ -1,7 +1,10 @@
 //! Noise and time of settings, from several images of each.
 use rayon::prelude::*;
 
-use super::rounds::{RoundPicture, Series};
+use super::{
+    missing::missing,
+    rounds::{RoundPicture, Series},
+};
 use crate::{measure::Floor, scene::RenderSettings, study::outcome::ROUNDING};
 
 /// Measurements of some settings, by round.
@@ -17,6 +20,8 @@ pub struct Measured {
     pub differences: Vec<Vec<f64>>,
     /// The light in the mean of these images, relative to m; about 1.
     pub found: f64,
+    /// A lower bound of the relMSE of an image, from light that other settings have found in addition.
+    pub missing: f64,
 }
 
 /// Compares the images of several settings, which must all converge to the same image.
@@ -25,7 +30,11 @@ pub fn measured(series: &[Series]) -> Vec<Measured> {
     let floor = Floor::DEFAULT.of(common.iter().map(|m| m * m).sum::<f64>() / common.len().max(1) as f64);
     // If no image has light, all distances are 0.
     let weights: Vec<f64> = common.iter().map(|m| 1.0 / (m * m + floor).max(f64::MIN_POSITIVE)).collect();
-    series.iter().map(|series| Measured::of(series, &common, &weights)).collect()
+    let missing = |own: &Series| {
+        let by = |other: &Series| missing(own, other, &common, &weights);
+        series.par_iter().map(by).reduce(|| 0.0, f64::max)
+    };
+    series.iter().map(|series| Measured { missing: missing(series), ..Measured::of(series, &common, &weights) }).collect()
 }
 
 /// The mean of images, per channel of each pixel.
@@ -58,12 +67,18 @@ impl Measured {
             log_seconds: pictures.iter().map(|picture| picture.seconds.ln()).collect(),
             differences: (0..pictures.len()).into_par_iter().map(before).collect(),
             found: if light > 0.0 { along(&own) / light } else { 1.0 },
+            missing: 0.0,
         }
     }
 
     /// Whether these settings find enough light to be compared.
     pub fn is_sound(&self) -> bool {
-        self.found > 0.5
+        self.found > 0.5 && !self.misses_light()
+    }
+
+    /// Whether light that they miss makes up more of their error than their images show.
+    pub fn misses_light(&self) -> bool {
+        self.missing > self.noise(&self.rounds)
     }
 
     /// The relMSE of an image, from at least two rounds: half the mean squared difference of two images, because a difference has

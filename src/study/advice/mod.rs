@@ -6,10 +6,11 @@
 //! ```
 //! No reference is needed: images of the same settings with different seeds differ by their noise alone. This holds for every
 //! sampler, because each seed scrambles its points differently. All candidates converge to the same image, because directions
-//! and cap stay as they are.
+//! and cap stay as they are. Settings that miss light that others find are never recommended.
 mod candidate;
 mod candidates;
 mod measured;
+mod missing;
 mod rank;
 mod rounds;
 #[cfg(test)]

@@ -25,6 +25,12 @@ pub struct Series {
     pub pictures: Vec<RoundPicture>,
 }
 
+impl Series {
+    pub fn of_round(&self, round: u32) -> Option<&RoundPicture> {
+        self.pictures.iter().find(|picture| picture.round == round)
+    }
+}
+
 /// All images so far.
 pub struct Rounds<'a> {
     bench: Bench<'a>,

@@ -51,6 +51,7 @@ fn known(settings: RenderSettings, rel_mse: f64, seconds: &[f64]) -> Measured {
         log_seconds: seconds.iter().map(|seconds| seconds.ln()).collect(),
         differences: (0..seconds.len()).map(|i| vec![2.0 * rel_mse; i]).collect(),
         found: 1.0,
+        missing: 0.0,
     }
 }
 
@@ -152,8 +153,33 @@ fn settings_that_find_no_light_are_not_recommended() {
     let advice = rank(&measured(&[series(IN_USE, (0..4).map(dark)), series(ADVISED, (0..4).map(lit))]), SPP);
     assert_eq!((advice.best, advice.best().relative), (0, f64::INFINITY));
     assert_eq!(advice.best().ratio(), "∞");
-    assert!(advice.verdict().contains("your settings find hardly any"), "{}", advice.verdict());
+    assert!(advice.verdict().contains("that your settings miss"), "{}", advice.verdict());
     assert_eq!([0.49, 0.51].map(|found| Measured { found, ..known(IN_USE, 0.01, &[1.0]) }.is_sound()), [false, true]);
+}
+
+/// Quiet images that lack a caustic are worse than noisy ones that have it.
+#[test]
+fn settings_that_miss_a_caustic_are_not_recommended() {
+    const PIXELS: u32 = 1024;
+    let image = |caustic: f32, noise: f64| {
+        move |round: u32| {
+            let value = |i: u32| 1.0 + if i < 64 { caustic } else { 0.0 } + (noise * (uniform(round * PIXELS + i) - 0.5)) as f32;
+            (0..PIXELS).map(|i| [value(i); 3]).collect::<Vec<_>>()
+        }
+    };
+    let [quiet, finds, firefly] =
+        [Estimator::Light, Estimator::Bidirectional, Estimator::Path].map(|estimator| RenderSettings { estimator, ..IN_USE });
+    let of = |settings, caustic, noise| series(settings, (0..8).map(image(caustic, noise)));
+    // One image of these has a bright pixel that none of the others has.
+    let mut bright = of(firefly, 0.0, 0.1);
+    bright.pictures[5].radiance[700] = [1000.0; 3];
+    let advice = rank(&measured(&[of(IN_USE, 0.0, 0.2), of(quiet, 0.0, 0.02), of(finds, 0.4, 0.5), bright]), SPP);
+    assert_eq!((advice.best().settings, advice.best().relative), (finds, f64::INFINITY));
+    let of = |settings: RenderSettings| advice.candidates.iter().find(|c| c.settings == settings).expect("a candidate");
+    assert_eq!([IN_USE, quiet, finds, firefly].map(|settings| of(settings).misses_light), [true, true, false, false]);
+    // 64 of 1024 pixels lack 0.4, and their mean of all settings is 1.1.
+    let least = 8.0 * 64.0 / 1024.0 * 0.16 / (1.1 * 1.1 + 0.01 * 1.01);
+    assert!((of(quiet).rel_mse / least - 1.0).abs() < 0.2, "{} for {least}", of(quiet).rel_mse);
 }
 
 #[test]
@@ -167,8 +193,8 @@ fn without_noise_nothing_is_better() {
 #[test]
 fn the_second_stage_adopts_the_best_of_the_first() {
     let first = first_stage(&IN_USE, &[]);
-    assert_eq!(first.len(), 1 + 4 + 3);
-    assert_eq!(first_stage(&ADVISED, &[]).len(), 1 + 3 + 3);
+    assert_eq!(first.len(), 1 + 4 + 5);
+    assert_eq!(first_stage(&ADVISED, &[]).len(), 1 + 3 + 5);
     let seconds = |settings: &RenderSettings| match (settings.roulette, settings.estimator) {
         (roulette, _) if roulette == Roulette::by_throughput_from(2) => 0.2,
         (Roulette::Throughput(_), _) => 0.4,
@@ -198,7 +224,7 @@ fn auto_is_not_compared_with_the_estimator_that_it_chooses() {
 fn sharing_is_tried_and_taken_over_where_it_stands_out() {
     let first = first_stage(&IN_USE, &[Reuse::On]);
     let shared = RenderSettings { reuse: Reuse::On, ..IN_USE };
-    assert_eq!((first.len(), first.last()), (1 + 4 + 3 + 1, Some(&shared)));
+    assert_eq!((first.len(), first.last()), (1 + 4 + 5 + 1, Some(&shared)));
     let seconds = |settings: &RenderSettings| if *settings == shared { 0.2 } else { 1.0 };
     let trials: Vec<Measured> = first.iter().map(|settings| known(*settings, 0.01, &[seconds(settings); 4])).collect();
     let advice = rank(&trials, SPP);
@@ -221,20 +247,39 @@ fn scene() -> Scene {
     parse("scene.toml", include_str!("../../../scenes/cornell_spheres.toml").to_owned()).expect("it is a scene")
 }
 
+/// Images whose time is their number of rays.
+fn by_counted_work(scene: &Scene, camera: &Camera, threads: &Threads, settings: RenderSettings, rounds: u32) -> Series {
+    let bench = Bench { scene, camera, threads, stop: &|| false };
+    let picture = |round| {
+        let (seeded, mut film) = (RenderSettings { seed: settings.seed + round, ..settings }, bench.film());
+        let (_, count) = bench.pass(&seeded, &mut film, SPP).expect("a picture");
+        RoundPicture { round, seconds: count.rays as f64, radiance: bench.frame(&film).radiance }
+    };
+    Series { settings, pictures: (0..rounds).map(picture).collect() }
+}
+
+/// Light sampling makes quiet images there, because it rarely finds the caustic.
+#[test]
+fn for_a_caustic_paths_from_the_lights_are_advised() {
+    let scene = parse("scene.toml", include_str!("../../../scenes/glass_ball_caustic.toml").to_owned()).expect("it is a scene");
+    let camera = Camera { resolution: [96, 72], ..scene.camera };
+    let threads = Threads::new(2, SimdLevel::best()).expect("threads");
+    let settings = |estimator| RenderSettings { estimator, ..scene.settings };
+    let all = [Estimator::Light, Estimator::Mis, Estimator::Bidirectional].map(settings);
+    let mut series = all.map(|settings| by_counted_work(&scene, &camera, &threads, settings, ROUNDS));
+    let advice = rank(&measured(&series), SPP);
+    println!("{}", advice.verdict());
+    assert_eq!(advice.best().settings.estimator, Estimator::Bidirectional);
+    series.reverse();
+    assert_eq!(rank(&measured(&series), SPP).best().settings.estimator, Estimator::Bidirectional);
+}
+
 #[test]
 fn by_counted_work_a_roulette_that_kills_most_paths_is_advised_against() {
     let scene = scene();
     let camera = Camera { resolution: [48, 48], ..scene.camera };
     let threads = Threads::new(2, SimdLevel::best()).expect("threads");
-    let bench = Bench { scene: &scene, camera: &camera, threads: &threads, stop: &|| false };
-    let series = |settings: RenderSettings| {
-        let picture = |round| {
-            let (seeded, mut film) = (RenderSettings { seed: settings.seed + round, ..settings }, bench.film());
-            let (_, count) = bench.pass(&seeded, &mut film, SPP).expect("a picture");
-            RoundPicture { round, seconds: count.rays as f64, radiance: bench.frame(&film).radiance }
-        };
-        Series { settings, pictures: (0..6).map(picture).collect() }
-    };
+    let series = |settings| by_counted_work(&scene, &camera, &threads, settings, 6);
     let sobol = RenderSettings { sampler: Sampler::Sobol, ..IN_USE };
     let advice = rank(&measured(&[IN_USE, sobol, ADVISED].map(series)), SPP);
     println!("{advice:#?}\n{}", advice.verdict());

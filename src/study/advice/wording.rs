@@ -27,7 +27,7 @@ pub fn difference(settings: &RenderSettings, in_use: &RenderSettings) -> String 
 
 impl Candidate {
     /// Relative efficiency and its standard error, as in `1.83 ± 0.04`, with two digits of the error and at most three decimals.
-    /// `∞` if the settings in use found hardly any light.
+    /// `∞` if the settings in use miss light that these found.
     pub fn ratio(&self) -> String {
         if !self.relative.is_finite() {
             return "∞".to_owned();
@@ -45,7 +45,7 @@ impl Advice {
         let mut text = if self.best == self.current {
             self.nothing_better()
         } else if !best.relative.is_finite() {
-            format!("{}: finds light; your settings find hardly any.", best.name)
+            format!("{}: finds light that your settings miss.", best.name)
         } else if best.is_exact() && !current.is_exact() {
             format!("{}: leaves no noise at all.", best.name)
         } else {
@@ -61,8 +61,12 @@ impl Advice {
         if self.current().is_exact() {
             return "Your settings leave no noise: nothing can be better.".to_owned();
         }
-        let Some(next) = self.candidates.iter().find(|candidate| candidate.name != self.current().name) else {
+        let mut others = self.candidates.iter().filter(|candidate| candidate.name != self.current().name).peekable();
+        if others.peek().is_none() {
             return "No other settings were tried.".to_owned();
+        }
+        let Some(next) = others.find(|candidate| !candidate.misses_light) else {
+            return "Nothing else finds all the light that your settings find.".to_owned();
         };
         let chance = if next.may_be_better() { ", which may be chance" } else { "" };
         format!(

@@ -45,7 +45,10 @@ pub fn show(ctx: &egui::Context, adviser: &mut Option<Adviser>) -> Option<Render
 const HEADINGS: [(&str, &str); 3] = [
     ("setting", "What differs from the current settings"),
     ("efficiency", "1/(relMSE · seconds) relative to the current settings, with its standard error"),
-    ("error", "Relative error of one test image, the root of relMSE"),
+    (
+        "error",
+        "Relative error of one test image, the root of relMSE. ≥: these settings miss light that others found, which is most of it",
+    ),
 ];
 
 /// Shows the candidates. Returns the settings to use.
@@ -74,8 +77,14 @@ fn candidates(ui: &mut Ui, advice: &Advice) -> Option<RenderSettings> {
 fn row(ui: &mut Ui, candidate: &Candidate, is_best: bool, is_current: bool) -> bool {
     let name = RichText::new(&candidate.name);
     ui.label(if is_best { name.strong() } else { name });
-    ui.monospace(if is_current { "1".to_owned() } else { candidate.ratio() }).on_hover_text(HEADINGS[1].1);
-    ui.monospace(format!("{:.2} %", 100.0 * candidate.rel_mse.sqrt())).on_hover_text(HEADINGS[2].1);
+    let ratio = match candidate.misses_light {
+        true => "misses light".to_owned(),
+        false if is_current => "1".to_owned(),
+        false => candidate.ratio(),
+    };
+    ui.monospace(ratio).on_hover_text(HEADINGS[1].1);
+    let bound = if candidate.misses_light { "≥ " } else { "" };
+    ui.monospace(format!("{bound}{:.2} %", 100.0 * candidate.rel_mse.sqrt())).on_hover_text(HEADINGS[2].1);
     let used = if is_current {
         ui.weak("in use");
         false
@@ -101,6 +110,7 @@ mod tests {
             relative: 2.0,
             standard_error: 0.1,
             rel_mse: 0.0025,
+            misses_light: false,
             seconds: 1.0,
             spp: 4,
             rounds: 8,
@@ -123,6 +133,7 @@ mod tests {
             relative,
             standard_error: 0.1,
             rel_mse,
+            misses_light: false,
             seconds: 1.0,
             spp: 4,
             rounds: 8,
