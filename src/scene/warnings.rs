@@ -35,7 +35,10 @@ impl Scene {
             warnings.push("something moves, but without `shutter` in [camera] the image shows it at rest".to_owned());
         }
         if self.shapes.dropped_triangles() > 0 {
-            warnings.push(format!("{} triangles without area were left out", self.shapes.dropped_triangles()));
+            warnings.push(format!(
+                "{} triangles without area, or with corners beyond 1e11, were left out",
+                self.shapes.dropped_triangles()
+            ));
         }
         if self.objects.is_empty() {
             warnings.push("this scene has no objects".to_owned());
