@@ -160,6 +160,22 @@ fn views_of_surfaces_have_their_colours() {
 }
 
 #[test]
+fn without_a_pinned_image_the_reference_is_subtracted() {
+    let one = |radiance: f32| Frame { width: 1, height: 1, radiance: vec![[radiance; 3]], ..Frame::default() };
+    let (frame, pinned, truth) = (one(3.0), one(1.0), Reference::Constant([2.0; 3]));
+    let shown = |pinned| {
+        let all = Sources { truth: Some(&truth), pinned, ..sources(&frame, &[]) };
+        let look = DisplaySettings { view: View::Difference, ..DisplaySettings::default() };
+        let (legend, _) = draw(look, &all, &mut Vec::new()).expect("a legend");
+        (legend.title, numbers(View::Difference, &all)[0])
+    };
+    let floor = |mean: f32| (mean * mean * 1.01).sqrt();
+    let [(title, with_pinned), (other_title, without)] = [Some(&pinned), None].map(shown);
+    assert_eq!([&*title, &*other_title], ["Difference image − pinned image", "Difference image − reference"]);
+    is(&[with_pinned, without], &[2.0 / floor(1.0), 1.0 / floor(2.0)]);
+}
+
+#[test]
 fn numbers_have_the_colours_of_their_scale() {
     let mut frame = frame();
     frame.radiance[7] = [f32::NAN; 3];

@@ -1,4 +1,6 @@
 //! The difference from another image.
+use std::borrow::Cow;
+
 use super::{
     Field, Quantity, Sources,
     legend::{part_below, round_up},
@@ -11,22 +13,31 @@ impl Quantity for Difference {
     const WORD: Word = Word {
         name: "difference",
         title: "Difference",
-        doc: "Radiance minus that of the pinned image, relative to it. (For A minus B, choose the layout Difference under Compare.)",
+        doc: "Radiance minus that of the pinned image, or of the reference if none is pinned, relative to it. (For A minus B, choose \
+              the layout Difference under Compare.)",
     };
 
     const SHOWS_LIGHT: bool = true;
     const IS_SIGNED: bool = true;
 
     fn title(sources: &Sources) -> &'static str {
-        if sources.is_comparison { "Difference A − B" } else { "Difference image − pinned image" }
+        match sources.pinned {
+            _ if sources.is_comparison => "Difference A − B",
+            None if sources.truth.is_some() => "Difference image − reference",
+            _ => "Difference image − pinned image",
+        }
     }
 
     fn unit_of(sources: &Sources) -> &'static str {
-        if sources.is_comparison { "relative to B" } else { "relative to the pinned image" }
+        match sources.pinned {
+            _ if sources.is_comparison => "relative to B",
+            None if sources.truth.is_some() => "relative to the reference",
+            _ => "relative to the pinned image",
+        }
     }
 
     fn missing() -> &'static str {
-        "No image of this size to compare with yet: wait for the first sample of B, or pin an image below Display"
+        "No image of this size to compare with yet: wait for the first sample of B, pin an image below Display, or open a reference"
     }
 
     fn field(sources: &Sources) -> Field {
@@ -38,18 +49,21 @@ impl Quantity for Difference {
     }
 }
 
-/// The relative difference of luminance from the pinned image, with the floor of relMSE for dark pixels.
+/// The relative difference of luminance from the pinned image, else from the reference, with the floor of relMSE for dark pixels.
 fn difference(sources: &Sources) -> Option<Vec<f32>> {
-    let pinned = sources.pinned?;
-    let radiance = sources.radiance.unwrap_or(&sources.frame.radiance);
-    let same = pinned.radiance.len() == radiance.len() && pinned.width == sources.frame.width;
-    let floor = Floor::DEFAULT.of_picture(&pinned.radiance);
+    let frame = sources.frame;
+    let other: Cow<[[f32; 3]]> = match sources.pinned {
+        Some(pinned) => (pinned.width == frame.width).then(|| pinned.radiance.as_slice().into())?,
+        None => sources.truth?.radiance_of(frame)?,
+    };
+    let radiance = sources.radiance.unwrap_or(&frame.radiance);
+    let floor = Floor::DEFAULT.of_picture(&other);
     let relative = |(a, b): (&[f32; 3], &[f32; 3])| {
         let (a, b) = (f64::from(luminance(*a)), f64::from(luminance(*b)));
         // Two black pixels of a black picture do not differ.
         if a == b { 0.0 } else { ((a - b) / (b * b + floor).sqrt()) as f32 }
     };
-    same.then(|| radiance.iter().zip(&pinned.radiance).map(relative).collect())
+    (other.len() == radiance.len()).then(|| radiance.iter().zip(other.iter()).map(relative).collect())
 }
 
 /// Round numbers around nearly all numbers, at least a thousandth.

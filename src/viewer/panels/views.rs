@@ -26,7 +26,7 @@ pub fn rows(ui: &mut Ui, map: &mut ColourMap, shown: Option<&Arc<Frame>>, pinned
         row(ui, "Colours", "Colour map of numeric views. Differences and z-scores have their own.", |ui, _| {
             choices(ui, map, &ColourMap::CHOICE);
         });
-        row(ui, "Pinned", "The view Difference subtracts the pinned image.", |ui, _| {
+        row(ui, "Pinned", "The view Difference subtracts the pinned image, or the reference if none is pinned.", |ui, _| {
             ui.horizontal(|ui| {
                 let can = shown.is_some_and(|frame| !frame.is_coarse());
                 if ui.add_enabled(can, egui::Button::new("Pin this")).clicked() {
