@@ -53,7 +53,11 @@ impl Tables {
             pdf = here.pick(SeenFlat::new(here, rows, from_anchor, l.rows(&self.normals, primitive)).pdf(l, wi), pdf);
         }
         if let Some((here, quadric)) = self.quadric(l, tag) {
-            let (of_cylinder, _) = cylinder_pdf(l, &quadric, x, wi);
+            let (mut of_cylinder, _) = cylinder_pdf(l, &quadric, x, wi);
+            let lost = here & quadric.is_cylinder & !of_cylinder.above(0.0) & is_far(quadric.across(quadric.place(x)));
+            if lost.any() {
+                of_cylinder = lost.pick(axis_pdf(l, &quadric, x, wi), of_cylinder);
+            }
             let of_ellipsoid = seen_from(l, &quadric, x).pdf() * stretch(&quadric, wi);
             pdf = here.pick(quadric.is_cylinder.pick(of_cylinder, of_ellipsoid), pdf);
         }
@@ -196,6 +200,18 @@ fn cylinder_pdf<L: Lanes>(l: L, quadric: &Local<L>, x: V<L>, wi: V<L>) -> (F<L>,
     let (of_near, met_near, front_near) = density_of_place(l, quadric, x, wi, near.value());
     let (of_far, _, front_far) = density_of_place(l, quadric, x, wi, far.value());
     (of_near + of_far, (met_near & front_near) | (!met_near & front_far))
+}
+
+/// [`cylinder_pdf`] of a direction that a point of a far cylinder gave, but that misses it by rounding: as if it met the axis.
+#[inline(always)]
+fn axis_pdf<L: Lanes>(l: L, quadric: &Local<L>, x: V<L>, wi: V<L>) -> F<L> {
+    let (place, way) = (quadric.place(x), quadric.linear(wi));
+    let (from_axis, across) = (quadric.across(place), quadric.across(way));
+    let square = across.length_squared();
+    let t = -from_axis.dot(across) / square;
+    let height = place.z + way.z * t;
+    let meets = t.above(0.0) & height.ge(l.f(0.0)) & l.f(1.0).ge(height);
+    meets.pick(2.0 * t * t * quadric.determinant() / square.sqrt() * (1.0 / TAU), l.f(0.0))
 }
 
 /// For the intersection at distance `t`: its pdf, whether it exists, and whether its front is visible.

@@ -119,3 +119,20 @@ fn nothing_has_a_density_where_a_flat_shape_is_seen_from_its_edge() {
         }
     }
 }
+
+/// Rounded directions miss a tube that is 10⁻⁷ of its distance wide, but other strategies ask for their pdf.
+#[test]
+fn a_sampled_direction_has_a_pdf_where_it_misses_a_thin_tube_by_rounding() {
+    let [base, top] = [-0.05, 0.05].map(|x| DVec3::new(x, 1.0, 0.0));
+    let shapes = shapes(&[Shape::cylinder(base, top, 1e-7, false)]);
+    let mut rng = SmallRng::seed_from_u64(7);
+    let mut random = || F(rng.random_range(0.0..1.0f32));
+    let ratio = |_| {
+        let x = V { x: F(0.1) * random(), y: F(0.0), z: F(0.1) * random() };
+        let toward = shapes.toward(One, &place(0), x, (random(), random()));
+        shapes.pdf_toward(One, &place(0), x, toward.wi).0 / toward.pdf.0
+    };
+    let ratios: Vec<f32> = (0..SAMPLES).map(ratio).collect();
+    let share = |least: f32| ratios.iter().filter(|ratio| **ratio > least).count() as f64 / ratios.len() as f64;
+    assert!(share(0.0) > 0.999 && share(0.1) > 0.9, "{} {}", share(0.0), share(0.1));
+}
