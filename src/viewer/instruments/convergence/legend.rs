@@ -132,7 +132,7 @@ impl History {
 fn figures(curve: &Curve, over: HorizontalAxis, bias_of_cap: Option<f64>) -> String {
     let Some(last) = curve.moments.last() else { return "no samples yet".to_owned() };
     let percent = |x: f64| format!("{:.2} %", 100.0 * x);
-    let at_least = if curve.has_heavy_tail() { "≥ " } else { "" };
+    let at_least = if curve.noise_is_lower_bound() { "≥ " } else { "" };
     let noise = last.noise.map_or("–".to_owned(), |noise| format!("{at_least}{}", percent(noise)));
     let mut text = format!("N {}, {:.1} s, noise {noise}", last.spp, last.seconds);
     if let Some(error) = last.true_error {
