@@ -23,15 +23,17 @@ use crate::{
 /// Runs the stage.
 pub(super) fn shadow<L: Lanes>(l: L, work: &Work, batch: &mut Batch) {
     if work.has_passages() {
-        test::<L, true>(l, work, batch);
+        test::<L, true, true>(l, work, batch);
+    } else if work.scene.lights_are_missed {
+        test::<L, false, true>(l, work, batch);
     } else {
-        test::<L, false>(l, work, batch);
+        test::<L, false, false>(l, work, batch);
     }
 }
 
-/// `PASSAGES` is compiled for scenes where light passes through surfaces.
+/// `PASSAGES` is compiled for scenes where light passes through surfaces, and `MISSES` for those whose lights rays may miss by rounding.
 #[simd]
-fn test<L: Lanes, const PASSAGES: bool>(l: L, work: &Work, batch: &mut Batch) {
+fn test<L: Lanes, const PASSAGES: bool, const MISSES: bool>(l: L, work: &Work, batch: &mut Batch) {
     let Batch { shadows, radiance, rays, crossings, bounce, .. } = batch;
     let ends_at_any = work.scene.lights_are_listed();
     for at in shadows.registers(l) {
@@ -41,7 +43,7 @@ fn test<L: Lanes, const PASSAGES: bool>(l: L, work: &Work, batch: &mut Batch) {
             let left = crossings_left(l, work, crossings, at.live, &shadow, *bounce);
             through_surfaces(l, work, (at.live, left), &shadow, media, *bounce + 1, rays)
         } else {
-            directly(l, work, at.live, &shadow, media, ends_at_any)
+            directly::<L, MISSES>(l, work, at.live, &shadow, media, ends_at_any)
         };
         add(radiance, seen, shadow.slot, light);
     }
@@ -87,22 +89,30 @@ pub(super) fn arriving<L: Lanes>(
     if work.has_passages() {
         through_surfaces(l, work, (live, left), shadow, media, reflection, rays)
     } else {
-        directly(l, work, live, shadow, media, false)
+        directly::<L, true>(l, work, live, shadow, media, false)
     }
 }
 
 /// [`arriving`] where every surface stops light. If all lights are in lists, the ray may end at any other surface before its light; `t`
 /// of hidden light is then the distance to one of those that hide it.
 #[inline(always)]
-fn directly<L: Lanes>(l: L, work: &Work, live: M<L>, shadow: &Shadow<L>, media: U<L>, ends_at_any: bool) -> Arriving<L> {
+fn directly<L: Lanes, const MISSES: bool>(
+    l: L,
+    work: &Work,
+    live: M<L>,
+    shadow: &Shadow<L>,
+    media: U<L>,
+    ends_at_any: bool,
+) -> Arriving<L> {
     let scene = work.scene;
+    let are_missed = MISSES && scene.lights_are_missed;
     let time = work.time(l, shadow.slot);
     let mut nearest = scene.shapes.closest_listed(l, shadow.o, shadow.d);
     if !scene.shapes.are_listed() {
         let (mut open, mut enough) = (live, l.f(0.0));
         if ends_at_any {
             let mut at_light = scene.lights.light_at(l, nearest.primitive, nearest.element).equals(shadow.target);
-            if scene.lights_are_missed {
+            if are_missed {
                 at_light = at_light | passes_light(l, work, live & !at_light, shadow, time, &nearest).0;
             }
             (open, enough) = (live & at_light, l.f(f32::INFINITY));
@@ -110,7 +120,7 @@ fn directly<L: Lanes>(l: L, work: &Work, live: M<L>, shadow: &Shadow<L>, media: 
         nearest = scene.shapes.nearer(l, (open, enough), (shadow.o, shadow.d), time, nearest);
     }
     let (mut arrives, mut nearest) = scene.lights.arrives(l, shadow.target, shadow.o, nearest);
-    if scene.lights_are_missed {
+    if are_missed {
         let (passes, light) = passes_light(l, work, live & !arrives, shadow, time, &nearest);
         (arrives, nearest) = (arrives | passes, light);
     }

@@ -160,7 +160,7 @@ impl CompiledParts {
         surfaces.check().map_err(|message| Problem::at("", message, "in this scene"))?;
         resources.note("surfaces", Some(start.elapsed()));
         let Leftovers { memory, memo, report } = resources.into_leftovers();
-        let lights_are_missed = lights.are_missed_over(longest_way(&objects, camera.look_at));
+        let lights_are_missed = lights.are_missed_over(longest_way_of_light(&objects));
         let mut scene = Scene {
             title: quote::message(&description.title),
             notes: description.notes.clone(),
@@ -240,13 +240,22 @@ fn reserve_tables(resources: &Resources, objects: &[Object], lamps: usize) -> Re
     resources.reserve("", format_args!("{lights} lights"), LIGHT * lights)
 }
 
-/// An upper bound of the distance between two points of objects.
-fn longest_way(objects: &[Object], near: DVec3) -> f64 {
-    let reach = objects.iter().map(|object| {
-        let (center, radius) = object.shape.swept_sphere(&object.motion);
-        center.distance(near) + radius
+/// An upper bound of the distance between a point of a light with a surface and one that it can light, metres.
+fn longest_way_of_light(objects: &[Object]) -> f64 {
+    let spheres: Vec<(DVec3, f64)> = objects.iter().map(|object| object.shape.swept_sphere(&object.motion)).collect();
+    let lights = objects.iter().zip(&spheres).filter(|(object, _)| object.emission.is_some());
+    let [min, max] = lights.fold([DVec3::INFINITY, DVec3::NEG_INFINITY], |[min, max], (_, &(center, radius))| {
+        [min.min(center - radius), max.max(center + radius)]
     });
-    2.0 * reach.fold(0.0, f64::max)
+    let (middle, extent) = ((min + max) / 2.0, max.distance(min) / 2.0);
+    let way = |(object, &(center, radius)): (&Object, &(DVec3, f64))| {
+        let farthest = center.distance(middle) + extent;
+        // From outside, no more of a ball is lit than up to its horizon.
+        let is_ball = matches!(object.shape, Shape::Sphere { .. }) && object.motion.0.is_empty();
+        let to_horizon = (farthest * farthest - radius * radius).sqrt();
+        if is_ball && center.distance(middle) - extent > radius { to_horizon } else { farthest + radius }
+    };
+    objects.iter().zip(&spheres).map(way).fold(0.0, f64::max)
 }
 
 /// The extent that a person would call the size of the scene: of the objects that are not themselves far larger than the

@@ -57,8 +57,8 @@ struct PutAway {
     figures: Vec<(u32, Option<f64>, Option<f64>)>,
 }
 
-/// Rise of the noise · √N of a curve beyond which its tail is heavy: the variance is still found. In the shipped scenes without heavy tails it rises by up to 1.2
-/// after a power of two that suits Sobol points, and in `caustic_in_mirror` threefold.
+/// Rise of the noise · √N of a curve beyond which its tail is heavy: the variance is still found. In the shipped scenes without heavy
+/// tails it rises by up to 1.2 after a power of two that suits Sobol points, and in `caustic_in_mirror` threefold.
 const HEAVIEST_RISE: f64 = 1.4;
 
 /// Least ratio of the sample counts of successive moments.
