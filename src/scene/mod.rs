@@ -12,6 +12,7 @@ pub mod description;
 mod diagnostic;
 mod estimator;
 mod excerpt;
+mod floor;
 mod infinite_variance;
 mod lamp;
 mod legend;
