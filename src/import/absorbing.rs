@@ -1,9 +1,15 @@
 //! Media that absorb light and do not scatter it, within surfaces.
+use std::collections::{HashMap, HashSet};
+
+use super::{Names, Remark};
 use crate::{
     declare::Textured,
     material::{Dielectric, Material},
-    scene::description::MaterialDescription,
+    scene::description::{MaterialDescription, SceneDescription},
 };
+
+/// How the light of lamps differs behind [`Filling::Interface`].
+pub const INTERFACE: &str = "lamps without surface shine through it on paths from the lamps only, as with `bidirectional`";
 
 /// How a surface holds a medium.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,6 +20,56 @@ pub enum Filling {
     Interface,
     /// It cannot.
     Refused,
+}
+
+/// The absorbing media of a scene, and the materials that hold them.
+#[derive(Default)]
+pub struct Absorbers {
+    /// Those that fill a shape.
+    inside: HashSet<String>,
+    /// Those outside of a shape, with the remark if they fill no shape around it.
+    outside: Vec<(String, Remark)>,
+    /// Materials by the material without the medium, and its absorption.
+    filled: HashMap<(String, [u64; 3]), String>,
+}
+
+impl Absorbers {
+    /// Notes that a medium lies outside of a shape, at `place`.
+    pub fn note_outside(&mut self, medium: &str, place: String, found: String) {
+        let (used, effect) = ("empty space outside of the shape".to_owned(), "it does not absorb".to_owned());
+        self.outside.push((medium.to_owned(), Remark { place, found, used, effect }));
+    }
+
+    /// The remarks about media that lie outside of shapes and fill none.
+    pub fn remarks_of_open(&mut self) -> impl Iterator<Item = Remark> {
+        self.outside.drain(..).filter(|(medium, _)| !self.inside.contains(medium)).map(|(_, remark)| remark)
+    }
+
+    /// The material of a shape that holds a medium: [`fill`].
+    pub fn hold(
+        &mut self,
+        (description, names): (&mut SceneDescription, &mut Names),
+        surface: String,
+        (medium, absorption): (&str, [f64; 3]),
+    ) -> (String, Filling) {
+        self.inside.insert(medium.to_owned());
+        let key = (surface.clone(), absorption.map(f64::to_bits));
+        if let Some(known) = self.filled.get(&key) {
+            return (known.clone(), Filling::Exact);
+        }
+        let Some(before) = description.materials.get(&surface) else { return (surface, Filling::Exact) };
+        let mut material = before.clone();
+        let filling = fill(&mut material, absorption);
+        let mut name = surface;
+        if material != *before {
+            name = names.unique(&name, "material");
+            description.materials.insert(name.clone(), material);
+        }
+        if filling != Filling::Refused {
+            self.filled.insert(key, name.clone());
+        }
+        (name, filling)
+    }
 }
 
 /// Fills the inside of a surface with a medium that absorbs the fraction `absorption` of light per metre, per channel: the `sigma_a` of

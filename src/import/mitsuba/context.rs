@@ -1,12 +1,12 @@
 //! The state of a translation: what it has made so far.
 use std::{
-    collections::{BTreeSet, HashMap, HashSet},
+    collections::{BTreeSet, HashMap},
     path::PathBuf,
 };
 
 use super::{load::FileSearch, packed::Packed, tree::Element};
 use crate::{
-    import::{Names, NewFiles, Remark, Remarks},
+    import::{Names, NewFiles, Remarks, absorbing::Absorbers},
     scene::{SceneError, description::SceneDescription},
 };
 
@@ -79,12 +79,7 @@ pub struct Lists {
 pub struct Media {
     /// Whether the integrator does not render them.
     pub are_unseen: bool,
-    /// Those that fill a shape.
-    pub inside: HashSet<usize>,
-    /// Those outside of a shape, with what to say if they fill no shape around it.
-    pub outside: Vec<(usize, Remark)>,
-    /// Materials by the material without the medium, and its absorption.
-    pub fillings: HashMap<(String, [u64; 3]), String>,
+    pub absorbers: Absorbers,
 }
 
 /// A material in the description.

@@ -1,15 +1,7 @@
 //! Participating media. Those that absorb without scattering can fill glass.
-use super::{
-    colours::Role,
-    context::{Import, Media},
-    tree::Element,
-    unread,
-};
+use super::{colours::Role, context::Import, tree::Element, unread};
 use crate::{
-    import::{
-        Remark,
-        absorbing::{Filling, fill},
-    },
+    import::absorbing::{Filling, INTERFACE},
     scene::SceneError,
 };
 
@@ -25,53 +17,33 @@ pub fn are_seen_by(integrator: &str) -> bool {
 impl Import {
     /// Adds the remarks about media that lie outside of shapes and inside of none.
     pub fn remark_open_media(&mut self) {
-        let Media { inside, outside, .. } = &mut self.media;
-        self.remarks.extend(outside.drain(..).filter(|(index, _)| !inside.contains(index)).map(|(_, remark)| remark));
+        self.remarks.extend(self.media.absorbers.remarks_of_open());
     }
 
     /// The material of a shape, with the medium that the shape holds.
-    pub fn holding(&mut self, shape: Element, surface: String) -> Result<String, SceneError> {
-        let mut inside = [0.0; 3];
+    pub fn holding(&mut self, shape: Element, mut surface: String) -> Result<String, SceneError> {
         for (role, medium) in shape.objects(&["medium"])? {
             let Some(absorption) = self.absorption(medium)? else { continue };
-            if role == "interior" {
-                inside = absorption;
-                self.media.inside.insert(medium.index);
-            } else if absorption != [0.0; 3] {
-                let (found, used) = (medium.shown(), "empty space outside of the shape");
-                let remark =
-                    Remark { place: medium.place(), found, used: used.to_owned(), effect: "it does not absorb".to_owned() };
-                self.media.outside.push((medium.index, remark));
+            let key = medium.index.to_string();
+            if role != "interior" {
+                if absorption != [0.0; 3] {
+                    self.media.absorbers.note_outside(&key, medium.place(), medium.shown());
+                }
+                continue;
             }
-        }
-        if inside == [0.0; 3] {
-            return Ok(surface);
-        }
-        let key = (surface.clone(), inside.map(f64::to_bits));
-        if let Some(known) = self.media.fillings.get(&key) {
-            return Ok(known.clone());
-        }
-        let Some(mut material) = self.description.materials.get(&surface).cloned() else { return Ok(surface) };
-        let before = material.clone();
-        match fill(&mut material, inside) {
-            Filling::Exact => {}
-            Filling::Interface => self.remark(
-                shape,
-                "an interface of index 1 around its medium",
-                "lamps without surface shine through it on paths from the lamps only, as with `bidirectional`",
-            ),
-            Filling::Refused => {
-                let message = format!("a medium within the material `{surface}`, which holds none");
-                return Err(shape.error(message, "use a `dielectric`, or remove the medium"));
+            let scene = (&mut self.description, &mut self.materials);
+            let (filled, filling) = self.media.absorbers.hold(scene, surface, (&key, absorption));
+            match filling {
+                Filling::Exact => {}
+                Filling::Interface => self.remark(shape, "an interface of index 1 around its medium", INTERFACE),
+                Filling::Refused => {
+                    let message = format!("a medium within the material `{filled}`, which holds none");
+                    return Err(shape.error(message, "use a `dielectric`, or remove the medium"));
+                }
             }
+            surface = filled;
         }
-        let mut name = surface.clone();
-        if material != before {
-            name = self.materials.unique(&name, "material");
-            self.description.materials.insert(name.clone(), material);
-        }
-        self.media.fillings.insert(key, name.clone());
-        Ok(name)
+        Ok(surface)
     }
 
     /// Refuses the media of an element that are not empty, such as those around a camera.

@@ -9,8 +9,10 @@ impl Import {
     /// Gives all objects their materials, and remarks on what became of disks.
     pub fn assemble(&mut self) -> Result<(), SceneError> {
         for (index, covering) in std::mem::take(&mut self.coverings).into_iter().enumerate() {
-            let name = self.material(&covering.material, covering.opacity.as_ref(), &covering.place)?;
+            let covered = |import: &mut Import| import.material(&covering.material, covering.opacity.as_ref(), &covering.place);
+            let Some(name) = self.part(covered)? else { continue };
             let is_interface = matches!(self.description.materials[&name].kind, Material::Null(_));
+            let name = self.holding(name, &covering.inside, &covering.place)?;
             let object = &mut self.description.objects[index];
             object.material = Some(name);
             if is_interface && object.emission.take().is_some() {
@@ -18,6 +20,7 @@ impl Import {
                 self.remarks.add(covering.place.to_string(), found, "no light", "pbrt ignores the light too");
             }
         }
+        self.remarks.extend(self.absorbers.remarks_of_open());
         self.remark_disks();
         if !self.moves {
             self.description.camera.shutter = None;

@@ -63,7 +63,8 @@ impl Interpreter {
             match file.tokens.next()? {
                 Some((Token::Word, place)) => {
                     let word = file.tokens.text(&place).to_owned();
-                    self.directive(&word, &place)?;
+                    let missing = self.import.files.folder.missing.clone();
+                    missing.part(|| self.directive(&word, &place))?;
                 }
                 Some((_, place)) => return Err(place.error("a value stands where a directive is expected", "such as Shape")),
                 None => {
@@ -176,10 +177,7 @@ impl Interpreter {
             "AreaLightSource" => self.state.area_light = Some(entity),
             "Material" => self.state.material = self.import.declare_material(entity),
             "MakeNamedMaterial" => self.import.declare_named_material(entity),
-            "MakeNamedMedium" => {
-                self.import.remark(&entity, "nothing", "surfaces in a medium that scatters or absorbs are refused");
-                self.import.media.insert(entity.kind.clone(), entity);
-            }
+            "MakeNamedMedium" => self.import.declare_medium(entity)?,
             _ => {}
         }
         Ok(())

@@ -10,7 +10,7 @@ use super::{
 };
 use crate::{
     declare::Textured,
-    import::{Folder, Imported, Names, NewFiles, Remarks},
+    import::{Folder, Imported, Names, NewFiles, Remarks, absorbing::Absorbers},
     scene::{SceneError, description::SceneDescription},
 };
 
@@ -35,6 +35,7 @@ pub struct Import {
     /// Names of translated materials by number and opacity.
     pub known_materials: HashMap<(usize, String), String>,
     pub media: HashMap<String, Rc<Entity>>,
+    pub absorbers: Absorbers,
     /// Paths and whether there are normals, of meshes that were packed.
     pub packed_meshes: HashMap<String, (String, bool)>,
     /// Colours of spectrum files by what they stand for and by path.
@@ -76,6 +77,7 @@ impl Import {
             named_materials: HashMap::new(),
             known_materials: HashMap::new(),
             media: HashMap::new(),
+            absorbers: Absorbers::default(),
             packed_meshes: HashMap::new(),
             known_spectra: HashMap::new(),
             patches: 0,
@@ -145,11 +147,20 @@ impl Import {
         result
     }
 
+    /// Translates a part that the rest can be translated without, if only to find all missing files: [`Missing::part`].
+    ///
+    /// [`Missing::part`]: crate::import::Missing::part
+    pub fn part<T>(&mut self, translate: impl FnOnce(&mut Import) -> Result<T, SceneError>) -> Result<Option<T>, SceneError> {
+        let missing = self.files.folder.missing.clone();
+        missing.part(|| translate(self))
+    }
+
     /// The file that a text parameter names.
     pub fn file(&self, entity: &Entity, name: &str) -> Result<Option<PathBuf>, SceneError> {
         let Some(named) = entity.text(name).filter(|named| !named.is_empty()) else { return Ok(None) };
-        let found = self.files.folder.resolve(named);
-        found.map(Some).map_err(|message| entity.error(message, "paths are relative to the folder of the scene"))
+        let folder = &self.files.folder;
+        let error = |message| entity.error(message, "paths are relative to the folder of the scene");
+        folder.missing.require(folder.resolve(named), error).map(Some)
     }
 
     /// The same, but it must be given.

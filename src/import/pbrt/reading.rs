@@ -18,7 +18,8 @@ impl Interpreter {
     pub(super) fn include(&mut self, is_import: bool, place: &TextSpan) -> Result<(), SceneError> {
         let named = self.quoted(place)?;
         let label = "paths are relative to the folder of the scene";
-        let path = self.import.files.folder.resolve(&named).map_err(|message| place.error(message, label))?;
+        let folder = &self.import.files.folder;
+        let path = folder.missing.require(folder.resolve(&named), |message| place.error(message, label))?;
         if self.open.iter().any(|file| file.path == path) {
             return Err(place.error(format!("`{named}` includes itself"), "break the circle"));
         }

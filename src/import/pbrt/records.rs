@@ -3,7 +3,7 @@ use std::rc::Rc;
 
 use glam::DAffine3;
 
-use super::source::TextSpan;
+use super::{media::Absorber, source::TextSpan};
 use crate::{
     declare::Textured,
     scene::description::{EmissionDescription, ShapeKind},
@@ -26,6 +26,7 @@ pub enum MaterialRef {
 pub struct Covering {
     pub material: MaterialRef,
     pub opacity: Option<Textured<f64>>,
+    pub inside: Option<Absorber>,
     pub place: TextSpan,
 }
 

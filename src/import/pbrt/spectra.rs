@@ -105,7 +105,8 @@ impl Import {
         let wrong = |message: String| {
             parameter.place.error(message, "expected the name of a spectrum of pbrt, or a file in the folder of the scene")
         };
-        let path = self.files.folder.resolve(name).map_err(|why| wrong(why.message))?;
+        let folder = &self.files.folder;
+        let path = folder.missing.require(folder.resolve(name), wrong)?;
         let key = format!("{role:?} {}", path.display());
         if let Some(known) = self.known_spectra.get(&key) {
             return Ok(*known);

@@ -27,8 +27,8 @@ impl Import {
     pub(super) fn fresnel(&mut self, entity: &Entity, prefix: &str) -> Result<Reflectance, SceneError> {
         let reflectance = ["reflectance".to_owned(), format!("{prefix}reflectance")].into_iter().find(|name| entity.has(name));
         let [eta, k] = [
-            self.part(entity, &format!("{prefix}eta"), "metal-Cu-eta")?,
-            self.part(entity, &format!("{prefix}k"), "metal-Cu-k")?,
+            self.spectrum(entity, &format!("{prefix}eta"), "metal-Cu-eta")?,
+            self.spectrum(entity, &format!("{prefix}k"), "metal-Cu-k")?,
         ];
         let Some(reflectance) = reflectance else { return Ok(Reflectance::Index { eta, k, tint: Textured::grey(1.0) }) };
         match self.colour(entity, &reflectance, [0.5; 3], Role::Reflectance)? {
@@ -45,7 +45,7 @@ impl Import {
     }
 
     /// η or k per channel.
-    fn part(&mut self, entity: &Entity, name: &str, default: &str) -> Result<[f64; 3], SceneError> {
+    fn spectrum(&mut self, entity: &Entity, name: &str, default: &str) -> Result<[f64; 3], SceneError> {
         let copper = named_spectra::metal(default).unwrap_or([1.0; 3]);
         if entity.find(&[Type::Texture], name).is_some() {
             let found = self.colour(entity, name, copper, Role::Unbounded)?;

@@ -110,7 +110,8 @@ impl Import {
         }?;
         let opacity = self.old_opacity(entity, kind_name)?;
         let bump = self.bump(entity)?;
-        let normal_map = self.file(entity, "normalmap")?.map(|path| self.files.folder.described(&path));
+        let normal_map = self.part(|import| import.file(entity, "normalmap"))?.flatten();
+        let normal_map = normal_map.map(|path| self.files.folder.described(&path));
         self.remark_unused(entity);
         Ok(MaterialDescription { kind, bump, normal_map, opacity, ..MaterialDescription::default() })
     }

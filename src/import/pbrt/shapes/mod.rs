@@ -16,7 +16,7 @@ mod ply;
 mod quadrics;
 mod subdivision;
 
-use glam::DAffine3;
+use glam::{DAffine3, DVec3};
 
 use super::{
     directives::Interpreter,
@@ -27,7 +27,10 @@ use super::{
 use crate::{
     declare::Textured,
     scene::{SceneError, description::ShapeKind},
-    shape::mesh::{Mesh, MeshSource},
+    shape::{
+        Sphere,
+        mesh::{Mesh, MeshSource},
+    },
 };
 
 /// A shape of a description, with what is known about it.
@@ -65,15 +68,17 @@ impl Built {
 impl Interpreter {
     /// `Shape`.
     pub fn shape(&mut self, entity: &Entity) -> Result<(), SceneError> {
-        let built = self.import.shape(entity)?;
+        // The scene of a missing mesh is refused, but its materials are read.
+        let missing = || Some(Built::new("", Sphere { center: DVec3::ZERO, radius: 1.0 }, Areas::Unknown));
+        let built = self.import.part(|import| import.shape(entity))?.unwrap_or_else(missing);
         let opacity = self.import.opacity(entity)?;
         entity.ignore(&["splitdepth", "edgelength", "emissionfilename"]);
         let effect = "shadows are those of the surface that is seen";
         self.import.remark_parameter(entity, "shadowalpha", "`alpha`", effect);
         self.import.remark_unused(entity);
-        for medium in &self.state.media {
-            self.import.refuse_medium(medium, &entity.place)?;
-        }
+        let [inside, outside] = self.state.media.clone().map(|name| self.import.absorber(&name, &entity.place));
+        let (inside, outside) = (inside?, outside?);
+        self.import.note_outside(&outside, &entity.place);
         let Some(built) = built else { return Ok(()) };
         let material = self.state.material.clone();
         let light = self.state.area_light.clone();
@@ -99,7 +104,7 @@ impl Interpreter {
             maps: self.state.maps,
             flip: self.state.reverse,
             emission,
-            covering: Covering { material, opacity, place: entity.place.clone() },
+            covering: Covering { material, opacity, inside, place: entity.place.clone() },
         };
         match &mut self.definition {
             Some((_, surfaces)) => surfaces.push(surface),

@@ -111,6 +111,31 @@ fn media_are_refused_where_they_matter() {
     assert!(message.contains("participating medium `fog` is not rendered"), "{message}");
     let clear = "MakeNamedMedium \"air\" \"string type\" \"homogeneous\" \"float scale\" 0\nMediumInterface \"air\" \"air\"\n";
     imported(&format!("WorldBegin\n{clear}Shape \"sphere\""));
+    let dark = "MakeNamedMedium \"ink\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [1 2 3] \"rgb sigma_s\" [0 0 0]\n";
+    let around = error(&format!("{dark}MediumInterface \"\" \"ink\"\nCamera \"perspective\"\nWorldBegin"));
+    assert!(around.contains("`ink` is rendered within surfaces only"), "{around}");
+}
+
+#[test]
+fn all_missing_files_are_named_at_once() {
+    let image = |name: &str, file: &str| format!("Texture \"{name}\" \"spectrum\" \"imagemap\" \"string filename\" \"{file}\"\n");
+    let text = format!(
+        "WorldBegin\nInclude \"1.pbrt\"\n{}{}Material \"coateddiffuse\" \"texture reflectance\" \"t\" \"texture roughness\" \"t\"\n\
+         Shape \"plymesh\" \"string filename\" \"2.ply\"\nLightSource \"infinite\" \"string filename\" \"3.exr\"\n\
+         Material \"diffuse\" \"texture reflectance\" \"u\" \"string normalmap\" \"5.png\"\nShape \"sphere\"\n\
+         Material \"diffuse\" \"spectrum reflectance\" \"6.spd\"\nShape \"sphere\"\nShape \"plymesh\" \"string filename\" \"2.ply\"\n",
+        image("t", "4.png"),
+        image("u", "7.png"),
+    );
+    let message = error(&text);
+    for name in ["1.pbrt", "2.ply", "3.exr", "4.png", "5.png", "6.spd", "7.png"] {
+        assert_eq!(message.matches(&format!("`{name}`: there is no such file")).count(), 1, "{name} is not in {message}");
+    }
+    assert!(!message.contains("there is no texture"), "{message}");
+    // Other errors count again once all files are there.
+    let files = ["1.pbrt", "2.ply", "3.exr", "4.png", "5.png", "6.spd", "7.png"].map(|name| (name, ""));
+    let error = SceneFolder::new(&[&[("a.pbrt", text.as_str())], &files[..]].concat()).read().err().expect("files are empty");
+    assert!(!error.report().contains("no such file"), "{}", error.report());
 }
 
 #[test]

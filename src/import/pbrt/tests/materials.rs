@@ -85,6 +85,36 @@ fn opacities_and_weights_are_cut_at_1() {
     );
 }
 
+/// A medium that absorbs 0.5 and 1 per metre.
+const INK: &str = "MakeNamedMedium \"ink\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [1 2 0] \"rgb sigma_s\" [0 0 0] \"float scale\" .5\n";
+
+#[test]
+fn glass_holds_media_that_absorb() {
+    let found = world(&format!(
+        "{INK}Material \"dielectric\"\nMediumInterface \"ink\" \"\"\nShape \"sphere\"\nShape \"sphere\"\nMediumInterface \"\" \"\"\nShape \"sphere\"\n\
+         Material \"interface\"\nMediumInterface \"ink\" \"\"\nShape \"sphere\"",
+    ));
+    let objects = &found.description.objects;
+    let glass = |object: usize| match &found.description.materials[objects[object].material.as_ref().expect("a material")].kind {
+        Material::Dielectric(glass) => (glass.ior, glass.transmittance),
+        other => panic!("{other:?}"),
+    };
+    let passed = [(-0.5f64).exp(), (-1.0f64).exp(), 1.0];
+    assert_eq!([glass(0), glass(1), glass(2)], [(1.5, passed), (1.5, passed), (1.5, [1.0; 3])]);
+    assert!(objects[0].material == objects[1].material && glass(3) == (1.0, passed));
+    assert!(remarks(&found).len() == 1 && remarks(&found)[0].contains("an interface around a medium"), "{:?}", remarks(&found));
+    let lone = world(&format!("{INK}MediumInterface \"\" \"ink\"\nShape \"sphere\""));
+    assert!(remarks(&lone)[0].contains("empty space outside of the shape"), "{:?}", remarks(&lone));
+    let inside = format!("{INK}Material \"dielectric\"\nMediumInterface \"ink\" \"\"\nShape \"sphere\"\n");
+    let bubble = world(&format!("{inside}MediumInterface \"\" \"ink\"\nShape \"sphere\" \"float radius\" .5"));
+    assert!(remarks(&bubble).is_empty(), "{:?}", remarks(&bubble));
+    let refused = error(
+        "WorldBegin\nMakeNamedMedium \"ink\" \"string type\" \"homogeneous\" \"rgb sigma_s\" [0 0 0]\nMediumInterface \"ink\" \"\"\n\
+         Material \"diffusetransmission\"\nShape \"sphere\"",
+    );
+    assert!(refused.contains("which holds none"), "{refused}");
+}
+
 #[test]
 fn coats_opacity_and_bumps() {
     let found = world(

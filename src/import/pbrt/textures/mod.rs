@@ -49,6 +49,11 @@ impl Import {
 
     /// A colour, or a texture in its place.
     pub fn colour(&mut self, entity: &Entity, name: &str, default: [f64; 3], role: Role) -> Result<Textured, SceneError> {
+        let found = self.part(|import| import.found_colour(entity, name, default, role))?;
+        Ok(found.unwrap_or(Textured::Constant(default)))
+    }
+
+    fn found_colour(&mut self, entity: &Entity, name: &str, default: [f64; 3], role: Role) -> Result<Textured, SceneError> {
         if let Some(parameter) = entity.find(&[Type::Texture], name) {
             return self.texture_of(parameter.text().unwrap_or_default(), Content::Colours(role), parameter);
         }
@@ -62,8 +67,9 @@ impl Import {
     /// A number, or a texture in its place.
     pub fn number_or_texture(&mut self, entity: &Entity, name: &str, default: f64) -> Result<Textured<f64>, SceneError> {
         if let Some(parameter) = entity.find(&[Type::Texture], name) {
-            let found = self.texture_of(parameter.text().unwrap_or_default(), Content::Numbers, parameter)?;
-            return Ok(number(found));
+            let name = parameter.text().unwrap_or_default();
+            let found = self.part(|import| import.texture_of(name, Content::Numbers, parameter))?;
+            return Ok(found.map_or(Textured::Constant(default), number));
         }
         entity.float(name, default).map(Textured::Constant)
     }
