@@ -1,5 +1,11 @@
 //! Buffers: the binary chunk, data URIs, and files beside the scene.
-use std::{borrow::Cow, cell::Cell, collections::HashMap, path::PathBuf, rc::Rc};
+use std::{
+    borrow::Cow,
+    cell::{Cell, OnceCell},
+    collections::HashMap,
+    path::PathBuf,
+    rc::Rc,
+};
 
 use base64::{
     Engine,
@@ -10,6 +16,8 @@ use base64::{
 use super::{
     bytes::{Bytes, Slice},
     document::{Buffer, BufferView, Document, Index, element},
+    extensions::KNOWN,
+    meshopt,
     refusal::{Found, Refusal},
 };
 use crate::{
@@ -31,6 +39,8 @@ const BASE: u64 = 192 << 20;
 /// The bytes of all buffers. A buffer that cannot be read is an error only if something uses it.
 pub struct Buffers {
     data: Vec<Found<Rc<Bytes>>>,
+    /// The views that are compressed by meshopt, once they are used.
+    decompressed: HashMap<Index, OnceCell<(Vec<u8>, Reservation)>>,
     /// Bytes of memory that decoded data may still take.
     allowance: Cell<u64>,
     _room: Reservation,
@@ -53,16 +63,31 @@ impl Buffers {
             );
         }
         let allowance = Cell::new(FACTOR * files.length + BASE);
-        Ok(Buffers { data, allowance, _room: files.room })
+        let is_packed = |(_, view): &(usize, &BufferView)| view.extensions.meshopt().is_some();
+        let packed = document.buffer_views.iter().enumerate().filter(is_packed);
+        let decompressed = packed.map(|(index, _)| (index as Index, OnceCell::new())).collect();
+        Ok(Buffers { data, decompressed, allowance, _room: files.room })
     }
 
     /// The bytes of a view.
     pub fn view(&self, document: &Document, index: Index) -> Found<Slice<'_>> {
         let view = element(&document.buffer_views, index, "buffer view")?;
-        let data = element(&self.data, view.buffer, "buffer")?.as_ref().map_err(Clone::clone)?;
-        let BufferView { byte_offset: start, byte_length: length, .. } = *view;
-        let part = data.all().part(start, length);
-        part.ok_or_else(|| format!("buffer view {index} goes beyond the end of buffer {}", view.buffer).into())
+        let within = |error: Refusal| error.within(&format!("buffer view {index}"));
+        let (Some(described), Some(known)) = (view.extensions.meshopt(), self.decompressed.get(&index)) else {
+            let BufferView { buffer, byte_offset: start, byte_length: length, .. } = *view;
+            return self.part(buffer, start, length).map_err(within);
+        };
+        if let Some((bytes, _)) = known.get() {
+            return Ok(Slice::Memory(Cow::Borrowed(bytes)));
+        }
+        let (bytes, _) = meshopt::decompressed(described, self).map(|made| known.get_or_init(|| made)).map_err(within)?;
+        Ok(Slice::Memory(Cow::Borrowed(bytes)))
+    }
+
+    /// Bytes of a buffer.
+    pub fn part(&self, buffer: Index, start: u64, length: u64) -> Found<Slice<'_>> {
+        let data = element(&self.data, buffer, "buffer")?.as_ref().map_err(Clone::clone)?;
+        data.all().part(start, length).ok_or_else(|| format!("it goes beyond the end of buffer {buffer}").into())
     }
 
     /// Bytes of memory that decoded data may still take.
@@ -81,7 +106,7 @@ impl Buffers {
 }
 
 fn missing(document: &Document) -> Refusal {
-    let compressed = |name: &&String| name.ends_with("_compression");
+    let compressed = |name: &&String| name.ends_with("_compression") && !KNOWN.contains(&name.as_str());
     match document.extensions_used.iter().find(compressed) {
         Some(name) => {
             Refusal::new(format!("its data is compressed by {name}, which is not supported"), "export it without compression")

@@ -4,7 +4,9 @@ use serde::{Deserialize, de::IgnoredAny};
 use super::attributes::{Attributes, Index};
 
 /// The extensions that are understood.
-pub const KNOWN: [&str; 21] = [
+pub const KNOWN: [&str; 24] = [
+    "EXT_mesh_gpu_instancing",
+    "EXT_meshopt_compression",
     "EXT_texture_webp",
     "KHR_draco_mesh_compression",
     "KHR_lights_punctual",
@@ -22,6 +24,7 @@ pub const KNOWN: [&str; 21] = [
     "KHR_materials_variants",
     "KHR_materials_volume",
     "KHR_mesh_quantization",
+    "KHR_meshopt_compression",
     "KHR_texture_transform",
     // They hold no part of the picture.
     "KHR_node_selectability",
@@ -30,11 +33,8 @@ pub const KNOWN: [&str; 21] = [
 ];
 
 /// Why a file that requires an extension is refused, and how to get one that does not.
-pub const REFUSED: [(&str, &str); 3] = [
-    ("EXT_meshopt_compression", "export the file without meshopt compression"),
-    ("KHR_meshopt_compression", "export the file without meshopt compression"),
-    ("KHR_texture_basisu", "export its textures as PNG, JPEG or WebP: KTX2 files are not supported"),
-];
+pub const REFUSED: [(&str, &str); 1] =
+    [("KHR_texture_basisu", "export its textures as PNG, JPEG or WebP: KTX2 files are not supported")];
 
 macro_rules! extensions {
     ($($(#[$doc:meta])* $Name:ident { $($field:ident: $Type:ty = $key:literal),+ $(,)? })+) => {
@@ -53,11 +53,11 @@ extensions! {
     /// Of the document.
     DocumentExtensions { lights: Lights = "KHR_lights_punctual", variants: Variants = "KHR_materials_variants" }
     /// Of nodes.
-    NodeExtensions { light: LightUse = "KHR_lights_punctual" }
+    NodeExtensions { light: LightUse = "KHR_lights_punctual", instancing: Instancing = "EXT_mesh_gpu_instancing" }
     /// Of primitives.
     PrimitiveExtensions { variants: Mappings = "KHR_materials_variants", draco: Draco = "KHR_draco_mesh_compression" }
     /// Of buffer views.
-    ViewExtensions { meshopt: IgnoredAny = "EXT_meshopt_compression", meshopt_khr: IgnoredAny = "KHR_meshopt_compression" }
+    ViewExtensions { meshopt_ext: Meshopt = "EXT_meshopt_compression", meshopt_khr: Meshopt = "KHR_meshopt_compression" }
     /// Of textures.
     TextureExtensions { webp: ImageUse = "EXT_texture_webp", basisu: IgnoredAny = "KHR_texture_basisu" }
     /// Of uses of textures.
@@ -79,6 +79,13 @@ extensions! {
     }
 }
 
+impl ViewExtensions {
+    /// How the view is compressed. Both extensions mean the same.
+    pub fn meshopt(&self) -> Option<&Meshopt> {
+        self.meshopt_ext.as_deref().or(self.meshopt_khr.as_deref())
+    }
+}
+
 impl MaterialExtensions {
     /// The textures of the layers that are read.
     pub fn maps(&self) -> impl Iterator<Item = &TextureInfo> {
@@ -89,6 +96,15 @@ impl MaterialExtensions {
         let transmission = self.transmission.iter().map(|of| &of.transmission_texture);
         coat.chain(film).chain(sheen).chain(specular).chain(transmission).flatten()
     }
+}
+
+/// Accessors of the copies of a mesh.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(default, rename_all = "SCREAMING_SNAKE_CASE")]
+pub struct CopyAttributes {
+    pub translation: Option<Index>,
+    pub rotation: Option<Index>,
+    pub scale: Option<Index>,
 }
 
 /// A use of a texture.
@@ -197,6 +213,16 @@ structures! {
         thickness_factor: f64 = 0.0,
         attenuation_distance: Option<f64> = None,
         attenuation_color: [f64; 3] = [1.0; 3],
+    }
+    Instancing { attributes: CopyAttributes = CopyAttributes::default() }
+    Meshopt {
+        buffer: Index = 0,
+        byte_offset: u64 = 0,
+        byte_length: u64 = 0,
+        byte_stride: u64 = 0,
+        count: u64 = 0,
+        mode: String = String::new(),
+        filter: String = String::new(),
     }
     Draco { buffer_view: Index = 0, attributes: Attributes = Attributes::default() }
 }

@@ -8,6 +8,7 @@ use super::{
     buffers::Buffers,
     document::{Attributes, Document, Index, Mesh, Primitive, Wanted, element},
     images::file_name,
+    instancing,
     materials::Materials,
     nodes::Hierarchy,
     refusal::{Found, Refusal},
@@ -132,9 +133,30 @@ impl<'a> Instances<'a> {
                 is_posed,
                 deformation: Deformation { weights, joints },
             };
-            self.add_mesh(to, &shown, primitives)?;
+            for world in self.places(to, &shown)? {
+                self.add_mesh(to, &shown, primitives, &world)?;
+            }
         }
         Ok(())
+    }
+
+    /// The maps to the world at which a node shows its mesh: one, or one for each copy.
+    fn places(&self, to: &mut Imported, shown: &Shown) -> Found<Vec<DAffine3>> {
+        let extensions = self.document.nodes[shown.node as usize].extensions.as_deref();
+        let described = extensions.and_then(|extensions| extensions.instancing.as_deref());
+        // A skin puts vertices in the world, whatever the transform of the node.
+        if !shown.deformation.joints.is_empty() {
+            if described.is_some() {
+                let place = format!("{}: node \"{}\"", self.file, shown.name);
+                to.remarks.add(place, "copies of a mesh with a skin", "the mesh once", "the copies are missing");
+            }
+            return Ok(vec![DAffine3::IDENTITY]);
+        }
+        let world = self.hierarchy.worlds[shown.node as usize];
+        let Some(described) = described else { return Ok(vec![world]) };
+        let within = |error: Refusal| error.within(&format!("node {} \"{}\"", shown.node, shown.name));
+        let copies = instancing::copies(self.document, self.vertices.buffers, described).map_err(within)?;
+        Ok(copies.into_iter().map(|copy| world * copy).collect())
     }
 
     /// The weights of a mesh, for a node without its own.
@@ -151,11 +173,8 @@ impl<'a> Instances<'a> {
         Ok(self.joints[&skin].clone())
     }
 
-    fn add_mesh(&mut self, to: &mut Imported, shown: &Shown, mesh: &Mesh) -> Found<()> {
-        // A skin puts vertices in the world, whatever the transform of the node.
-        let is_skinned = !shown.deformation.joints.is_empty();
-        let world = if is_skinned { DAffine3::IDENTITY } else { self.hierarchy.worlds[shown.node as usize] };
-        if !is_invertible(&world) {
+    fn add_mesh(&mut self, to: &mut Imported, shown: &Shown, mesh: &Mesh, world: &DAffine3) -> Found<()> {
+        if !is_invertible(world) {
             let place = format!("{}: node \"{}\"", self.file, shown.name);
             to.remarks.add(
                 place,
@@ -167,7 +186,7 @@ impl<'a> Instances<'a> {
         }
         for (place, primitive) in mesh.primitives.iter().enumerate() {
             let within = |error: Refusal| error.within(&format!("mesh {} \"{}\"", shown.mesh, mesh.name));
-            self.add_primitive(to, shown, (place, primitive), &world).map_err(within)?;
+            self.add_primitive(to, shown, (place, primitive), world).map_err(within)?;
         }
         Ok(())
     }

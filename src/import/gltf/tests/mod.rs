@@ -1,6 +1,7 @@
 //! glTF files that are made in the tests.
 mod frames;
 mod hostile;
+mod instancing;
 mod interfaces;
 mod light;
 mod looks;
