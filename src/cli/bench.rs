@@ -81,7 +81,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
         check(output).map_err(|error| error.to_string())?;
     }
     let start = Instant::now();
-    let scene = arguments.options.open(&arguments.scene)?.scene;
+    let scene = arguments.options.open_for(&arguments.scene, arguments.size)?.scene;
     let build = start.elapsed();
     let camera = Camera { resolution: arguments.size.unwrap_or(scene.camera.resolution), ..scene.camera };
     camera.check().map_err(|error| error.to_string())?;

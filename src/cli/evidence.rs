@@ -52,7 +52,7 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let folder = &arguments.output;
     [folder::REPORT, CSV].into_iter().try_for_each(|name| folder::make(folder, name))?;
-    let scene = arguments.options.open(&arguments.scene)?.scene;
+    let scene = arguments.options.open_for(&arguments.scene, arguments.size)?.scene;
     let study_scene = StudyScene::new(&arguments.scene, scene, arguments.size, arguments.reference.as_deref());
     let study_scene = study_scene.map_err(|error| error.to_string())?;
     let _memory = reserve_chapter(&study_scene).map_err(|error| error.to_string())?;

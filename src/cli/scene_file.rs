@@ -49,7 +49,12 @@ impl SceneOptions {
 
     /// Opens a scene file of any format, and prints the remarks about it on standard error.
     pub fn open(&self, path: &Path) -> Result<Opened, Failure> {
-        let options = self.import_options();
+        self.open_for(path, None)
+    }
+
+    /// The same for images of this size.
+    pub fn open_for(&self, path: &Path, size: Option<[u32; 2]>) -> Result<Opened, Failure> {
+        let options = ImportOptions { size, ..self.import_options() };
         if let Some(note) = self.unused(path) {
             tell(&note);
         }

@@ -74,7 +74,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
         return Ok(wrong_usage(&format!("{}: a sheet is a PNG: the name must end in .png", arguments.output.display())));
     }
     check(&arguments.output).map_err(|error| error.to_string())?;
-    let scene = arguments.options.open(&arguments.scene)?.scene;
+    let scene = arguments.options.open_for(&arguments.scene, arguments.size)?.scene;
     let camera = Camera { resolution: arguments.size.unwrap_or(study_size(scene.camera.resolution)), ..scene.camera };
     camera.check().map_err(|error| error.to_string())?;
     let base = RenderSettings { seed: arguments.seed.unwrap_or(scene.settings.seed), ..scene.settings };

@@ -82,7 +82,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     }
     [folder::REPORT, CSV].into_iter().try_for_each(|name| folder::make(&arguments.output, name))?;
     let load = |path: &PathBuf| {
-        let scene = arguments.options.open(path)?.scene;
+        let scene = arguments.options.open_for(path, arguments.size)?.scene;
         let study_scene = StudyScene::new(path, scene, arguments.size, arguments.reference.as_deref());
         study_scene.map_err(|error| error.to_string())
     };

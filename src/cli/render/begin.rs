@@ -39,7 +39,7 @@ impl Arguments {
         if is_kept_file(&path) {
             return Err(format!("{0}: this is a kept render; `render --resume {0}` continues it", path.display()));
         }
-        let Opened { scene, remarks, description } = self.options.open(&path)?;
+        let Opened { scene, remarks, description } = self.options.open_for(&path, self.size)?;
         let camera = Camera { resolution: self.size.unwrap_or(scene.camera.resolution), ..scene.camera };
         let settings = self.settings(scene.settings);
         Ok(Begun { scene: Arc::new(scene), path, description, remarks, camera, settings, resumed: None })

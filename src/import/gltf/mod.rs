@@ -90,7 +90,7 @@ fn translated(container: Container, folder: &Folder, options: &ImportOptions, fi
     instances.add(&mut to)?;
     let (bounds, areas) = (instances.bounds, instances.areas);
     lamps(&document, &hierarchy, &mut to, file)?;
-    if !camera(&document, &hierarchy, &mut to, file)? {
+    if !camera(&document, &hierarchy, options.size, &mut to, file)? {
         studio::frame(&mut to.description, bounds);
         to.remarks.add(file, "no camera", "a camera that shows everything", "the view differs from the original");
     }
@@ -142,7 +142,7 @@ fn lamps(document: &Document, hierarchy: &Hierarchy, to: &mut Imported, file: &s
 }
 
 /// Takes the first camera, and returns whether there is one.
-fn camera(document: &Document, hierarchy: &Hierarchy, to: &mut Imported, file: &str) -> Found<bool> {
+fn camera(document: &Document, hierarchy: &Hierarchy, size: Option<[u32; 2]>, to: &mut Imported, file: &str) -> Found<bool> {
     let mut has_camera = false;
     for index in &hierarchy.shown {
         let node = &document.nodes[*index as usize];
@@ -151,7 +151,7 @@ fn camera(document: &Document, hierarchy: &Hierarchy, to: &mut Imported, file: &
         let name = if node.name.is_empty() { &camera.name } else { &node.name };
         if has_camera {
             to.remarks.add(format!("{file}: camera \"{name}\""), "a further camera", "the first one", "its view is not shown");
-        } else if let Some(description) = cameras::camera(camera, &hierarchy.worlds[*index as usize]) {
+        } else if let Some(description) = cameras::camera(camera, &hierarchy.worlds[*index as usize], size) {
             to.description.camera = description;
             has_camera = true;
         } else {

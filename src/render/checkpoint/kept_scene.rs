@@ -89,7 +89,9 @@ pub fn reopen(kept: &KeptScene, file: &Path, allow_outside: bool, progress: &Pro
         }
         Some(SceneChoices { defines, time, variant, allow_outside }) => {
             let (defines, variant, progress) = (defines.clone(), variant.clone(), progress.clone());
-            import::open(&path, &ImportOptions { defines, time: *time, variant, allow_outside: *allow_outside, progress })
+            // The camera is that of the render.
+            let (time, allow_outside, size) = (*time, *allow_outside, None);
+            import::open(&path, &ImportOptions { defines, time, variant, allow_outside, size, progress })
         }
     }
 }
