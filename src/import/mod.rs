@@ -24,6 +24,7 @@ mod spelling;
 pub mod studio;
 mod tube;
 mod unit;
+mod uv_maps;
 
 use std::path::Path;
 

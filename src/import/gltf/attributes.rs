@@ -1,4 +1,5 @@
 //! Elements of lists, and the lists of numbers of vertices.
+use glam::DAffine2;
 use serde::Deserialize;
 
 use super::refusal::{Found, Refusal};
@@ -38,11 +39,33 @@ pub struct Attributes {
     weights_1: Option<Index>,
 }
 
+/// A map of texture coordinates, by the bits of its numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct UvMap([u64; 6]);
+
+impl Default for UvMap {
+    fn default() -> UvMap {
+        UvMap::of(&DAffine2::IDENTITY)
+    }
+}
+
+impl UvMap {
+    pub fn of(map: &DAffine2) -> UvMap {
+        UvMap(map.to_cols_array().map(f64::to_bits))
+    }
+
+    pub fn map(&self) -> DAffine2 {
+        DAffine2::from_cols_array(&self.0.map(f64::from_bits))
+    }
+}
+
 /// What a material reads of the vertices besides their places, normals and colours.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Wanted {
     /// The set of texture coordinates.
     pub uvs: Option<u32>,
+    /// From these to those of the mesh.
+    pub map: UvMap,
     /// Whether relief or highlights follow tangents.
     pub tangents: bool,
 }

@@ -8,7 +8,7 @@ use super::extensions::{
     DocumentExtensions, MaterialExtensions, NodeExtensions, PrimitiveExtensions, TextureExtensions, ViewExtensions,
 };
 pub use super::{
-    attributes::{Attributes, Index, Wanted, element},
+    attributes::{Attributes, Index, UvMap, Wanted, element},
     extensions::TextureInfo,
 };
 

@@ -1,4 +1,5 @@
 //! Extensions of glTF that are read, as they stand in the JSON.
+use glam::{DAffine2, DVec2};
 use serde::{Deserialize, de::IgnoredAny};
 
 use super::attributes::{Attributes, Index};
@@ -122,6 +123,13 @@ pub struct TextureInfo {
 }
 
 impl TextureInfo {
+    /// From the texture coordinates to those of the image. The rotation is from v towards u, as exporters and viewers do it.
+    pub fn map(&self) -> DAffine2 {
+        let transform = self.extensions.transform.as_deref().cloned().unwrap_or_default();
+        let (scale, offset) = (DVec2::from(transform.scale), DVec2::from(transform.offset));
+        DAffine2::from_scale_angle_translation(scale, 0.0 - transform.rotation, offset)
+    }
+
     /// The set of texture coordinates.
     pub fn set(&self) -> u32 {
         let transform = self.extensions.transform.as_ref();

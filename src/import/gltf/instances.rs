@@ -6,7 +6,7 @@ use glam::{DAffine3, DVec3, Vec3};
 use super::{
     animation::Poses,
     buffers::Buffers,
-    document::{Attributes, Document, Index, Mesh, Primitive, Wanted, element},
+    document::{Attributes, Document, Index, Mesh, Primitive, UvMap, Wanted, element},
     images::file_name,
     instancing,
     materials::Materials,
@@ -61,6 +61,7 @@ struct Key {
     attributes: Attributes,
     indices: Option<Index>,
     mode: Mode,
+    map: UvMap,
     /// Whether it has tangents, of the file or not.
     has_tangents: bool,
     /// Mesh and primitive, and the node if its pose matters; only of deformed primitives.
@@ -207,7 +208,7 @@ impl<'a> Instances<'a> {
         check(to, primitive, &place);
         let material = self.material(primitive);
         let surface = self.materials.surface(primitive, material)?;
-        let wanted = Wanted { uvs: surface.uvs, tangents: self.materials.follows_tangents(material) };
+        let wanted = Wanted { uvs: surface.uvs, map: surface.map, tangents: self.materials.follows_tangents(material) };
         let Some(known) = self.model(to, shown, (at, primitive), &wanted)? else {
             to.remarks.add(place, "a primitive without triangles, or of one point", "nothing", "there is nothing to see");
             return Ok(());
@@ -269,6 +270,7 @@ impl<'a> Instances<'a> {
             attributes: primitive.attributes.visible(wanted),
             indices: primitive.indices,
             mode: Mode::of(primitive.mode)?,
+            map: wanted.map,
             has_tangents: wanted.tangents,
             deformed: is_deformed.then(|| (shown.mesh, at, shown.is_posed.then_some(shown.node))),
         };
@@ -276,6 +278,10 @@ impl<'a> Instances<'a> {
             return Ok(known.clone());
         }
         let model = self.vertices.model(primitive, wanted, deformation)?;
+        if self.vertices.colours_were_cut.take() {
+            let place = format!("{}: mesh \"{}\"", self.file, self.document.meshes[shown.mesh as usize].name);
+            to.remarks.add(place, "COLOR_0 beyond 0 and 1", "the nearest colours in range", "the surface is less bright");
+        }
         let known = model.and_then(|model| self.keep(to, model, &self.document.meshes[shown.mesh as usize].name)).map(Rc::new);
         self.models.insert(key, known.clone());
         Ok(known)

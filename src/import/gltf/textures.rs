@@ -2,13 +2,13 @@
 use std::{collections::HashMap, path::Path};
 
 use super::{
-    document::{Document, TextureInfo, element},
+    document::{Document, TextureInfo, UvMap, element},
     images::Images,
 };
 use crate::{
     declare::Textured,
     image::Encoding,
-    import::{Imported, Names},
+    import::{Imported, Names, uv_maps},
     texture::{
         TextureKind,
         image::{Channel, Image, TexelFilter, Wrap},
@@ -31,6 +31,8 @@ pub struct Textures<'a> {
 pub struct SurfaceInputs {
     /// The set of texture coordinates; `None` if there is none.
     pub uvs: Option<u32>,
+    /// What the mesh has in place of them: those of the normal map, which has no map of its own.
+    pub map: UvMap,
     /// Whether vertices have colours.
     pub colours: bool,
 }
@@ -115,7 +117,7 @@ impl<'a> Textures<'a> {
             let found = format!("a texture at TEXCOORD_{}", info.set());
             to.remarks.add(of.place, found, format!("TEXCOORD_{set}"), "the texture lies elsewhere on the surface");
         }
-        match self.described(to, info) {
+        match self.described(to, info, &of.surface.map) {
             Ok(image) => Some(image),
             Err(reason) => {
                 to.remarks.add(
@@ -153,7 +155,7 @@ impl<'a> Textures<'a> {
     }
 
     /// The image of a texture with its sampler and transform.
-    fn described(&mut self, to: &mut Imported, info: &TextureInfo) -> Result<Image, String> {
+    fn described(&mut self, to: &mut Imported, info: &TextureInfo, of_mesh: &UvMap) -> Result<Image, String> {
         let text = |error: super::refusal::Refusal| error.message;
         let texture = element(&self.document.textures, info.index, "texture").map_err(text)?;
         let webp = texture.extensions.webp.as_ref().map(|image| image.source);
@@ -169,16 +171,21 @@ impl<'a> Textures<'a> {
             None => super::document::Sampler::default(),
         };
         let transform = info.extensions.transform.as_deref().cloned().unwrap_or_default();
+        let placed = if *of_mesh == UvMap::default() {
+            let rotate = 0.0 - transform.rotation.to_degrees();
+            Image { scale: transform.scale, rotate, offset: transform.offset, ..Image::default() }
+        } else if *of_mesh == UvMap::of(&info.map()) {
+            Image::default()
+        } else {
+            let map = info.map() * of_mesh.map().inverse();
+            uv_maps::placed(&map).ok_or("its KHR_texture_transform flattens it")?
+        };
         Ok(Image {
             path: self.images.path(source, &mut to.assets)?,
             wrap_u: wrap(sampler.wrap_s),
             wrap_v: wrap(sampler.wrap_t),
             filter: if sampler.mag_filter == Some(NEAREST) { TexelFilter::Nearest } else { TexelFilter::Bilinear },
-            scale: transform.scale,
-            // From v towards u, as exporters and viewers do it.
-            rotate: 0.0 - transform.rotation.to_degrees(),
-            offset: transform.offset,
-            ..Image::default()
+            ..placed
         })
     }
 

@@ -1,13 +1,13 @@
 //! Vertices of a primitive, at rest or deformed.
-use std::{collections::HashMap, rc::Rc};
+use std::{cell::Cell, collections::HashMap, rc::Rc};
 
-use glam::{DAffine3, DMat3, DVec3, Vec3};
+use glam::{DAffine3, DMat3, DVec3, Vec2, Vec3};
 use rayon::prelude::*;
 
 use super::{
     accessor::{Column, Picks},
     buffers::Buffers,
-    document::{Document, Index, Primitive, Wanted},
+    document::{Document, Index, Primitive, UvMap, Wanted},
     draco,
     refusal::Found,
     tangents,
@@ -30,11 +30,13 @@ pub struct Vertices<'a> {
     pub buffers: &'a Buffers,
     /// Decompressed columns of the primitive, by accessor.
     decompressed: HashMap<Index, Column<'static>>,
+    /// Whether colours of the last primitive were beyond 0 and 1.
+    pub colours_were_cut: Cell<bool>,
 }
 
 impl<'a> Vertices<'a> {
     pub fn new(document: &'a Document, buffers: &'a Buffers) -> Vertices<'a> {
-        Vertices { document, buffers, decompressed: HashMap::new() }
+        Vertices { document, buffers, decompressed: HashMap::new(), colours_were_cut: Cell::new(false) }
     }
 
     /// The triangles of a primitive, with what its material wants; `None` if there are none.
@@ -114,7 +116,7 @@ impl<'a> Vertices<'a> {
         let vertex = 12 + bytes(attributes.normal, 12) + bytes(uvs, 8) + bytes(attributes.color, 16) + bytes(tangents, 16);
         self.buffers.spend(vertex * picks.len() as u64, "vertices")?;
         let normals = attributes.normal.map(|index| self.attribute(index, count, "NORMAL")?.reals(picks));
-        let uvs = uvs.map(|index| self.uvs(index, count, picks));
+        let uvs = uvs.map(|index| self.uvs(index, &wanted.map, count, picks));
         let colours = attributes.color.map(|index| self.colours(index, count, picks));
         let tangents = tangents.map(|index| self.tangents(index, count, picks));
         Ok(Model {
@@ -127,8 +129,12 @@ impl<'a> Vertices<'a> {
         })
     }
 
-    fn uvs(&self, index: Index, count: usize, picks: &Picks) -> Found<Vec<[f32; 2]>> {
-        let uvs: Vec<[f32; 2]> = self.attribute(index, count, "TEXCOORD")?.reals(picks)?;
+    fn uvs(&self, index: Index, map: &UvMap, count: usize, picks: &Picks) -> Found<Vec<[f32; 2]>> {
+        let mut uvs: Vec<[f32; 2]> = self.attribute(index, count, "TEXCOORD")?.reals(picks)?;
+        if *map != UvMap::default() {
+            let map = map.map();
+            uvs.iter_mut().for_each(|uv| *uv = map.transform_point2(Vec2::from(*uv).as_dvec2()).as_vec2().to_array());
+        }
         // v of glTF points down.
         Ok(uvs.into_iter().map(|[u, v]| [finite(u), 1.0 - finite(v)]).collect())
     }
@@ -141,11 +147,14 @@ impl<'a> Vertices<'a> {
 
     fn colours(&self, index: Index, count: usize, picks: &Picks) -> Found<Vec<[f32; 4]>> {
         let column = self.attribute(index, count, "COLOR_0")?;
-        let clean = |colour: [f32; 4]| colour.map(|x| finite(x).clamp(0.0, 1.0));
-        if column.width == 3 {
-            return Ok(column.reals(picks)?.into_iter().map(|[r, g, b]| clean([r, g, b, 1.0])).collect());
-        }
-        Ok(column.reals(picks)?.into_iter().map(clean).collect())
+        let mut colours: Vec<[f32; 4]> = match column.width {
+            3 => column.reals(picks)?.into_iter().map(|[r, g, b]| [r, g, b, 1.0]).collect(),
+            _ => column.reals(picks)?,
+        };
+        let numbers = colours.as_flattened_mut();
+        self.colours_were_cut.set(numbers.iter().any(|x| !(0.0..=1.0).contains(x)));
+        numbers.iter_mut().for_each(|x| *x = finite(*x).clamp(0.0, 1.0));
+        Ok(colours)
     }
 
     /// Adds the displacements of morph targets.

@@ -1,9 +1,10 @@
 //! Images of textures. The coordinates of Mitsuba's images run downwards, as ours do.
-use glam::{DMat4, DVec2};
+use glam::{DAffine2, DMat4, DVec2};
 
 use super::{context::Import, tree::Element};
 use crate::{
     image::Encoding,
+    import::uv_maps,
     scene::SceneError,
     texture::image::{Image, TexelFilter, Wrap},
 };
@@ -41,7 +42,10 @@ impl Import {
         let number = |name: &str, default: f64| element.number(name, default);
         let old = DMat4::from_scale(DVec2::new(number("uscale", 1.0)?, number("vscale", 1.0)?).extend(1.0))
             * DMat4::from_translation(DVec2::new(number("uoffset", 0.0)?, number("voffset", 0.0)?).extend(0.0));
-        decomposed(map * old).ok_or_else(|| element.error("`to_uv` flattens the texture", "check its numbers"))
+        let map = map * old;
+        let column = |i: usize| map.col(i).truncate().truncate();
+        let plane = DAffine2::from_cols(column(0), column(1), column(3));
+        uv_maps::placed(&plane).ok_or_else(|| element.error("`to_uv` flattens the texture", "check its numbers"))
     }
 
     fn wrap(&mut self, element: Element, name: &str, default: Wrap) -> Result<Wrap, SceneError> {
@@ -63,21 +67,4 @@ impl Import {
 /// Whether an image lies elsewhere than over the unit square.
 pub fn is_placed(image: &Image) -> bool {
     image.scale != [1.0; 2] || image.shear != 0.0 || image.rotate != 0.0 || image.offset != [0.0; 2]
-}
-
-/// Scale, shear, rotation and offset of a map of the plane; `None` if it flattens the plane.
-fn decomposed(map: DMat4) -> Option<Image> {
-    let column = |i: usize| map.col(i).truncate().truncate();
-    let (u, v, offset) = (column(0), column(1), column(3));
-    let rotate = u.y.atan2(u.x);
-    let (along, across) = (DVec2::from_angle(rotate), DVec2::from_angle(rotate).perp());
-    let scale = [u.length(), v.dot(across)];
-    if scale[0] == 0.0 || scale[1].abs() <= 1e-12 * v.length() {
-        return None;
-    }
-    let degrees = if u.y == 0.0 && u.x > 0.0 { 0.0 } else { rotate.to_degrees() };
-    // Rotations and scales of the file round.
-    let shear = v.dot(along) / scale[1];
-    let shear = if shear.abs() <= 1e-9 { 0.0 } else { shear };
-    Some(Image { scale, shear, rotate: degrees, offset: offset.to_array(), ..Image::default() })
 }

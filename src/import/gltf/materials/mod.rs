@@ -9,7 +9,7 @@ use std::collections::HashMap;
 pub use self::light::STEP;
 
 use super::{
-    document::{Document, Index, Material, Primitive, TextureInfo, element},
+    document::{Document, Index, Material, Primitive, TextureInfo, UvMap, element},
     extensions::MaterialExtensions,
     refusal::Found,
     textures::{SurfaceInputs, Textures, Use, number},
@@ -17,7 +17,7 @@ use super::{
 use crate::{
     declare::Textured,
     image::Encoding,
-    import::{Imported, Names},
+    import::{Imported, Names, uv_maps},
     scene::description::{EmissionDescription, MaterialDescription},
     texture::image::{Channel, Image, Wrap},
 };
@@ -66,7 +66,12 @@ impl<'a> Materials<'a> {
         let has = |set: &u32| primitive.attributes.uvs(*set).is_some();
         // Without textures, the coordinates give the tangents of anisotropic materials.
         let uvs = wanted.filter(has).or_else(|| (0..4).find(has));
-        Ok(SurfaceInputs { uvs, colours: primitive.attributes.color.is_some() })
+        // Normal maps are looked up at the coordinates of the mesh.
+        let normals = material.and_then(|material| material.normal_texture.as_deref());
+        let map = normals.filter(|normals| uvs == Some(normals.set())).map(TextureInfo::map);
+        let map = map.filter(|map| map.is_finite() && uv_maps::placed(map).is_some());
+        let map = map.map_or_else(UvMap::default, |map| UvMap::of(&map));
+        Ok(SurfaceInputs { uvs, map, colours: primitive.attributes.color.is_some() })
     }
 
     /// Whether relief or highlights of a material follow tangents.
@@ -224,7 +229,7 @@ impl MaterialImport<'_, '_> {
             self.remark(format!("`normalTexture.scale` {scale}"), "1", "bumps are of another depth");
         }
         let plain = Image { path: image.path.clone(), ..Image::default() };
-        if (image.scale, image.rotate, image.offset) != (plain.scale, plain.rotate, plain.offset) {
+        if (image.scale, image.shear, image.rotate, image.offset) != (plain.scale, plain.shear, plain.rotate, plain.offset) {
             self.remark("a transform of `normalTexture`", "none", "bumps lie elsewhere on the surface");
         }
         if (image.wrap_u, image.wrap_v) != (Wrap::Repeat, Wrap::Repeat) {

@@ -1,5 +1,8 @@
 //! Tangents: which frame relief and highlights follow.
+use glam::DVec2;
+
 use super::*;
+use crate::texture::TextureKind;
 
 const NORMALS: [f32; 9] = [0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0];
 const TANGENTS: [f32; 12] = [1.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0, 1.0, 0.5, 0.0, 0.0, 1.0];
@@ -84,4 +87,31 @@ fn without_tangents_they_come_from_the_coordinates() {
     let bytes: Vec<u8> = [1f32, 1.0, 0.0, 1.0, 1.0, 0.0].iter().flat_map(|x| x.to_le_bytes()).collect();
     mirrored["buffers"][2]["uri"] = json!(uri(&bytes));
     assert_eq!(model(&imported(&mirrored), 0).tangents, Some(vec![[-1.0, 0.0, 0.0, -1.0]; 3]));
+}
+
+#[test]
+fn a_normal_map_with_its_own_transform_lies_at_the_coordinates_of_the_mesh() {
+    let texture = |offset: [f64; 2], rotation: f64, scale: [f64; 2]| json!({ "index": 0, "extensions": { "KHR_texture_transform": { "offset": offset, "rotation": rotation, "scale": scale } } });
+    let described = |colour: &Value, normals: &Value| {
+        let mut json = brushed(&all(), json!({ "textures": [{ "source": 0 }], "images": [{ "uri": uri(&looks::png([9; 4])) }] }));
+        json["materials"] = json!([{ "pbrMetallicRoughness": { "baseColorTexture": colour }, "normalTexture": normals }]);
+        imported(&json)
+    };
+    let colour = texture([0.25, 0.5], 0.0, [2.0, 4.0]);
+    let found = described(&colour, &texture([0.0, 0.125], std::f64::consts::FRAC_PI_2, [2.0, 8.0]));
+    // A quarter turn from v towards u: (8 v, ⅛ − 2 u), and v of ours points up.
+    let uvs = model(&found, 0).uvs.expect("it has coordinates");
+    let expected = [[8.0, 0.875], [8.0, 2.875], [0.0, 0.875]];
+    assert!(uvs.iter().zip(expected).all(|(a, b)| (0..2).all(|i| (a[i] - b[i]).abs() < 1e-6)), "{uvs:?}");
+    let TextureKind::Image(image) = looks::texture(&found, &looks::principled(&found).base_color) else { panic!("an image") };
+    // The first vertex.
+    let at = DVec2::new(8.0, 0.125);
+    let turned = DVec2::from_angle(image.rotate.to_radians());
+    let there = turned.rotate(at * DVec2::from(image.scale)) + DVec2::from(image.offset);
+    assert!(image.shear == 0.0 && there.abs_diff_eq(DVec2::new(0.25, 0.5 + 4.0), 1e-9), "{image:?}");
+    let lines = found.remarks.lines(9).join("\n");
+    assert!(!lines.contains("normalTexture"), "{lines}");
+    let same = described(&colour, &colour);
+    let TextureKind::Image(image) = looks::texture(&same, &looks::principled(&same).base_color) else { panic!("an image") };
+    assert_eq!((image.scale, image.rotate, image.offset), ([1.0; 2], 0.0, [0.0; 2]));
 }

@@ -212,3 +212,13 @@ fn triangles_compressed_by_draco_are_those_that_were_compressed() {
     assert_eq!(corners, [[0.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]]);
     assert!(refusal(&file(&stream.data()[..stream.data().len() / 2])).contains("Draco"));
 }
+
+#[test]
+fn colours_beyond_their_range_are_cut_with_a_remark() {
+    let mut json =
+        document(&[("VEC3", &CORNERS), ("VEC4", &[2.0, 0.5, -1.0, 3.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0])], json!({}));
+    json["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = json!(1);
+    let found = imported(&json);
+    assert_eq!(model(&found, 0).colours.expect("it has colours")[0], [1.0, 0.5, 0.0, 1.0]);
+    assert!(found.remarks.lines(9).join("\n").contains("COLOR_0 beyond 0 and 1"), "{:?}", found.remarks.lines(9));
+}
