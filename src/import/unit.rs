@@ -1,12 +1,14 @@
-//! Parts of a whole, such as opacities and weights, from files whose textures exceed 1.
+//! Parts of a whole, such as opacities, weights and reflectances, from files whose textures exceed 1.
 use std::path::Path;
 
 use crate::{
     declare::{Assets, Resources, Textured},
-    image::{Encoding, read_light_of},
+    image::{Encoding, Texels, read_light_of},
+    import::{Names, pictures::exr},
     scene::description::{SceneDescription, TextureKind},
     texture::{
-        image::Image,
+        image::{Channel, Image},
+        mix::Mix,
         product::Product,
         ramp::{Ramp, Stop},
     },
@@ -27,6 +29,82 @@ pub fn cut(name: String, most: f64) -> (Product, impl FnOnce(String) -> Ramp) {
     let stop = |at: f64, grey: f64| Stop { at, color: [grey; 3] };
     let stops = vec![stop(0.0, 0.0), stop(1.0 / most, 1.0), stop(1.0, 1.0)];
     (scaled, |input| Ramp { input: Textured::Texture(input), stops })
+}
+
+/// Limits textures, under new names.
+pub struct Limiter<'a> {
+    pub description: &'a mut SceneDescription,
+    pub assets: &'a mut Assets,
+    /// The folder of the scene.
+    pub root: &'a Path,
+    /// Those of the textures.
+    pub names: &'a mut Names,
+}
+
+impl Limiter<'_> {
+    /// A texture of at most `most`, in place of one that may exceed it. Images are cut texel by texel.
+    pub fn texture(&mut self, name: &str, most: f64) -> String {
+        self.limited(name, most, DEEPEST)
+    }
+
+    fn limited(&mut self, name: &str, most: f64, depth: usize) -> String {
+        let Some((depth, kind)) = depth.checked_sub(1).zip(self.description.textures.get(name).cloned()) else {
+            return name.to_owned();
+        };
+        let mut limit = |value: &Textured, most: f64| match value {
+            Textured::Constant(colour) => Textured::Constant(colour.map(|x| x.min(most))),
+            Textured::Texture(name) => Textured::Texture(self.limited(name, most, depth)),
+        };
+        let limited: TextureKind = match &kind {
+            TextureKind::Image(image) => {
+                let Some(bytes) = cut_image(self.assets, self.root, image, most) else { return name.to_owned() };
+                let name = self.names.unique(&format!("{name} cut"), "texture");
+                let path = format!("textures/{name}.exr");
+                self.assets.insert(path.clone(), bytes);
+                let cut = Image { path, encoding: Encoding::Linear, ..image.clone() };
+                self.description.textures.insert(name.clone(), cut.into());
+                return name;
+            }
+            TextureKind::Mix(mix) => Mix { a: limit(&mix.a, most), b: limit(&mix.b, most), weight: mix.weight.clone() }.into(),
+            TextureKind::Product(product) => match (&product.a, &product.b) {
+                (Textured::Constant(factor), b) | (b, Textured::Constant(factor)) => {
+                    let greatest = factor.iter().copied().fold(1e-12, f64::max);
+                    Product { a: Textured::Constant(*factor), b: limit(b, most / greatest) }.into()
+                }
+                (a, b) => Product { a: limit(a, most.min(1.0)), b: limit(b, most) }.into(),
+            },
+            _ => return name.to_owned(),
+        };
+        if limited == kind {
+            return name.to_owned();
+        }
+        let name = self.names.unique(&format!("{name} cut"), "texture");
+        self.description.textures.insert(name.clone(), limited);
+        name
+    }
+}
+
+/// Whether the format of an image can have values above 1.
+fn is_of_light(image: &Image) -> bool {
+    let ends_in = |end: &&str| image.path.to_ascii_lowercase().ends_with(*end);
+    [".exr", ".hdr", ".pic", ".pfm"].iter().any(ends_in)
+}
+
+fn texels(assets: &Assets, root: &Path, image: &Image) -> Option<Texels> {
+    let file = Resources::new(root).with_assets(assets.clone()).file(&image.path);
+    read_light_of(&file, image.encoding).ok()
+}
+
+fn greatest(texels: &Texels) -> f64 {
+    texels.radiance.iter().flat_map(|pixel| &pixel[..3]).fold(0.0, |most, x| f64::max(most, (*x).into()))
+}
+
+/// The image cut at `most`, encoded, if it has greater values.
+fn cut_image(assets: &Assets, root: &Path, image: &Image, most: f64) -> Option<Vec<u8>> {
+    let may_exceed = image.channel != Channel::Alpha && (most < 1.0 || is_of_light(image));
+    let texels = may_exceed.then(|| texels(assets, root, image)).flatten().filter(|texels| greatest(texels) > most)?;
+    let pixels: Vec<[f32; 3]> = texels.radiance.iter().map(|pixel| [0, 1, 2].map(|i| pixel[i].min(most as f32))).collect();
+    exr(texels.width, texels.height, &pixels)
 }
 
 struct Search<'a> {
@@ -54,16 +132,8 @@ impl Search<'_> {
         }
     }
 
-    /// Only some formats have values above 1. What cannot be read has an error of its own.
     fn of_image(&self, image: &Image) -> f64 {
-        let ends_in = |end: &&str| image.path.to_ascii_lowercase().ends_with(*end);
-        if ![".exr", ".hdr", ".pic", ".pfm"].iter().any(ends_in) {
-            return 1.0;
-        }
-        let file = Resources::new(self.root).with_assets(self.assets.clone()).file(&image.path);
-        let read = read_light_of(&file, Encoding::Linear);
-        read.map_or(1.0, |texels| {
-            texels.radiance.iter().flat_map(|pixel| &pixel[..3]).fold(0.0, |most, x| f64::max(most, (*x).into()))
-        })
+        // What cannot be read has an error of its own.
+        is_of_light(image).then(|| texels(self.assets, self.root, image)).flatten().map_or(1.0, |texels| greatest(&texels))
     }
 }

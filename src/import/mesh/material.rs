@@ -121,7 +121,8 @@ impl MtlImport<'_> {
             self.remark(&format!("`{key}` above 1"), "1", "the surface is darker, and creates no light");
             colour = colour.map(|x| x.min(1.0));
         }
-        self.textures.colour(self.to, self.place, colour, map)
+        let textured = self.textures.colour(self.to, self.place, colour, map);
+        self.textures.reflectance(self.to, self.place, textured)
     }
 
     fn diffuse(&mut self) -> Textured {

@@ -8,7 +8,10 @@ use super::{library::locate, map::Map};
 use crate::{
     declare::Textured,
     image::{EXTENSIONS, Encoding, read_light},
-    import::{Folder, Imported, Names, unit},
+    import::{
+        Folder, Imported, Names,
+        unit::{self, Limiter},
+    },
     quote,
     texture::{
         TextureKind,
@@ -22,11 +25,13 @@ pub struct Textures {
     folder: Folder,
     names: Names,
     known: HashMap<String, String>,
+    /// Reflectances, by the textures that may exceed 1.
+    limited: HashMap<String, String>,
 }
 
 impl Textures {
     pub fn new(folder: Folder) -> Textures {
-        Textures { folder, names: Names::default(), known: HashMap::new() }
+        Textures { folder, names: Names::default(), known: HashMap::new(), limited: HashMap::new() }
     }
 
     /// A colour times a texture.
@@ -61,6 +66,22 @@ impl Textures {
         let (scaled, ramp) = unit::cut(name.clone(), most);
         let scaled = self.add(to, scaled.into(), &format!("{name} scaled"));
         Textured::Texture(self.add(to, ramp(scaled).into(), &format!("{name} cut")))
+    }
+
+    /// A reflectance, cut at 1 in each channel.
+    pub fn reflectance(&mut self, to: &mut Imported, place: &str, value: Textured) -> Textured {
+        let Textured::Texture(name) = value else { return value };
+        let (description, assets, root) = (&mut to.description, &mut to.assets, self.folder.root());
+        let limited = self.limited.entry(name.clone()).or_insert_with(|| {
+            let most = unit::largest(description, assets, root, &name);
+            let names = &mut self.names;
+            if most > 1.0 { Limiter { description, assets, root, names }.texture(&name, 1.0) } else { name.clone() }
+        });
+        if *limited != name {
+            let effect = "the surface is darker, and creates no light";
+            to.remarks.add(place, format!("values of `{}` above 1", quote::piece(&name)), "1", effect);
+        }
+        Textured::Texture(limited.clone())
     }
 
     /// The name of a texture, for bump maps.

@@ -3,7 +3,13 @@ use super::{context::Import, picture, tree::Element};
 use crate::{
     image::Encoding,
     scene::description::{TextureKind, Textured},
-    texture::{checker::Checker, image::Image, mix::Mix, product::Product},
+    texture::{
+        checker::Checker,
+        image::{Image, Wrap},
+        mix::Mix,
+        product::Product,
+        ramp::{Ramp, Stop},
+    },
 };
 
 impl Import {
@@ -21,6 +27,32 @@ impl Import {
         };
         self.known_limited.insert(name, limited.clone());
         limited
+    }
+
+    /// The same for a number, which Mitsuba cuts between texels, too.
+    pub fn number_within_unit(&mut self, value: Element, name: String) -> String {
+        let key = format!("number {name}");
+        if let Some(known) = self.known_limited.get(&key) {
+            return known.clone();
+        }
+        let Some(TextureKind::Image(image)) = self.description.textures.get(&name).cloned() else {
+            return self.within_unit(value, name);
+        };
+        // Beyond its edges, a black image has 0, which would be the least value.
+        let has_edge = [image.wrap_u, image.wrap_v].contains(&Wrap::Black);
+        let Some((bytes, ends)) = picture::spread(self, &image).filter(|_| !has_edge) else {
+            return self.within_unit(value, name);
+        };
+        self.remark(value, "its values within 0 and 1", "it is less bright, or not negative");
+        let [least, most] = ends.map(f64::from);
+        let path = self.new_files.add_image(&name, "exr", bytes);
+        let input = self.add_texture(&name, Image { path, encoding: Encoding::Linear, ..image });
+        let stop = |x: f64| Stop { at: (x - least) / (most - least), color: [x.clamp(0.0, 1.0); 3] };
+        let mut stops = [least, 0.0, 1.0, most].map(stop).to_vec();
+        stops.dedup_by(|a, b| a.at == b.at);
+        let cut = self.add_texture(&name, Ramp { input: Textured::Texture(input), stops });
+        self.known_limited.insert(key, cut.clone());
+        cut
     }
 
     /// A texture within 0 and 1; `None` if it is there already.

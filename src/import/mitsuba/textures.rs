@@ -66,7 +66,7 @@ impl Import {
                 Textured::Constant(x.clamp(0.0, 1.0))
             }
             Textured::Texture(name) => Textured::Texture(match element.property(of)? {
-                Some(value) => self.within_unit(value, name),
+                Some(value) => self.number_within_unit(value, name),
                 None => name,
             }),
             number => number,

@@ -179,3 +179,15 @@ fn statements_are_read_in_any_notation() {
     assert!(near(material.colour("Ks").expect("a colour"), [1.0; 3]), "{:?}", material.colour("Ks"));
     assert!((material.number("Ns").expect("a number") - 3.1).abs() < 1e-6 && material.map("bump").is_some());
 }
+
+#[test]
+fn reflectances_above_1_are_cut_in_their_image() {
+    let pfm = [b"PF\n1 1\n-1\n".to_vec(), [3.0f32, 0.5, 2.0].map(f32::to_le_bytes).concat()].concat();
+    let scene = with("map_Kd -mm 0 0.5 a.pfm\nmap_Ke a.pfm\n", &[("a.pfm", &pfm)]);
+    let images = scene.description.textures.values().filter_map(|texture| match texture {
+        TextureKind::Image(image) => Some(image.path.as_str()),
+        _ => None,
+    });
+    assert!(images.eq(["a.pfm", "textures/a cut.exr"]), "{:?}", scene.description.textures);
+    assert!(scene.remarks.lines(9).join("\n").contains("above 1 → 1"), "{:?}", scene.remarks.lines(9));
+}

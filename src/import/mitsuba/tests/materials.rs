@@ -260,3 +260,21 @@ fn spectra_become_colors() {
     ));
     assert_eq!(remarks(&imported).len(), 1);
 }
+
+#[test]
+fn weights_are_cut_between_texels_too() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let pixels = crate::import::pictures::exr(2, 1, &[[1.5; 3], [-0.5; 3]]).expect("it is encoded");
+    std::fs::write(folder.path().join("w.exr"), pixels).expect("it is written");
+    let text = "<scene version=\"3.0.0\"><shape type=\"rectangle\"><bsdf type=\"mask\"><texture name=\"opacity\" type=\"bitmap\">\
+        <string name=\"filename\" value=\"w.exr\"/></texture><bsdf type=\"diffuse\"/></bsdf></shape></scene>";
+    let path = folder.path().join("scene.xml");
+    std::fs::write(&path, text).expect("it is written");
+    let imported = crate::import::read(&path, &ImportOptions::default()).expect("it is valid");
+    let ramps = imported.description.textures.values().filter_map(|texture| match texture {
+        TextureKind::Ramp(ramp) => Some(ramp),
+        _ => None,
+    });
+    let stops: Vec<_> = ramps.flat_map(|ramp| &ramp.stops).map(|stop| (stop.at, stop.color[0])).collect();
+    assert_eq!(stops, [(0.0, 0.0), (0.25, 0.0), (0.75, 1.0), (1.0, 1.0)]);
+}

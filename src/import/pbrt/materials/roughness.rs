@@ -78,21 +78,21 @@ impl Import {
                 if other != Textured::Texture(texture.clone()) {
                     self.remark(entity, "the roughness along u in all directions", "highlights are round");
                 }
-                self.textured_facets(texture, remap)
+                self.textured_facets(entity, texture, remap)
             }
             (_, Textured::Texture(texture)) => {
                 self.remark(entity, "the roughness along v in all directions", "highlights are round");
-                self.textured_facets(texture, remap)
+                self.textured_facets(entity, texture, remap)
             }
         }
     }
 
-    fn textured_facets(&mut self, texture: String, remap: Remap) -> Result<Facets, SceneError> {
-        let alpha = match remap {
-            Remap::None => texture,
-            remap => self.remapped(&texture, remap),
+    fn textured_facets(&mut self, entity: &Entity, texture: String, remap: Remap) -> Result<Facets, SceneError> {
+        let alpha = match (self.part_of_whole(entity, Textured::Texture(texture)), remap) {
+            (Textured::Texture(texture), Remap::Root | Remap::Old) => Textured::Texture(self.remapped(&texture, remap)),
+            (alpha, _) => alpha,
         };
-        Ok(Facets { roughness: Roughness::Alpha(Textured::Texture(alpha)), anisotropy: 0.0, tangent_rotation: 0.0 })
+        Ok(Facets { roughness: Roughness::Alpha(alpha), anisotropy: 0.0, tangent_rotation: 0.0 })
     }
 
     /// A texture whose values are α for those of another.

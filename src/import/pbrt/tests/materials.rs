@@ -158,3 +158,21 @@ fn substitutes_and_unknown_things_say_so() {
     assert!(error("WorldBegin\nNamedMaterial \"x\"\nShape \"sphere\"").contains("`x` is not a material"));
     assert!(error("WorldBegin\nMaterial \"diffuse\" \"texture reflectance\" \"t\"\nShape \"disk\"").contains("no texture `t`"));
 }
+
+#[test]
+fn textures_above_1_are_cut_as_in_pbrt() {
+    // An image of one texel, 3.
+    let pfm = ("t.pfm", "Pf\n1 1\n-1\n\0\0@@");
+    let scene = "WorldBegin\nTexture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"t.pfm\"\n\
+        Texture \"half\" \"spectrum\" \"scale\" \"texture tex\" \"t\" \"float scale\" .5\n\
+        Texture \"f\" \"float\" \"imagemap\" \"string filename\" \"t.pfm\"\n\
+        Material \"coateddiffuse\" \"texture reflectance\" \"half\" \"texture roughness\" \"f\"\nShape \"sphere\"";
+    let found = super::SceneFolder::new(&[("a.pbrt", scene), pfm]).read().expect("it is read");
+    let textures = &found.description.textures;
+    let TextureKind::Product(half) = &textures["half"] else { panic!("a product") };
+    // Each channel is cut before the product.
+    assert_eq!((&half.a, &half.b), (&Textured::Texture("t cut".to_owned()), &Textured::grey(0.5)));
+    assert!(matches!(&textures["t cut"], TextureKind::Image(image) if image.path == "textures/t cut.exr"));
+    assert!(matches!(&textures["f cut"], TextureKind::Ramp(ramp) if ramp.stops[1].at == 1.0 / 3.0), "{textures:?}");
+    assert_eq!(remarks(&found).iter().filter(|line| line.contains("above 1")).count(), 2, "{:?}", remarks(&found));
+}

@@ -19,7 +19,7 @@ use super::{
 };
 use crate::{
     declare::Textured,
-    import::unit,
+    import::unit::{self, Limiter},
     scene::{SceneError, description::TextureKind},
     texture::{mix::Mix, product::Product},
 };
@@ -30,6 +30,9 @@ pub enum Content {
     Numbers,
     Colours(Role),
 }
+
+/// What is used of a texture with values above 1.
+const CUT: &str = "values up to 1";
 
 impl Import {
     /// `Texture`.
@@ -50,7 +53,8 @@ impl Import {
     /// A colour, or a texture in its place.
     pub fn colour(&mut self, entity: &Entity, name: &str, default: [f64; 3], role: Role) -> Result<Textured, SceneError> {
         let found = self.part(|import| import.found_colour(entity, name, default, role))?;
-        Ok(found.unwrap_or(Textured::Constant(default)))
+        let found = found.unwrap_or(Textured::Constant(default));
+        Ok(if role == Role::Reflectance { self.cut_reflectance(entity, found) } else { found })
     }
 
     fn found_colour(&mut self, entity: &Entity, name: &str, default: [f64; 3], role: Role) -> Result<Textured, SceneError> {
@@ -85,12 +89,32 @@ impl Import {
         if let Some(known) = self.known_textures.get(&key) {
             return number(known.clone());
         }
-        self.remark(entity, "values up to 1", "its texture has values above 1, which are cut");
+        self.remark(entity, CUT, "its texture has values above 1, which are cut");
         let (scaled, ramp) = unit::cut(name.clone(), most);
         let scaled = self.add_texture(&format!("{name} scaled"), scaled);
         let cut = Textured::Texture(self.add_texture(&key, ramp(scaled)));
         self.known_textures.insert(key, cut.clone());
         number(cut)
+    }
+
+    /// A reflectance: a colour, or a texture that is cut at 1 in each channel, as in pbrt.
+    fn cut_reflectance(&mut self, entity: &Entity, value: Textured) -> Textured {
+        let Textured::Texture(name) = value else { return value };
+        let key = format!("reflectance {name}");
+        if let Some(known) = self.known_textures.get(&key) {
+            return known.clone();
+        }
+        let root = self.files.folder.root();
+        let mut limited = name.clone();
+        if unit::largest(&self.description, &self.new_files.assets, root, &name) > 1.0 {
+            let (description, assets, names) = (&mut self.description, &mut self.new_files.assets, &mut self.texture_names);
+            limited = Limiter { description, assets, root, names }.texture(&name, 1.0);
+        }
+        if limited != name {
+            self.remark(entity, CUT, "its texture has values above 1, which are cut");
+        }
+        self.known_textures.insert(key, Textured::Texture(limited.clone()));
+        Textured::Texture(limited)
     }
 
     /// The values of a texture: colours, numbers, or what is given for either.
