@@ -35,6 +35,51 @@ pub fn draco(name: &'static str, method: i32) -> Base {
     Base { focus: 1, ..Base::new(name, Reader::Foreign, files) }
 }
 
+/// A glTF with copies of a mesh whose vertices and triangles meshopt compressed.
+pub fn meshopt() -> Base {
+    // Three vertices of 12 bytes, of which two bytes differ from those of the vertex before.
+    let mut vertices = vec![0xa0];
+    for byte in 0..12 {
+        match byte {
+            2 | 3 => vertices.extend([1, 0b0011_1100, 0, 0, 0, 0x7e, 0x7d]),
+            6 | 7 => vertices.extend([2, 0xf0, 0, 0, 0, 0, 0, 0, 0, 0x7e]),
+            _ => vertices.push(0),
+        }
+    }
+    vertices.extend([0; 32]);
+    // The other version: bytes as they are, and none, for turns.
+    let turns =
+        [&[0xa1, 0b1011_1011, 0b1010_1011, 0, 1, 2, 3, 4, 5, 6, 7, 8][..], &[0; 14], &[0, 0, 0, 0, 0, 0, 255, 7, 0, 1]].concat();
+    // A triangle of new vertices, and one on its edge.
+    let triangles = [&[0xe1, 0xf0, 0x01][..], &[0; 16]].concat();
+    let streams = [
+        (&vertices, 12, 3, "ATTRIBUTES", "NONE"),
+        (&turns, 8, 3, "ATTRIBUTES", "QUATERNION"),
+        (&triangles, 4, 6, "TRIANGLES", "NONE"),
+    ];
+    let (mut views, mut at) = (Vec::new(), 0);
+    for (stream, stride, count, mode, filter) in streams {
+        views.push(format!(
+            r#"{{"buffer":1,"byteLength":{size},"extensions":{{"EXT_meshopt_compression":{{"buffer":0,"byteOffset":{at},
+"byteLength":{length},"byteStride":{stride},"count":{count},"mode":"{mode}","filter":"{filter}"}}}}}}"#,
+            size = stride * count,
+            length = stream.len()
+        ));
+        at += stream.len();
+    }
+    let gltf = format!(
+        r#"{{"asset":{{"version":"2.0"}},"scenes":[{{"nodes":[0]}}],"nodes":[{{"mesh":0,"extensions":{{"EXT_mesh_gpu_instancing":
+{{"attributes":{{"TRANSLATION":0,"ROTATION":1}}}}}}}}],"meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}},"indices":2}}]}}],
+"accessors":[{{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}},{{"bufferView":1,"componentType":5122,"normalized":true,
+"count":3,"type":"VEC4"}},{{"bufferView":2,"componentType":5125,"count":6,"type":"SCALAR"}}],"bufferViews":[{views}],
+"buffers":[{{"uri":"a.bin","byteLength":{at}}},{{"byteLength":84}}],"extensionsUsed":["EXT_meshopt_compression"]}}"#,
+        views = views.join(",")
+    );
+    let bytes = streams.map(|(stream, ..)| stream.as_slice()).concat();
+    let files = vec![("scene.gltf", Structure::Json, gltf.into_bytes()), ("a.bin", Structure::Bytes, bytes)];
+    Base { focus: 1, ..Base::new("meshopt", Reader::Foreign, files) }
+}
+
 fn stream(method: i32) -> Vec<u8> {
     let attribute = |kind, width: u8, number: fn(u32, u32) -> f32| {
         let mut attribute = PointAttribute::new();

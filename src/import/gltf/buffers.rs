@@ -152,10 +152,13 @@ impl BufferFiles<'_> {
     }
 }
 
-/// The file that a URI names. Names with `%20` are also tried as they stand, and those with `\` as on Windows.
+/// The file that a URI names. Names with `%20` are also tried as they stand, those with `\` as on Windows, and those with `?` or `#`
+/// without what follows it.
 pub fn resolve(folder: &Folder, uri: &str) -> Result<PathBuf, Unresolved> {
-    let decoded = String::from_utf8(percent_decoded(uri)).unwrap_or_else(|_| uri.to_owned());
-    let others = [uri.to_owned(), decoded.replace('\\', "/")];
+    let decoded = |uri: &str| String::from_utf8(percent_decoded(uri)).unwrap_or_else(|_| uri.to_owned());
+    let path = uri.split(['?', '#']).next().map(decoded).filter(|path| !path.is_empty());
+    let decoded = decoded(uri);
+    let others = [uri.to_owned(), decoded.replace('\\', "/"), path.unwrap_or_else(|| decoded.clone())];
     let other = || others.iter().filter(|other| **other != decoded).find_map(|other| folder.resolve(other).ok());
     folder.resolve(&decoded).or_else(|error| other().ok_or(error))
 }

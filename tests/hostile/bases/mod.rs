@@ -88,6 +88,7 @@ fn foreign() -> Vec<Base> {
         base("glb", vec![chunks, png_file()]),
         packed::draco("draco-sequential", 0),
         packed::draco("draco-edgebreaker", 1),
+        packed::meshopt(),
         packed::serialized(),
         base("pbrt-old", vec![text("scene.pbrt", OLD_PBRT), png_file()]),
         base("ply-wedges", vec![text("scene.ply", WEDGES), png_file()]),

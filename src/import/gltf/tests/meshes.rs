@@ -45,10 +45,12 @@ fn data_uris_and_paths_of_other_writers_are_read() {
     fs::create_dir(folder.path().join("sub"))
         .and_then(|()| fs::write(folder.path().join("sub/a b.bin"), &bytes))
         .expect("it is written");
-    let json = triangle(json!({ "buffers": [{ "byteLength": 36, "uri": "sub\\a%20b.bin" }] }));
     let path = folder.path().join("scene.gltf");
-    fs::write(&path, json.to_string()).expect("it is written");
-    assert!(import::read(&path, &ImportOptions::default()).is_ok());
+    for uri in ["sub\\a%20b.bin", "sub/a%20b.bin?v=1", "sub/a b.bin#x"] {
+        let json = triangle(json!({ "buffers": [{ "byteLength": 36, "uri": uri }] }));
+        fs::write(&path, json.to_string()).expect("it is written");
+        assert!(import::read(&path, &ImportOptions::default()).is_ok(), "{uri}");
+    }
 }
 
 #[test]
