@@ -176,7 +176,11 @@ impl<'a> TextureCompiler<'a> {
         let most = self.textures.maximum(id).into_iter().fold(0.0, f32::max);
         if f64::from(most) > range.most {
             let message = format!("`{key}` is out of range: texture `{name}` reaches {most}");
-            return Err(Problem::at(&format!("{key}.texture"), message, range.expected));
+            let label = match range.expected {
+                "" => format!("expected at most {}: a `product` scales it, and a `ramp` cuts it", range.most),
+                said => said.to_owned(),
+            };
+            return Err(Problem::at(&format!("{key}.texture"), message, label));
         }
         Ok(())
     }

@@ -32,7 +32,8 @@ fn problems(textures: impl IntoIterator<Item = (&'static str, TextureKind)>) -> 
 fn problem(textures: impl IntoIterator<Item = (&'static str, TextureKind)>) -> (String, String) {
     let mut problems = problems(textures);
     assert_eq!(problems.len(), 1, "{problems:?}");
-    let Problem { path, message, .. } = problems.remove(0);
+    let Problem { path, message, label, .. } = problems.remove(0);
+    assert!(!label.is_empty(), "{message}");
     (path.to_string(), message)
 }
 
