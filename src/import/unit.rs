@@ -19,7 +19,12 @@ const DEEPEST: usize = 16;
 
 /// The largest value of a texture of a description, or more. `root` is the folder of the scene.
 pub fn largest(description: &SceneDescription, assets: &Assets, root: &Path, name: &str) -> f64 {
-    Search { description, assets, root }.of_texture(name, DEEPEST)
+    brightest(Search { description, assets, root, is_exact: false }.of_texture(name, DEEPEST))
+}
+
+/// The largest value in each channel. All images are read.
+pub fn channels(description: &SceneDescription, assets: &Assets, root: &Path, name: &str) -> [f64; 3] {
+    Search { description, assets, root, is_exact: true }.of_texture(name, DEEPEST)
 }
 
 /// The textures for a texture that reaches `most`, which is more than 1, cut at 1: the first one is the input of the second, under the name
@@ -68,8 +73,7 @@ impl Limiter<'_> {
             TextureKind::Mix(mix) => Mix { a: limit(&mix.a, most), b: limit(&mix.b, most), weight: mix.weight.clone() }.into(),
             TextureKind::Product(product) => match (&product.a, &product.b) {
                 (Textured::Constant(factor), b) | (b, Textured::Constant(factor)) => {
-                    let greatest = factor.iter().copied().fold(1e-12, f64::max);
-                    Product { a: Textured::Constant(*factor), b: limit(b, most / greatest) }.into()
+                    Product { a: Textured::Constant(*factor), b: limit(b, most / brightest(*factor).max(1e-12)) }.into()
                 }
                 (a, b) => Product { a: limit(a, most.min(1.0)), b: limit(b, most) }.into(),
             },
@@ -95,14 +99,14 @@ fn texels(assets: &Assets, root: &Path, image: &Image) -> Option<Texels> {
     read_light_of(&file, image.encoding).ok()
 }
 
-fn greatest(texels: &Texels) -> f64 {
-    texels.radiance.iter().flat_map(|pixel| &pixel[..3]).fold(0.0, |most, x| f64::max(most, (*x).into()))
+fn greatest(texels: &Texels) -> [f64; 3] {
+    texels.radiance.iter().fold([0.0; 3], |most, [r, g, b, _]| each(most, [*r, *g, *b].map(f64::from), f64::max))
 }
 
 /// The image cut at `most`, encoded, if it has greater values.
 fn cut_image(assets: &Assets, root: &Path, image: &Image, most: f64) -> Option<Vec<u8>> {
     let may_exceed = image.channel != Channel::Alpha && (most < 1.0 || is_of_light(image));
-    let texels = may_exceed.then(|| texels(assets, root, image)).flatten().filter(|texels| greatest(texels) > most)?;
+    let texels = may_exceed.then(|| texels(assets, root, image)).flatten().filter(|texels| brightest(greatest(texels)) > most)?;
     let pixels: Vec<[f32; 3]> = texels.radiance.iter().map(|pixel| [0, 1, 2].map(|i| pixel[i].min(most as f32))).collect();
     exr(texels.width, texels.height, &pixels)
 }
@@ -111,29 +115,46 @@ struct Search<'a> {
     description: &'a SceneDescription,
     assets: &'a Assets,
     root: &'a Path,
+    /// Whether images are read that cannot exceed 1.
+    is_exact: bool,
 }
 
 impl Search<'_> {
-    fn of_texture(&self, name: &str, depth: usize) -> f64 {
-        let Some(depth) = depth.checked_sub(1) else { return 1.0 };
-        let brightest = |colour: &[f64; 3]| colour.iter().copied().fold(0.0, f64::max);
+    /// The largest value in each channel, or more.
+    fn of_texture(&self, name: &str, depth: usize) -> [f64; 3] {
+        let Some(depth) = depth.checked_sub(1) else { return [1.0; 3] };
         let of = |value: &Textured| match value {
-            Textured::Constant(colour) => brightest(colour),
+            Textured::Constant(colour) => *colour,
             Textured::Texture(name) => self.of_texture(name, depth),
         };
         match self.description.textures.get(name) {
             Some(TextureKind::Image(image)) => self.of_image(image),
-            Some(TextureKind::Checker(squares)) => of(&squares.even).max(of(&squares.odd)),
-            Some(TextureKind::Mix(mix)) => of(&mix.a).max(of(&mix.b)),
-            Some(TextureKind::Product(product)) => of(&product.a) * of(&product.b),
-            Some(TextureKind::Noise(noise)) => brightest(&noise.low).max(brightest(&noise.high)),
-            Some(TextureKind::Ramp(ramp)) => ramp.stops.iter().map(|stop| brightest(&stop.color)).fold(0.0, f64::max),
-            _ => 1.0,
+            Some(TextureKind::Checker(squares)) => each(of(&squares.even), of(&squares.odd), f64::max),
+            Some(TextureKind::Mix(mix)) => each(of(&mix.a), of(&mix.b), f64::max),
+            Some(TextureKind::Product(product)) => each(of(&product.a), of(&product.b), |a, b| a * b),
+            Some(TextureKind::Noise(noise)) => each(noise.low, noise.high, f64::max),
+            Some(TextureKind::Ramp(ramp)) => ramp.stops.iter().fold([0.0; 3], |most, stop| each(most, stop.color, f64::max)),
+            _ => [1.0; 3],
         }
     }
 
-    fn of_image(&self, image: &Image) -> f64 {
+    fn of_image(&self, image: &Image) -> [f64; 3] {
+        if !self.is_exact && !is_of_light(image) {
+            return [1.0; 3];
+        }
         // What cannot be read has an error of its own.
-        is_of_light(image).then(|| texels(self.assets, self.root, image)).flatten().map_or(1.0, |texels| greatest(&texels))
+        let Some(texels) = texels(self.assets, self.root, image) else { return [1.0; 3] };
+        match image.channel {
+            Channel::Rgb => greatest(&texels),
+            _ => [brightest(greatest(&texels)); 3],
+        }
     }
+}
+
+fn each(a: [f64; 3], b: [f64; 3], combine: impl Fn(f64, f64) -> f64) -> [f64; 3] {
+    [0, 1, 2].map(|channel| combine(a[channel], b[channel]))
+}
+
+fn brightest(colour: [f64; 3]) -> f64 {
+    colour.into_iter().fold(0.0, f64::max)
 }

@@ -21,10 +21,7 @@ use crate::{
         spectra::{Role, luminance},
         textures::number,
     },
-    material::{
-        Conductor, Dielectric, Lambertian, Mirror, Plastic, Roughness, blend::Blend, diffuse_transmission::DiffuseTransmission,
-        disney::Disney,
-    },
+    material::{Conductor, Dielectric, Lambertian, Mirror, Plastic, Roughness, blend::Blend, disney::Disney},
     scene::{SceneError, description::Material},
 };
 
@@ -205,7 +202,7 @@ impl Import {
         self.remark(entity, "its diffuse part", "there are no highlights");
         let parts = [reflect, transmit].map(|part| self.times(&albedo, part, "translucent"));
         let [reflectance, transmittance] = parts;
-        Ok(DiffuseTransmission { reflectance, transmittance }.into())
+        self.sheet(entity, reflectance, transmittance)
     }
 
     fn old_disney(&mut self, entity: &Entity) -> Found<Material> {
@@ -219,7 +216,7 @@ impl Import {
         }
         let mut unit = |name: &str, default: f64| {
             let number = self.number_or_texture(entity, name, default)?;
-            Ok::<_, SceneError>(number.map(|number| number.clamp(0.0, 1.0)))
+            Ok::<_, SceneError>(self.part_of_whole(entity, number))
         };
         let disney = Disney {
             metallic: unit("metallic", 0.0)?,

@@ -3,17 +3,23 @@ use std::rc::Rc;
 
 use crate::{
     declare::Textured,
-    import::pbrt::{
-        import::Import,
-        parameters::{Entity, Type, Values},
-        records::MaterialRef,
-        spectra::{COLOURS, Role, luminance},
+    import::{
+        pbrt::{
+            import::Import,
+            parameters::{Entity, Type, Values},
+            records::MaterialRef,
+            spectra::{COLOURS, Role, luminance},
+        },
+        unit,
     },
     material::{
         Dielectric, Lambertian, blend::Blend, diffuse_transmission::DiffuseTransmission, thin_dielectric::ThinDielectric,
     },
     scene::{SceneError, description::Material},
 };
+
+/// By what a sheet of textures is darker, so that numbers of 32 bits stay below 1.
+const ROUNDING: f64 = 1e-6;
 
 /// A diffuse surface with the same albedo everywhere.
 pub fn grey(albedo: f64) -> Material {
@@ -34,18 +40,31 @@ impl Import {
             import.scaled(&colour, scale, name)
         };
         let [reflectance, transmittance] = [part(self, "reflectance")?, part(self, "transmittance")?];
-        if let (Textured::Constant(r), Textured::Constant(t)) = (&reflectance, &transmittance) {
-            let most = [0, 1, 2].map(|channel| r[channel] + t[channel]).into_iter().fold(0.0, f64::max);
-            if most > 1.0 {
-                self.remark(
-                    entity,
-                    "the same sheet without gain",
-                    "it is darker: it would reflect and transmit more than it gets",
-                );
-                let [reflectance, transmittance] = [r, t].map(|colour| Textured::Constant(colour.map(|x| x / most)));
-                return Ok(DiffuseTransmission { reflectance, transmittance }.into());
-            }
+        self.sheet(entity, reflectance, transmittance)
+    }
+
+    /// A sheet that reflects and transmits diffusely, not more than it gets.
+    pub(super) fn sheet(
+        &mut self,
+        entity: &Entity,
+        reflectance: Textured,
+        transmittance: Textured,
+    ) -> Result<Material, SceneError> {
+        let (description, assets, root) = (&self.description, &self.new_files.assets, self.files.folder.root());
+        let [r, t] = [&reflectance, &transmittance].map(|part| match part {
+            Textured::Constant(colour) => *colour,
+            Textured::Texture(name) => unit::channels(description, assets, root, name),
+        });
+        let most = [0, 1, 2].map(|channel| r[channel] + t[channel]).into_iter().fold(0.0, f64::max);
+        if most <= 1.0 {
+            return Ok(DiffuseTransmission { reflectance, transmittance }.into());
         }
+        self.remark(entity, "the same sheet without gain", "it is darker: it would reflect and transmit more than it gets");
+        let part = |import: &mut Import, part: Textured| match part {
+            Textured::Constant(colour) => Ok(Textured::Constant(colour.map(|x| x / most))),
+            texture => import.scaled(&texture, (1.0 - ROUNDING) / most, "sheet"),
+        };
+        let (reflectance, transmittance) = (part(self, reflectance)?, part(self, transmittance)?);
         Ok(DiffuseTransmission { reflectance, transmittance }.into())
     }
 

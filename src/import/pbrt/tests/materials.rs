@@ -176,3 +176,22 @@ fn textures_above_1_are_cut_as_in_pbrt() {
     assert!(matches!(&textures["f cut"], TextureKind::Ramp(ramp) if ramp.stops[1].at == 1.0 / 3.0), "{textures:?}");
     assert_eq!(remarks(&found).iter().filter(|line| line.contains("above 1")).count(), 2, "{:?}", remarks(&found));
 }
+
+#[test]
+fn sheets_of_textures_do_not_gain() {
+    let sheet = |scale: &str| {
+        world(&format!(
+            "Texture \"r\" \"spectrum\" \"checkerboard\" \"rgb tex1\" [1 0 0] \"rgb tex2\" [.5 .25 0]\n\
+             Texture \"t\" \"spectrum\" \"checkerboard\" \"rgb tex1\" [0 1 0] \"rgb tex2\" [1 0 0]\n\
+             Material \"diffusetransmission\" \"texture reflectance\" \"r\" \"texture transmittance\" \"t\" {scale}\nShape \"sphere\""
+        ))
+    };
+    let gain = |found: &Imported| remarks(found).iter().any(|line| line.contains("without gain"));
+    // Red reaches 1 in both.
+    assert!(gain(&sheet("")) && !gain(&sheet("\"float scale\" .5")));
+    let found = sheet("");
+    let Material::DiffuseTransmission(leaf) = &material(&found).kind else { panic!("a sheet") };
+    let Textured::Texture(name) = &leaf.reflectance else { panic!("a texture") };
+    let TextureKind::Product(product) = &found.description.textures[name] else { panic!("a product") };
+    assert!(matches!(&product.b, Textured::Constant([x, ..]) if (x - 0.5).abs() < 1e-5), "{product:?}");
+}
