@@ -16,14 +16,14 @@ use base64::{
 use super::{
     bytes::{Bytes, Slice},
     document::{Buffer, BufferView, Document, Index, element},
-    extensions::KNOWN,
+    extensions::{KNOWN, Meshopt},
     meshopt,
     refusal::{Found, Refusal},
 };
 use crate::{
     file::open_regular,
     import::{Folder, Unresolved},
-    memory::Reservation,
+    memory::{Reservation, reserve},
     progress::Progress,
 };
 
@@ -80,8 +80,17 @@ impl Buffers {
         if let Some((bytes, _)) = known.get() {
             return Ok(Slice::Memory(Cow::Borrowed(bytes)));
         }
-        let (bytes, _) = meshopt::decompressed(described, self).map(|made| known.get_or_init(|| made)).map_err(within)?;
+        let (bytes, _) = self.decompressed(described).map(|made| known.get_or_init(|| made)).map_err(within)?;
         Ok(Slice::Memory(Cow::Borrowed(bytes)))
+    }
+
+    /// The bytes of a compressed view, and the room for them.
+    fn decompressed(&self, described: &Meshopt) -> Found<(Vec<u8>, Reservation)> {
+        let size = meshopt::size(described)?;
+        self.spend(size, "compressed views")?;
+        let room = reserve("the bytes of a compressed view", size)?;
+        let packed = self.part(described.buffer, described.byte_offset, described.byte_length)?.read()?;
+        Ok((meshopt::decompressed(described, &packed)?, room))
     }
 
     /// Bytes of a buffer.

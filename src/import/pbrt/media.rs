@@ -4,6 +4,7 @@ use std::rc::Rc;
 use super::{
     import::Import,
     parameters::{Entity, Type},
+    records::Absorber,
     source::TextSpan,
     spectra::Role,
 };
@@ -16,14 +17,6 @@ use crate::{
 const ABSORPTION: [f64; 3] = [0.0011, 0.0024, 0.014];
 /// The help of errors about media.
 const HELP: &str = "remove its MediumInterface to render the scene without it";
-
-/// A medium that absorbs, and nothing else.
-#[derive(Clone, Debug)]
-pub struct Absorber {
-    name: Rc<str>,
-    /// The fraction of light that is absorbed per metre, per channel.
-    absorption: [f64; 3],
-}
 
 impl Import {
     /// `MakeNamedMedium`.

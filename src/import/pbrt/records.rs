@@ -3,7 +3,7 @@ use std::rc::Rc;
 
 use glam::DAffine3;
 
-use super::{media::Absorber, source::TextSpan};
+use super::source::TextSpan;
 use crate::{
     declare::Textured,
     scene::description::{EmissionDescription, ShapeKind},
@@ -19,6 +19,14 @@ pub enum MaterialRef {
     Default,
     Numbered(usize),
     Named(Rc<str>),
+}
+
+/// A medium that absorbs, and nothing else.
+#[derive(Clone, Debug)]
+pub struct Absorber {
+    pub name: Rc<str>,
+    /// The fraction of light that is absorbed per metre, per channel.
+    pub absorption: [f64; 3],
 }
 
 /// How an object is covered.

@@ -10,28 +10,28 @@ mod filters;
 mod indices;
 
 use super::{
-    buffers::Buffers,
     extensions::Meshopt,
     refusal::{Found, Refusal},
 };
-use crate::memory::{Reservation, reserve};
 
 /// Bytes of the largest element that the format has.
 const LARGEST: u64 = 256;
 
-/// The bytes of a view without compression, and the room for them.
-pub fn decompressed(described: &Meshopt, buffers: &Buffers) -> Found<(Vec<u8>, Reservation)> {
-    let Meshopt { buffer, byte_offset, byte_length, byte_stride: stride, count, mode, filter } = described;
+/// Number of bytes of a view without compression.
+pub fn size(described: &Meshopt) -> Found<u64> {
+    let Meshopt { byte_stride: stride, count, .. } = described;
     let size = count.checked_mul(*stride).filter(|_| (1..=LARGEST).contains(stride));
-    let size = size.ok_or("a view of meshopt has elements of no size, or too many")?;
-    buffers.spend(size, "compressed views")?;
-    let room = reserve("the bytes of a compressed view", size)?;
-    let packed = buffers.part(*buffer, *byte_offset, *byte_length)?.read()?;
+    Ok(size.ok_or("a view of meshopt has elements of no size, or too many")?)
+}
+
+/// These bytes, which must be as many as there is room for.
+pub fn decompressed(described: &Meshopt, packed: &[u8]) -> Found<Vec<u8>> {
+    let Meshopt { byte_stride: stride, count, mode, filter, .. } = described;
     let (stride, count) = (*stride as usize, *count as usize);
     let decoded = match mode.as_str() {
-        "ATTRIBUTES" if stride.is_multiple_of(4) => attributes::decoded(&packed, stride, count),
-        "TRIANGLES" if matches!(stride, 2 | 4) && count.is_multiple_of(3) => indices::triangles(&packed, stride, count),
-        "INDICES" if matches!(stride, 2 | 4) => indices::indices(&packed, stride, count),
+        "ATTRIBUTES" if stride.is_multiple_of(4) => attributes::decoded(packed, stride, count),
+        "TRIANGLES" if matches!(stride, 2 | 4) && count.is_multiple_of(3) => indices::triangles(packed, stride, count),
+        "INDICES" if matches!(stride, 2 | 4) => indices::indices(packed, stride, count),
         _ => None,
     };
     let mut bytes = decoded.ok_or_else(|| Refusal::from(format!("a view of meshopt in mode `{mode}` cannot be decoded")))?;
@@ -43,7 +43,7 @@ pub fn decompressed(described: &Meshopt, buffers: &Buffers) -> Found<(Vec<u8>, R
         ("EXPONENTIAL", _) if stride.is_multiple_of(4) => filters::exponential(&mut bytes),
         _ => false,
     };
-    is_known.then_some((bytes, room)).ok_or_else(|| format!("there is no filter `{filter}` of meshopt for {stride} bytes").into())
+    is_known.then_some(bytes).ok_or_else(|| format!("there is no filter `{filter}` of meshopt for {stride} bytes").into())
 }
 
 /// Bytes that are read one after the other; `None` beyond their end.
