@@ -11,7 +11,7 @@ use noisefall::{
 
 use super::{
     folder,
-    messages::{Failure, print},
+    messages::{Failure, print, tell},
 };
 
 /// Folder beside the report for the scenes that fail.
@@ -50,7 +50,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let done = |number: usize, section: &Section| lines.push(show(number, section, suite));
     let (sections, kept) = match suite {
         Suite::Exact => (validation.run(done), Vec::new()),
-        Suite::Stress => validation.stress(done),
+        Suite::Stress => validation.stress(done, &tell),
     };
     lines.into_iter().collect::<Result<Vec<()>, Failure>>()?;
     if let Some(output) = &arguments.output {

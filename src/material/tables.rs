@@ -60,11 +60,18 @@ pub struct Tables {
     pub times: Vec<Option<Duration>>,
 }
 
+/// Tables of previous compiles that are kept though the last one did not need them.
+const MOST_UNUSED: usize = 96;
+
 impl Tables {
-    /// No tables yet; those of the previous compile are reused.
+    /// No tables yet; those of previous compiles are reused, so that an edit that is undone takes no time.
     pub fn after(before: &Tables, precision: Precision) -> Tables {
-        let before = before.tables.iter().map(|(table, _)| table.clone());
-        let before = before.filter(|table| precision == Precision::Interactive || table.precision == Precision::Exact);
+        let used: Vec<MaterialTable> = before.tables.iter().map(|(table, _)| table.clone()).collect();
+        let is_used = |table: &MaterialTable| used.iter().any(|used| used.of == table.of);
+        let unused: Vec<MaterialTable> =
+            before.before.iter().filter(|table| !is_used(table)).take(MOST_UNUSED).cloned().collect();
+        let all = used.into_iter().chain(unused);
+        let before = all.filter(|table| precision == Precision::Interactive || table.precision == Precision::Exact);
         Tables { before: before.collect(), precision, ..Tables::default() }
     }
 

@@ -70,9 +70,9 @@ fn scenes_under_stress_hold_and_are_reported() {
     let done = shell.run(&["validate", "--stress", "--quick", "-o", "report"]);
     let shown = text(&done.stdout);
     assert!(done.status.success(), "{shown}{}", text(&done.stderr));
-    assert!(shown.contains(" 8  holds") && shown.contains("scenes, ") && shown.contains("slowest"), "{shown}");
+    assert!(shown.contains(" 9  holds") && shown.contains("scenes, ") && shown.contains("slowest"), "{shown}");
     let report = fs::read_to_string(shell.path("report/report.html")).expect("a report");
-    assert_eq!(report.matches("<section").count(), 8);
+    assert_eq!(report.matches("<section").count(), 9);
     assert!(report.matches("<svg").count() >= 5 && !report.contains("✗"));
     let json = fs::read_to_string(shell.path("report/report.json")).expect("rows");
     let json: serde_json::Value = serde_json::from_str(&json).expect("JSON");

@@ -106,8 +106,10 @@ fn at_first_surface<L: Lanes>(
     let (light, primitive, element) = (light.bits(), primitive.bits(), element.bits());
     let at = ReferencePoint { p: hit.p, n: hit.n, transmits: transmits(l, stage), lobe: None };
     let lamps = *live & lights.are_lamps(light);
-    let sky = light.is(MISS);
-    let place = PrimitiveRef { primitive: sky.pick(l.u(MISS), primitive), element, time: work.time(l, hit.slot) };
+    // Lanes that are not live may hold the source of a path in another scene.
+    let on_surface = *live & !lamps & !light.is(MISS);
+    let (primitive, element) = (on_surface.pick(primitive, l.u(MISS)), on_surface.pick(element, l.u(0)));
+    let place = PrimitiveRef { primitive, element, time: work.time(l, hit.slot) };
     let mut pdf = self_lit.pick(l.f(0.0), lights.pdf(l, &work.scene.shapes, &at, *back, &place));
     let mut finds_light = l.f(1.0);
     if lamps.any() {

@@ -2,6 +2,7 @@
 //!
 //! A scene is text that goes through the same reader and compiler as a user's file. It is a pure function of its family and its
 //! number. A statement that fails names the scene, and its text is kept.
+mod covering;
 mod dice;
 mod families;
 mod figures;
@@ -16,6 +17,7 @@ mod trial_scene;
 use rayon::prelude::*;
 
 use self::{
+    covering::Strength,
     dice::Dice,
     families::{Family, GROUPS},
     trial::TrialOutcome,
@@ -64,9 +66,13 @@ pub struct FailedScene {
 }
 
 impl Validation {
-    /// Runs the stress sections in order. Calls `done` with the number of each section, from 1, when it is finished. Returns the
-    /// sections and the scenes that break an invariant.
-    pub fn stress(&self, mut done: impl FnMut(usize, &Section)) -> (Vec<Section>, Vec<FailedScene>) {
+    /// Runs the stress sections in order. Calls `done` with the number of each section, from 1, when it is finished, and `message`
+    /// during long ones. Returns the sections and the scenes that break an invariant.
+    pub fn stress(
+        &self,
+        mut done: impl FnMut(usize, &Section),
+        message: &(dyn Fn(&str) + Sync),
+    ) -> (Vec<Section>, Vec<FailedScene>) {
         let (mut sections, mut kept) = (Vec::new(), Vec::new());
         for (i, group) in GROUPS.iter().enumerate() {
             let trials: Vec<Trial> = group.families.iter().flat_map(|family| self.trials(family)).collect();
@@ -78,6 +84,16 @@ impl Validation {
         let section = saving::section(self.count(saving::PAIRS));
         done(GROUPS.len() + 1, &section);
         sections.push(section);
+        let strengths: &[Strength] = match self.effort {
+            Effort::Quick => &[Strength::Pairs],
+            Effort::Full => &[Strength::Pairs, Strength::Triples],
+        };
+        for strength in strengths {
+            let (section, failed) = covering::section(*strength, message);
+            done(sections.len() + 1, &section);
+            sections.push(section);
+            kept.extend(failed);
+        }
         (sections, kept)
     }
 
