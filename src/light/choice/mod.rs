@@ -145,8 +145,8 @@ impl Lights {
 
     /// Whether rays over `distance` metres miss part of a light that they were sampled towards, since their directions are rounded.
     pub fn are_missed_over(&self, distance: f64) -> bool {
-        // The components of a direction are off by up to 2⁻²⁵. Of a light of this width, some 2⁻¹⁶ of the rays miss it.
-        const THIN: f64 = 1.0 / 256.0;
+        // The components of a direction are off by up to 2⁻²⁵. Of a light of this width, some 2⁻¹⁵ of the rays miss it.
+        const THIN: f64 = 1.0 / 512.0;
         self.least_width < THIN * distance
     }
 

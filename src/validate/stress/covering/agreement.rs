@@ -69,8 +69,9 @@ fn has_heavy_tail(images: &[f64]) -> bool {
     squares.clone().fold(0.0, f64::max) > MOST_OF_ONE * squares.sum::<f64>()
 }
 
-/// The settings with which the estimators have the same expectation. Paths from lights alone find what lamps without surface, and in
-/// practice the sun of a sky, send through mirrors and clear glass, so with these only light that is reflected once is compared, unless all surfaces are diffuse.
+/// The settings with which the estimators have the same expectation. Paths from lights alone find light of lamps without surface, and in
+/// practice that of the sun of a sky, behind mirrors and clear glass. So with these only light that is reflected once is compared, unless
+/// all surfaces are diffuse.
 fn comparable(scene: &Scene, settings: RenderSettings) -> RenderSettings {
     let cap = settings.max_bounces.map_or(CAP, |cap| cap.min(CAP));
     let compared = RenderSettings { merging: false, max_bounces: Some(cap), ..settings };
