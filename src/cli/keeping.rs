@@ -62,12 +62,14 @@ pub struct KeptImage<'a> {
     pub request: &'a RenderRequest,
     pub description: Option<&'a SceneDescription>,
     pub path: &'a Path,
+    /// The size that the user asked for.
+    pub size: Option<[u32; 2]>,
 }
 
 impl KeptImage<'_> {
     /// What the file of a render says about its image. Reads the files that the scene names.
     pub fn header(&self, options: &SceneOptions, budget: &Budget, threads: &Threads) -> Result<Header, Failure> {
-        let scene = keep_scene(&self.request.scene, self.path, &options.import_options());
+        let scene = keep_scene(&self.request.scene, self.path, &options.import_options(self.size));
         let header = kept_header(self.request, scene, self.description, target(budget), threads);
         header.map_err(|error| error.report())
     }

@@ -189,7 +189,7 @@ fn window(scene: Option<PathBuf>, options: &SceneOptions) -> Result<(), Failure>
 
 #[cfg(feature = "viewer")]
 fn open_window(scene: Option<PathBuf>, options: &SceneOptions) -> Result<(), Failure> {
-    let (options, strict) = (options.import_options(), options.strict);
+    let (options, strict) = (options.import_options(None), options.strict);
     crate::viewer::run(crate::viewer::GivenScene { path: scene, options, strict })
 }
 

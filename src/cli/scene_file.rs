@@ -36,9 +36,10 @@ pub struct SceneOptions {
 const HEADING: &str = "Scenes of other programs";
 
 impl SceneOptions {
-    /// The options of the reader.
-    pub fn import_options(&self) -> ImportOptions {
+    /// The options of the reader, for images of this size.
+    pub fn import_options(&self, size: Option<[u32; 2]>) -> ImportOptions {
         ImportOptions {
+            size,
             defines: self.defines.clone(),
             time: self.at,
             variant: self.variant.clone(),
@@ -54,7 +55,7 @@ impl SceneOptions {
 
     /// The same for images of this size.
     pub fn open_for(&self, path: &Path, size: Option<[u32; 2]>) -> Result<Opened, Failure> {
-        let options = ImportOptions { size, ..self.import_options() };
+        let options = self.import_options(size);
         if let Some(note) = self.unused(path) {
             tell(&note);
         }
@@ -162,9 +163,9 @@ mod tests {
             ..ImportOptions::default()
         };
         assert!(strict && !options.strict);
-        assert_eq!(options.import_options(), expected);
+        assert_eq!(options.import_options(None), expected);
         let again = shlex::split(&format!("render{}", options.words())).expect("they are words");
-        assert_eq!(Program::parse_from(again).options.import_options(), expected);
+        assert_eq!(Program::parse_from(again).options.import_options(None), expected);
         assert_eq!(SceneOptions::default().words(), "");
         assert!(define("spp").is_err() && define("=3").is_err() && time("nan").is_err() && time("x").is_err());
     }

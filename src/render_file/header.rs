@@ -86,6 +86,9 @@ pub struct SceneChoices {
     pub time: Option<f64>,
     /// Variant of materials: `--variant`.
     pub variant: Option<String>,
+    /// Size of the image, which cameras of glTF ask for: `--size`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub size: Option<[u32; 2]>,
     /// Whether files outside of the folder may be read: `--allow-outside`.
     pub allow_outside: bool,
 }

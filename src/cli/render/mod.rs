@@ -83,7 +83,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
         scene.estimator_in_force(&settings).iter().for_each(|chosen| tell(&format!("note: estimator `auto` is {chosen}")));
     }
     let request = RenderRequest { scene: scene.clone(), camera, settings };
-    let image = KeptImage { request: &request, description: description.as_deref(), path: &path };
+    let image = KeptImage { request: &request, description: description.as_deref(), path: &path, size: arguments.size };
     let frames = arguments.frame_keeping(image, &budget, &shots, &of_images)?;
     let mut keeping = match frames {
         Some(_) => Keeping::default(),
@@ -204,7 +204,7 @@ impl Arguments {
         Ok(SampleJob {
             scene_path: path,
             description,
-            import: self.options.import_options(),
+            import: self.options.import_options(self.size),
             scene_options: self.options.words(),
             settings,
             display: self.display.display(scene.exposure),

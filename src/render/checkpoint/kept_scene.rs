@@ -18,12 +18,12 @@ use crate::{
 pub fn keep_scene(scene: &Scene, path: &Path, options: &ImportOptions) -> KeptScene {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let folder = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
-    let ImportOptions { defines, time, variant, allow_outside, .. } = options.clone();
+    let ImportOptions { defines, time, variant, allow_outside, size, .. } = options.clone();
     KeptScene {
         text: scene.source.to_string(),
         name: path.file_name().unwrap_or_default().to_string_lossy().into_owned(),
         folder: folder.to_string_lossy().into_owned(),
-        choices: is_foreign(path).then_some(SceneChoices { defines, time, variant, allow_outside }),
+        choices: is_foreign(path).then_some(SceneChoices { defines, time, variant, size, allow_outside }),
     }
 }
 
@@ -87,10 +87,9 @@ pub fn reopen(kept: &KeptScene, file: &Path, allow_outside: bool, progress: &Pro
             let message = "the scene of this render reads files outside of its folder";
             Err(SceneError::of_file(file, message, "if you trust the file and its scene, add --allow-outside"))
         }
-        Some(SceneChoices { defines, time, variant, allow_outside }) => {
+        Some(SceneChoices { defines, time, variant, size, allow_outside }) => {
             let (defines, variant, progress) = (defines.clone(), variant.clone(), progress.clone());
-            // The camera is that of the render.
-            let (time, allow_outside, size) = (*time, *allow_outside, None);
+            let (time, allow_outside, size) = (*time, *allow_outside, *size);
             import::open(&path, &ImportOptions { defines, time, variant, allow_outside, size, progress })
         }
     }

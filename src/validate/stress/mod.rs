@@ -4,6 +4,7 @@
 //! number. A statement that fails names the scene, and its text is kept.
 mod covering;
 mod dice;
+mod failed_scene;
 mod families;
 mod figures;
 mod saving;
@@ -16,6 +17,7 @@ mod trial_scene;
 
 use rayon::prelude::*;
 
+pub use self::failed_scene::FailedScene;
 use self::{
     covering::Strength,
     dice::Dice,
@@ -53,16 +55,6 @@ impl Trial {
             _ => None,
         }
     }
-}
-
-/// A scene file that breaks an invariant.
-pub struct FailedScene {
-    /// Name of the file.
-    pub name: String,
-    /// The text of a scene file that says why it was kept.
-    pub text: String,
-    /// Why it was kept.
-    pub reason: String,
 }
 
 impl Validation {

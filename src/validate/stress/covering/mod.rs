@@ -39,7 +39,7 @@ use self::{
     render::Renderers,
     trial::trial,
 };
-use super::{FailedScene, dice::Dice};
+use super::{dice::Dice, failed_scene::FailedScene};
 
 /// Scenes in a row that are tried on one thread, where each reuses tables of the one before.
 const NEIGHBOURS: usize = 16;
