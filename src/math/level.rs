@@ -6,7 +6,7 @@ use fearless_simd::Level;
 pub enum SimdLevel {
     /// One lane, no vector instructions.
     Scalar,
-    /// Four lanes: SSE4.2 or NEON.
+    /// Four lanes: NEON.
     Bits128,
     /// Sixteen lanes in pairs of AVX2 registers.
     Avx2,
@@ -23,8 +23,6 @@ impl SimdLevel {
         #[cfg(target_arch = "x86_64")]
         {
             let x86 = [
-                #[cfg(not(test))]
-                (level.as_sse4_2().is_some(), SimdLevel::Bits128),
                 (level.as_avx2().is_some(), SimdLevel::Avx2),
                 #[cfg(not(test))]
                 (level.as_avx512().is_some(), SimdLevel::Avx512),
@@ -43,8 +41,7 @@ impl SimdLevel {
     pub fn name(self) -> &'static str {
         match self {
             SimdLevel::Scalar => "none",
-            SimdLevel::Bits128 if cfg!(target_arch = "aarch64") => "NEON",
-            SimdLevel::Bits128 => "SSE4.2",
+            SimdLevel::Bits128 => "NEON",
             SimdLevel::Avx2 => "AVX2",
             SimdLevel::Avx512 => "AVX-512",
         }
@@ -76,11 +73,6 @@ macro_rules! in_lanes {
             #[cfg(target_arch = "x86_64")]
             SimdLevel::Avx2 if let Some(token) = detected.as_avx2() => {
                 let $l = X16(token);
-                $call
-            }
-            #[cfg(all(target_arch = "x86_64", not(test)))]
-            SimdLevel::Bits128 if let Some(token) = detected.as_sse4_2() => {
-                let $l = X4(token);
                 $call
             }
             #[cfg(target_arch = "aarch64")]

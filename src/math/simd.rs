@@ -222,6 +222,6 @@ macro_rules! simd_lanes {
     };
 }
 
-simd_lanes!(X4, 4, f32x4<S>, u32x4<S>, mask32x4<S>, "Four lanes: the width of SSE and NEON.");
+simd_lanes!(X4, 4, f32x4<S>, u32x4<S>, mask32x4<S>, "Four lanes: the width of NEON.");
 
 simd_lanes!(X16, 16, f32x16<S>, u32x16<S>, mask32x16<S>, "Sixteen lanes: one AVX-512 register, or two of AVX2.");
