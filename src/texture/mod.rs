@@ -24,7 +24,7 @@ pub use self::{
 };
 use crate::{
     declare::{Declare, Kind, Parameter, Parameters, Problem},
-    math::{F, Lanes, M, Pick, U, V, colour::LUMINANCE},
+    math::{F, Lanes, M, U, V, colour::LUMINANCE},
 };
 
 macro_rules! textures {
@@ -148,12 +148,6 @@ pub struct Steps<L: Lanes> {
     pub p: F<L>,
 }
 
-/// The largest number of a register below a bound.
-#[inline(always)]
-fn last_below<L: Lanes>(numbers: U<L>, bound: u32) -> Option<u32> {
-    numbers.to_array()[..L::N].iter().copied().filter(|number| *number < bound).max()
-}
-
 /// The textures of a scene; a texture's id is its index.
 #[derive(Default)]
 pub struct Textures {
@@ -191,11 +185,11 @@ impl Textures {
     pub fn colour<L: Lanes>(&self, l: L, id: U<L>, mask: M<L>, at: &TextureCoordinates<L>) -> V<L> {
         let mut found = LookupResult { id, colour: V::splat(l, [0.0; 3]) };
         // What a texture refers to stands before it: going backwards, one pass follows any nesting.
-        let mut below = self.textures.len() as u32;
-        while let Some(k) = last_below(mask.pick(found.id, l.u(u32::MAX)), below) {
-            let here = mask & found.id.is(k);
-            in_texture!(&self.textures[k as usize], pattern => pattern.apply(l, here, at, self, &mut found));
-            below = k;
+        for k in (0..self.textures.len()).rev() {
+            let here = mask & found.id.is(k as u32);
+            if here.any() {
+                in_texture!(&self.textures[k], pattern => pattern.apply(l, here, at, self, &mut found));
+            }
         }
         found.colour
     }
