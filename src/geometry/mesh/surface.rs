@@ -37,6 +37,9 @@ impl Mesh {
         const MARGIN: f32 = 2.0;
         /// The same in thin triangles, as a part of the height.
         const WIDEST: f32 = 0.125;
+        /// The largest κ that counts there. The error of thinner triangles is mostly that of their normal, and would move points along them
+        /// into what they touch.
+        const THINNEST: f32 = 8.0;
         let [a, b, c] = self.positions(l, triangle);
         let edges = Edges::of(a, b, c);
         let (unit_b, unit_c, normal) = edges.scaled();
@@ -46,7 +49,8 @@ impl Mesh {
         let w = (p - a) * (1.0 / edges.size);
         let [b_squared, c_squared] = [unit_b.length_squared(), unit_c.length_squared()];
         let kappa = (b_squared * c_squared).sqrt() / length;
-        let of_triangle = edges.size * (kappa * ROUNDINGS_OF_N + ROUNDINGS_OF_R);
+        let of_kappa = |kappa: F<L>| edges.size * (kappa * ROUNDINGS_OF_N + ROUNDINGS_OF_R);
+        let of_triangle = of_kappa(kappa);
 
         let beta = (w.cross(unit_c).dot(normal) / normal_squared).max(l.f(0.0));
         let gamma = (unit_b.cross(w).dot(normal) / normal_squared).max(l.f(0.0));
@@ -54,7 +58,7 @@ impl Mesh {
         let barycentrics = [beta / excess, gamma / excess];
 
         // At an edge, rounding could put the point behind the next triangle: it keeps away from edges, by a part of the height over each.
-        let margin = (of_triangle + p.max_abs() * ROUNDINGS_OF_P) * (MARGIN / edges.size) / length;
+        let margin = (of_kappa(kappa.min(l.f(THINNEST))) + p.max_abs() * ROUNDINGS_OF_P) * (MARGIN / edges.size) / length;
         let least = |edge_squared: F<L>| (margin * edge_squared.sqrt()).min(l.f(WIDEST));
         let [beta, gamma] = [barycentrics[0].max(least(c_squared)), barycentrics[1].max(least(b_squared))];
         let most = 1.0 - least((unit_c - unit_b).length_squared());
