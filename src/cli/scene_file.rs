@@ -53,7 +53,7 @@ impl SceneOptions {
         self.open_for(path, None)
     }
 
-    /// The same for images of this size.
+    /// Opens a scene file for images of this size, as [`Self::open`] does.
     pub fn open_for(&self, path: &Path, size: Option<[u32; 2]>) -> Result<Opened, Failure> {
         let options = self.import_options(size);
         if let Some(note) = self.unused(path) {

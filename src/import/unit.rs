@@ -142,7 +142,7 @@ impl Search<'_> {
         if !self.is_exact && !is_of_light(image) {
             return [1.0; 3];
         }
-        // What cannot be read has an error of its own.
+        // A file that cannot be read has an error of its own.
         let Some(texels) = texels(self.assets, self.root, image) else { return [1.0; 3] };
         match image.channel {
             Channel::Rgb => greatest(&texels),

@@ -14,8 +14,9 @@ const MOST_OF_IT: f64 = 0.5;
 /// Fewest equally noisy pixels that make a tail light, as a part of all pixels. Paths that find small lights by chance rest on single
 /// samples too, but in 3 % of the pixels or more, and their error is estimated well. The pixels of caustics are 1 % and less.
 const FEW_PIXELS: f64 = 0.01;
-/// The same as a number, for small images, and for yet smaller ones.
+/// Fewest pixels in small images.
 const FEWEST: f64 = 40.0;
+/// Fewest pixels in yet smaller images, as a part of all.
 const LEAST_PART: f64 = 1.0 / 16.0;
 
 /// Whether few single samples carry the error of an image, given the variances of its pixels.

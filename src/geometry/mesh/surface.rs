@@ -35,7 +35,7 @@ impl Mesh {
         const ROUNDINGS_OF_P: f32 = 2.0 * f32::EPSILON;
         /// Distance from edges, in errors.
         const MARGIN: f32 = 2.0;
-        /// The same in thin triangles, as a part of the height.
+        /// The largest distance, as a part of the height: that of thin triangles.
         const WIDEST: f32 = 0.125;
         /// The largest κ that counts there. The error of thinner triangles is mostly that of their normal, and would move points along them
         /// into what they touch.

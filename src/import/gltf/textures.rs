@@ -31,7 +31,7 @@ pub struct Textures<'a> {
 pub struct SurfaceInputs {
     /// The set of texture coordinates; `None` if there is none.
     pub uvs: Option<u32>,
-    /// What the mesh has in place of them: those of the normal map, which has no map of its own.
+    /// The transform in the coordinates of the mesh: that of the normal map, which is looked up without one of its own.
     pub map: UvMap,
     /// Whether vertices have colours.
     pub colours: bool,

@@ -29,7 +29,7 @@ impl Import {
         limited
     }
 
-    /// The same for a number, which Mitsuba cuts between texels, too.
+    /// Cuts a textured number, between texels too, as Mitsuba does.
     pub fn number_within_unit(&mut self, value: Element, name: String) -> String {
         let key = format!("number {name}");
         if let Some(known) = self.known_limited.get(&key) {

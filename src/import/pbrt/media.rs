@@ -52,7 +52,7 @@ impl Import {
         }
     }
 
-    /// What a medium absorbs; `None` if it also scatters or emits light.
+    /// The absorption of a medium; `None` if it also scatters or emits light.
     fn absorption(&mut self, medium: &Entity) -> Result<Option<[f64; 3]>, SceneError> {
         let is_homogeneous = medium.find(&[Type::String], "type").and_then(|t| t.text()) == Some("homogeneous");
         if !is_homogeneous || medium.has("Le") {

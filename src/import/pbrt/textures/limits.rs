@@ -8,7 +8,7 @@ use crate::{
     },
 };
 
-/// What is used of a texture with values above 1.
+/// The part of a texture with values above 1 that is used.
 const CUT: &str = "values up to 1";
 
 impl Import {

@@ -1,6 +1,6 @@
 //! Scenes in which all pairs, or all triples, of declared kinds appear.
 //!
-//! What can vary is read from the declarations, so a new kind is in these scenes without an edit. Each scene is rendered, compared,
+//! Factors are read from the declarations, so a new kind is in these scenes without an edit. Each scene is rendered, compared,
 //! edited, saved and replayed.
 //!
 //! | file | holds |

@@ -33,7 +33,7 @@ impl Renderers {
         bits(scene, threads)
     }
 
-    /// The same, after an image at every level.
+    /// The bits of an image, or an error if another level has others.
     pub fn bits_at_all_levels(&self, scene: &Scene) -> Result<Bits, String> {
         let image = self.bits(scene)?;
         for (level, threads) in &self.0 {
