@@ -10,7 +10,7 @@ use super::{
         disney::{Disney, DisneyGlass},
         principled::{Principled, PrincipledGlass},
     },
-    cases::{local, mixed, mixed_disney, mixed_facets, mixed_principled},
+    mixed::{local, mixed, mixed_disney, mixed_facets, mixed_principled},
 };
 use crate::{
     math::{F, Lanes, MAX_LANES, SimdLevel, V, in_lanes},

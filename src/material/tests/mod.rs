@@ -11,6 +11,7 @@ mod energy;
 mod fresnel;
 mod lanes;
 mod mitsuba;
+mod mixed;
 mod principled;
 mod tinted;
 
