@@ -52,10 +52,16 @@ impl LiveView {
         None
     }
 
+    /// Says what an interruption does from now on: all renders are finished.
+    pub fn announce_end(&self) {
+        if self.stream.is_some() {
+            now_says("interrupted: closing the connection to tev");
+        }
+    }
+
     /// Waits until the last frame is sent, but not long. An interruption ends the connection.
     pub fn finish(self, stop: &AtomicBool) {
         let Some(stream) = self.stream else { return };
-        now_says("interrupted: closing the connection to tev");
         let was_interrupted = stop.load(Ordering::Relaxed);
         let most = if was_interrupted { BRIEFLY } else { PATIENTLY };
         if let Err(failure) = stream.finish(most, || !was_interrupted && stop.load(Ordering::Relaxed)) {

@@ -173,7 +173,7 @@ impl Rendering {
             stills.keep_now().map_err(|error| error.to_string())?;
             checkpoints.report(&progress.bar);
         }
-        self.progress.finished += 1;
+        self.count_finished();
         Ok(published)
     }
 
@@ -185,8 +185,16 @@ impl Rendering {
             go_on(stop)
         };
         let published = stills.series(request, &mut watch).map_err(|error| error.to_string());
-        self.progress.finished += 1;
+        self.count_finished();
         published
+    }
+
+    /// Counts a render. After the last one only the live view can still be waited for.
+    fn count_finished(&mut self) {
+        self.progress.finished += 1;
+        if self.progress.finished == self.progress.plan.renders() {
+            self.live.announce_end();
+        }
     }
 
     /// Hides the bar while a task prints.
