@@ -70,10 +70,11 @@ impl Job<'_> {
             }
             None => {
                 let bounces = bounces.map(|bounces| bounces.frame);
+                // An interruption from here on cuts nothing.
+                let is_cut = rendering.is_interrupted();
                 let delivered = rendering
                     .suspend(|| self.deliver(shot, rendering.remarks(), &picture, bounces.as_deref(), render_seconds))?;
-                let is_cut = delivered == ExitCode::SUCCESS && rendering.is_interrupted();
-                Ok(if is_cut { ExitCode::from(INTERRUPTED) } else { delivered })
+                Ok(if is_cut && delivered == ExitCode::SUCCESS { ExitCode::from(INTERRUPTED) } else { delivered })
             }
         }
     }
