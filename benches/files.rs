@@ -12,7 +12,7 @@ use std::{
     time::Instant,
 };
 
-use noisefall::import::{ImportOptions, read};
+use noisefall_formats::import::{ImportOptions, read};
 
 /// Counts allocated bytes.
 #[global_allocator]

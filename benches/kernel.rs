@@ -1,13 +1,11 @@
 //! Speed of the kernel on one core: paths per second at every SIMD level, and in meshes of 10⁴ to 10⁷ triangles.
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use noisefall::{
-    math::SimdLevel,
-    render::{
-        film::Film,
-        threads::{PassJob, Threads},
-    },
-    scene::{Camera, Estimator, RenderSettings, Reuse, Roulette, Scene, built_in, parse},
+use noisefall_base::math::SimdLevel;
+use noisefall_render::render::{
+    film::Film,
+    threads::{PassJob, Threads},
 };
+use noisefall_scene::scene::{Camera, Estimator, RenderSettings, Reuse, Roulette, Scene, built_in, parse};
 
 /// The five-sphere Cornell box at cap 8, one sample of 256 × 256 pixels per iteration.
 fn paths_per_second(c: &mut Criterion) {
@@ -16,7 +14,7 @@ fn paths_per_second(c: &mut Criterion) {
     let mut camera = scene.camera;
     camera.resolution = [256, 256];
     let rays = scene.rays(&camera);
-    for sampler in noisefall::sampling::Sampler::ALL {
+    for sampler in noisefall_scene::sampling::Sampler::ALL {
         for level in SimdLevel::available() {
             let settings = RenderSettings {
                 estimator: Estimator::Path,

@@ -6,16 +6,14 @@ use std::{
 };
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use noisefall::{
-    math::SimdLevel,
-    render::{
-        Display, Frame, Publish, RenderRequest, Renderer, ToneMap,
-        film::Film,
-        threads::{PassJob, Threads},
-        tone::to_srgb,
-    },
-    scene::{Camera, Estimator, RenderSettings, Scene, built_in, load, parse},
+use noisefall_base::math::SimdLevel;
+use noisefall_render::render::{
+    Display, Frame, Publish, RenderRequest, Renderer, ToneMap,
+    film::Film,
+    threads::{PassJob, Threads},
+    tone::to_srgb,
 };
+use noisefall_scene::scene::{Camera, Estimator, RenderSettings, Scene, built_in, load, parse};
 
 const RESOLUTION: [u32; 2] = [1280, 720];
 

@@ -11,10 +11,13 @@ use std::{
 
 use egui::{Key, vec2};
 use egui_kittest::{Harness, kittest::Queryable};
-use noisefall::{math::SimdLevel, render::threads::Threads};
+use noisefall_base::math::SimdLevel;
+use noisefall_render::render::threads::Threads;
 
 #[path = "window/edits.rs"]
 mod edits;
+#[path = "../src/kept_scene.rs"]
+mod kept_scene;
 #[path = "../src/viewer/mod.rs"]
 #[allow(dead_code, unused_imports, reason = "the program uses the rest")]
 mod viewer;

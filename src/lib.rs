@@ -33,79 +33,70 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! This page lists what programs may rely on. The binary, the benches and the integration tests of this package also use the modules
-//! behind it. Those are `pub` for that reason alone, hidden in this documentation, and change without notice.
+//! This page lists what programs may rely on. The crates below it, `noisefall-base` to `noisefall-lab`, are parts of the program: they
+//! change without notice.
 #![warn(missing_docs)]
 
-#[doc(hidden)]
-pub mod declare;
-pub mod edit;
-#[doc(hidden)]
-pub mod export;
-#[doc(hidden)]
-pub mod file;
-#[doc(hidden)]
-pub mod geometry;
-#[doc(hidden)]
-pub mod image;
-#[doc(hidden)]
-pub mod import;
-#[doc(hidden)]
-pub mod integrator;
-#[doc(hidden)]
-pub mod light;
-#[doc(hidden)]
-pub mod material;
-#[doc(hidden)]
-pub mod math;
-#[doc(hidden)]
-pub mod measure;
-#[doc(hidden)]
-pub mod memory;
-#[doc(hidden)]
-pub mod model;
-mod parallel;
-pub mod progress;
-#[doc(hidden)]
-pub mod quote;
-#[doc(hidden)]
-pub mod render;
-#[doc(hidden)]
-pub mod render_file;
-#[cfg(feature = "reports")]
-#[doc(hidden)]
-pub mod report;
-#[doc(hidden)]
-pub mod sampling;
-#[doc(hidden)]
-pub mod scene;
-#[doc(hidden)]
-pub mod shape;
-#[cfg(feature = "reports")]
-#[doc(hidden)]
-pub mod study;
-#[doc(hidden)]
-pub mod texture;
-#[cfg(feature = "reports")]
-pub mod validate;
-
 #[doc(inline)]
-pub use self::{
+pub use noisefall_base::{
     declare::{Assets, PartReport, Precision},
-    import::{ImportOptions, Opened, Remark, Remarks, load, open},
     math::SimdLevel,
-    measure::{Bias, Comparison, Evidence, Floor, compare, exact},
     memory::set_limit as set_memory_limit,
-    render::{
-        Budget, Display, EditResult, Frame, Publish, Published, Region, RenderRequest, RenderTask, Renderer, SampleCounts,
-        SceneEdit, State, Status, Target, ToneMap, WhiteBalance,
-        film::Film,
-        image_file,
-        pass::{Failure, PassCount, SampleId},
-        threads::{PassJob, Threads},
-        tone::to_srgb,
-        truth::Reference,
-    },
+    progress,
+};
+/// An edit, a drag, and their undoing:
+///
+/// ```
+/// use noisefall::{
+///     description::materials::Textured,
+///     edit::{Document, Edit, History, OwnedValue, Path},
+/// };
+///
+/// let text = "format = 1
+/// camera = { eye = [0.0, 1.0, 4.0], look_at = [0.0, 1.0, 0.0], fov = 40, resolution = [640, 480] }
+/// [materials.gold]
+/// conductor = { f0 = [1.0, 0.78, 0.34], roughness = 0.30 } # worn
+/// ";
+/// let mut document = Document::open("room.toml", text)?;
+/// let mut history = History::default();
+///
+/// // One value. A drag applies many such edits with the same gesture; they are undone together.
+/// let roughness = Path::of("materials.gold.conductor.roughness");
+/// let value = OwnedValue::TexturedNumber(Textured::Constant(0.4));
+/// let drag = history.gesture();
+/// history.drag(&mut document, &Edit::set(roughness, value), drag)?;
+/// assert!(document.text().contains("roughness = 0.4 } # worn"));
+///
+/// // A value out of its range is refused, and nothing changes.
+/// let wrong = Edit::set(Path::of("camera.fov"), OwnedValue::Number(200.0));
+/// assert_eq!(history.apply(&mut document, &wrong).unwrap_err().message, "`fov` is out of range: 200");
+///
+/// history.undo(&mut document);
+/// assert_eq!(document.text(), text);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[doc(inline)]
+pub use noisefall_edit::edit;
+#[doc(inline)]
+pub use noisefall_formats::import::{ImportOptions, Opened, Remark, Remarks, load, open};
+#[doc(inline)]
+pub use noisefall_kernel::measure::{Bias, Comparison, Evidence, Floor, compare, exact};
+#[cfg(feature = "reports")]
+#[doc(inline)]
+pub use noisefall_lab::validate;
+#[doc(inline)]
+pub use noisefall_render::render::{
+    Budget, Display, EditResult, Frame, Publish, Published, Region, RenderRequest, RenderTask, Renderer, SampleCounts, SceneEdit,
+    State, Status, Target, ToneMap, WhiteBalance,
+    film::Film,
+    image_file,
+    pass::{Failure, PassCount, SampleId},
+    threads::{PassJob, Threads},
+    tone::to_srgb,
+    truth::Reference,
+};
+#[doc(inline)]
+pub use noisefall_scene::{
     sampling::{Directions, Filter, Sampler},
     scene::{
         Camera, CameraError, CameraRays, CompileReport, Estimator, Lens, RenderSettings, Reuse, Roulette, Scene, SceneError,
@@ -136,7 +127,7 @@ pub use self::{
 /// ```
 pub mod description {
     #[doc(inline)]
-    pub use crate::scene::description::{
+    pub use noisefall_scene::scene::description::{
         BackgroundDescription, CameraDescription, DVec3, EmissionDescription, EmissionSource, ObjectDescription, Projection,
         RenderDescription, SceneDescription, TruthDescription,
     };
@@ -144,8 +135,9 @@ pub mod description {
     /// Materials and their parameters.
     pub mod materials {
         #[doc(inline)]
-        pub use crate::{
-            declare::Textured,
+        pub use noisefall_base::declare::Textured;
+        #[doc(inline)]
+        pub use noisefall_scene::{
             material::{Material, Reflectance, Roughness, kinds::*},
             scene::description::{Bump, MaterialDescription},
         };
@@ -154,7 +146,7 @@ pub mod description {
     /// Shapes and their transforms.
     pub mod shapes {
         #[doc(inline)]
-        pub use crate::shape::{
+        pub use noisefall_scene::shape::{
             Bounds, Rotation, ShapeKind, Transform,
             kinds::*,
             mesh::{Heightfield, Knot, MeshSource},
@@ -164,7 +156,7 @@ pub mod description {
     /// Textures.
     pub mod textures {
         #[doc(inline)]
-        pub use crate::texture::{
+        pub use noisefall_scene::texture::{
             TextureKind,
             image::{Channel, TexelFilter, Wrap},
             kinds::*,

@@ -2,6 +2,7 @@
 use std::process::ExitCode;
 
 mod cli;
+mod kept_scene;
 #[cfg(feature = "viewer")]
 mod viewer;
 

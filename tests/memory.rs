@@ -9,16 +9,15 @@ use std::{
 
 use crossbeam_channel::unbounded;
 use image::{ExtendedColorType, ImageFormat};
-use noisefall::{
+use noisefall_base::{math::SimdLevel, memory::set_limit};
+use noisefall_kernel::integrator::{Features, features};
+use noisefall_render::render::{
+    Budget, Frame, Publish, RenderRequest, RenderTask, Renderer, State, Target,
+    film::Film,
+    threads::{PassJob, Threads},
+};
+use noisefall_scene::{
     image::{Encoding, read},
-    integrator::{Features, features},
-    math::SimdLevel,
-    memory::set_limit,
-    render::{
-        Budget, Frame, Publish, RenderRequest, RenderTask, Renderer, State, Target,
-        film::Film,
-        threads::{PassJob, Threads},
-    },
     scene::{Camera, built_in, load},
 };
 
@@ -38,10 +37,10 @@ fn probe() {
         set_limit(allowed);
     }
     let before = MEMORY.allocated();
-    let is_foreign = noisefall::import::is_foreign(&file);
+    let is_foreign = noisefall_formats::import::is_foreign(&file);
     let refused = if is_foreign {
         // An image carries the text of the scene.
-        noisefall::import::load(&file).map(|scene| assert!(scene.source.len() > 100)).map_err(|error| error.report())
+        noisefall_formats::import::load(&file).map(|scene| assert!(scene.source.len() > 100)).map_err(|error| error.report())
     } else if file.extension().is_some_and(|extension| extension == "toml") {
         load(&file).map_err(|error| error.report()).and_then(|scene| {
             let resolution = scene.camera.resolution;

@@ -9,14 +9,13 @@ use std::{
 use egui::pos2;
 use egui_kittest::Harness;
 use glam::DVec3;
-use noisefall::{
-    declare::Precision,
+use noisefall_base::{declare::Precision, math::SimdLevel};
+use noisefall_render::render::{
+    film::Film,
+    threads::{PassJob, Threads},
+};
+use noisefall_scene::{
     material::{Dielectric, Lambertian, Plastic},
-    math::SimdLevel,
-    render::{
-        film::Film,
-        threads::{PassJob, Threads},
-    },
     scene::{
         Camera, Scene, describe,
         description::{ObjectDescription, SceneDescription, Transform},
@@ -175,6 +174,6 @@ fn picture(scene: &Scene) -> Vec<[u32; 3]> {
     let threads = Threads::new(0, SimdLevel::best()).expect("threads can be had");
     let mut film = Film::new(camera.resolution);
     threads.pass(PassJob { scene, rays: &scene.rays(&camera), settings: &scene.settings }, &mut film, 2, &|| false);
-    let frame = noisefall::render::Frame::of_film(&film, 0, camera.resolution, camera.resolution);
+    let frame = noisefall_render::render::Frame::of_film(&film, 0, camera.resolution, camera.resolution);
     frame.radiance.iter().map(|pixel| pixel.map(f32::to_bits)).collect()
 }

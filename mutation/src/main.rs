@@ -44,7 +44,7 @@ struct Options {
     /// Decides which faults are drawn.
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Every fault of a file or folder, such as src/render/film.rs, in place of those that are drawn.
+    /// Every fault of a file or folder, such as crates/render/src/render/film.rs, in place of those that are drawn.
     #[arg(long, value_name = "PATH", conflicts_with = "given")]
     all_in: Option<String>,
     /// The faults of mutation/faults.toml alone.

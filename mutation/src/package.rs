@@ -13,8 +13,6 @@ use crate::{Outcome, fault::Fault, finder, schemata, schemata::Planted};
 const SWITCH: &str = include_str!("../switch/mutant.rs");
 /// Not part of the copy.
 const LEFT_OUT: [&str; 4] = ["target", ".git", ".ci", "mutation"];
-/// Part of it all the same: a test counts its faults.
-const COUNTED: &str = "mutation/report.toml";
 
 pub struct Package {
     /// Files by their path relative to the package, with `/` on every system.
@@ -33,10 +31,6 @@ impl Package {
             if !LEFT_OUT.contains(&name.as_str()) {
                 package.add(&entry, &name)?;
             }
-        }
-        let counted = folder.join(COUNTED);
-        if counted.exists() {
-            package.add(&counted, COUNTED)?;
         }
         Ok(package)
     }
@@ -60,7 +54,7 @@ impl Package {
 
     /// The files of the program itself, without tests.
     pub fn sources(&self) -> Outcome<Vec<&str>> {
-        let all = self.files.keys().filter(|name| name.starts_with("src/") && name.ends_with(".rs"));
+        let all = self.files.keys().filter(|name| is_source(name) && name.ends_with(".rs"));
         let all: Vec<&str> = all.map(String::as_str).collect();
         let mut tests = BTreeSet::new();
         for file in &all {
@@ -85,7 +79,7 @@ impl Package {
 
     /// Leaves all levels of vector instructions out but AVX2 and one lane, which halves the time of the build.
     pub fn leave_levels_out(&mut self) {
-        let name = "src/math/level.rs";
+        let name = "crates/base/src/math/level.rs";
         let mut kept = String::new();
         let mut lines = self.text(name).lines().peekable();
         while let Some(line) = lines.next() {
@@ -119,19 +113,17 @@ impl Package {
             by_file.entry(&fault.file).or_default().push((id, fault));
         }
         for (file, faults) in by_file {
-            let is_program = file == "src/main.rs" || file.starts_with("src/cli/") || file.starts_with("src/viewer/");
-            let switch = if is_program { "noisefall::mutant::on" } else { "crate::mutant::on" };
+            let switch = if file.starts_with("crates/base/") { "crate::mutant::on" } else { "noisefall_base::mutant::on" };
             planted.insert(file.to_owned(), schemata::plant(self.text(file), &faults, switch));
         }
         for (name, bytes) in &self.files {
             let text = planted.get(name).map_or(bytes.as_slice(), |planted| planted.text.as_bytes());
             match name.as_str() {
-                "src/lib.rs" => write_if_new(&folder.join(name), &[text, b"\npub mod mutant;\n"].concat())?,
-                "Cargo.toml" => write_if_new(&folder.join(name), &[text, b"\n[workspace]\n"].concat())?,
+                "crates/base/src/lib.rs" => write_if_new(&folder.join(name), &[text, b"\npub mod mutant;\n"].concat())?,
                 _ => write_if_new(&folder.join(name), text)?,
             }
         }
-        write_if_new(&folder.join("src/mutant.rs"), SWITCH.as_bytes())?;
+        write_if_new(&folder.join("crates/base/src/mutant.rs"), SWITCH.as_bytes())?;
         self.remove_others(folder)?;
         Ok(planted)
     }
@@ -139,7 +131,7 @@ impl Package {
     /// Removes source files of an earlier copy that the package does not have any more.
     fn remove_others(&self, folder: &Path) -> Outcome<()> {
         let copy = Package::read(folder)?;
-        for name in copy.files.keys().filter(|name| !self.files.contains_key(*name) && *name != "src/mutant.rs") {
+        for name in copy.files.keys().filter(|name| !self.files.contains_key(*name) && *name != "crates/base/src/mutant.rs") {
             fs::remove_file(folder.join(name)).map_err(|error| format!("{name}: {error}"))?;
         }
         Ok(())
@@ -149,6 +141,11 @@ impl Package {
 fn entries(folder: &Path) -> Outcome<Vec<PathBuf>> {
     let wrong = |error| format!("{}: {error}", folder.display());
     fs::read_dir(folder).map_err(wrong)?.map(|entry| entry.map(|entry| entry.path()).map_err(wrong)).collect()
+}
+
+/// Whether a file lies in the folder `src` of a crate.
+fn is_source(name: &str) -> bool {
+    name.starts_with("src/") || name.starts_with("crates/") && name.split('/').nth(2) == Some("src")
 }
 
 /// Where the modules that a file declares lie.

@@ -48,7 +48,7 @@ impl Test {
 
     /// Whether it is a test of this folder of the library or the program.
     pub fn is_of(&self, folder: &str) -> bool {
-        let top = folder.trim_start_matches("src").trim_start_matches('/').split('/').next().unwrap_or_default();
+        let top = folder.rsplit_once("src/").map_or("", |(_, below)| below).split('/').next().unwrap_or_default();
         let target = self.baseline.test.split("::").next().unwrap_or_default();
         ["lib", "noisefall"].contains(&target) && !top.is_empty() && self.name.starts_with(&format!("{top}::"))
     }

@@ -1,12 +1,10 @@
 //! The error of an image against another one.
 use std::path::PathBuf;
 
-use noisefall::{
-    Bias, Frame, compare as error_of,
-    measure::{Floor, SampleNoise},
-    render::image_file::{provenance, read},
-    sampling::Sampler,
-};
+use noisefall::{Bias, Frame, compare as error_of};
+use noisefall_kernel::measure::{Floor, SampleNoise};
+use noisefall_render::render::image_file::{provenance, read};
+use noisefall_scene::sampling::Sampler;
 use numpy::{PyReadonlyArray3, PyUntypedArrayMethods};
 use pyo3::{exceptions::PyValueError, prelude::*};
 use serde_json::json;

@@ -1,5 +1,5 @@
 //! The exceptions of the module. Their texts are those of the program.
-use noisefall::render::image_file::ImageError;
+use noisefall_render::render::image_file::ImageError;
 use pyo3::{PyErr, create_exception, exceptions::PyException};
 
 create_exception!(noisefall, NoisefallError, PyException, "Base class of the errors of this module.");

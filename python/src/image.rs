@@ -1,11 +1,8 @@
 //! Rendered images and their figures.
 use std::{path::PathBuf, sync::Arc};
 
-use noisefall::{
-    Camera, Display, Frame, Reference, RenderSettings, Scene, ToneMap, image_file,
-    render::{Status, settings_text::settings_text},
-    to_srgb,
-};
+use noisefall::{Camera, Display, Frame, Reference, RenderSettings, Scene, ToneMap, image_file, to_srgb};
+use noisefall_render::render::{Status, settings_text::settings_text};
 use numpy::{PyArray1, PyArray3, PyArrayMethods};
 use pyo3::{exceptions::PyValueError, prelude::*};
 use serde_json::json;

@@ -17,7 +17,7 @@ use pyo3::prelude::*;
 /// Renders scenes: see the module `noisefall`.
 #[pymodule]
 mod _noisefall {
-    use noisefall::scene::{ShippedScene, description::SceneDescription};
+    use noisefall_scene::scene::{ShippedScene, description::SceneDescription};
     use pyo3::prelude::*;
 
     #[pymodule_export]
@@ -33,7 +33,7 @@ mod _noisefall {
     /// The JSON Schema of scene files, as text.
     #[pyfunction]
     fn schema() -> String {
-        noisefall::declare::schema("Noisefall scene", &mut SceneDescription::default()).to_string()
+        noisefall_base::declare::schema("Noisefall scene", &mut SceneDescription::default()).to_string()
     }
 
     /// The names of the scenes that come with the program.

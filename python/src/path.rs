@@ -4,13 +4,11 @@ use std::{
     sync::atomic::{AtomicBool, Ordering},
 };
 
-use noisefall::{
-    CameraRays, RenderSettings, Scene,
-    integrator::{pixel_samples, replay},
-    render::{
-        path_text::{self, PathId},
-        sharing::resolved,
-    },
+use noisefall::{CameraRays, RenderSettings, Scene};
+use noisefall_kernel::integrator::{pixel_samples, replay};
+use noisefall_render::render::{
+    path_text::{self, PathId},
+    sharing::resolved,
 };
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::{exceptions::PyValueError, prelude::*};

@@ -5,6 +5,7 @@ use std::{
 };
 
 use noisefall::{ImportOptions, Opened, Remarks, progress::Progress};
+
 use numpy::PyArray2;
 use pyo3::{exceptions::PyValueError, prelude::*};
 
@@ -34,7 +35,8 @@ pub fn load(
     allow_outside: bool,
 ) -> PyResult<Scene> {
     let progress = Progress::default();
-    let options = ImportOptions { defines, time: at, variant, allow_outside, progress: progress.clone(), ..ImportOptions::default() };
+    let options =
+        ImportOptions { defines, time: at, variant, allow_outside, progress: progress.clone(), ..ImportOptions::default() };
     let opened = interruptible(py, || noisefall::open(&path, &options), &|| progress.cancel())?;
     let Opened { scene, remarks, .. } = opened.map_err(|error| errors::of_scene(&error))?;
     Ok(Scene::new(scene, &remarks))

@@ -1,9 +1,9 @@
 //! Settings of a render, as the options of `noisefall render` state them.
 use std::time::Duration;
 
-use noisefall::{
-    Budget, Camera, Estimator, RenderSettings, Reuse, Roulette, Sampler, Scene, declare::Words, sampling::Directions,
-};
+use noisefall::{Budget, Camera, Estimator, RenderSettings, Reuse, Roulette, Sampler, Scene};
+use noisefall_base::declare::Words;
+use noisefall_scene::sampling::Directions;
 use pyo3::{PyErr, PyResult, exceptions::PyValueError};
 use serde::Deserialize;
 

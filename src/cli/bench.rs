@@ -7,16 +7,16 @@ use std::{
     time::{Duration, Instant},
 };
 
-use noisefall::{
+use noisefall_base::{
     file::{check, replace},
     math::SimdLevel,
-    render::{
-        profile::{CountedRays, PathStage, Profile, StageCost, settings_of},
-        threads::{PassJob, Threads},
-    },
-    report::stack::{Bar, stacked},
-    scene::{Camera, Estimator, RenderSettings, Sharing},
 };
+use noisefall_lab::report::stack::{Bar, stacked};
+use noisefall_render::render::{
+    profile::{CountedRays, PathStage, Profile, StageCost, settings_of},
+    threads::{PassJob, Threads},
+};
+use noisefall_scene::scene::{Camera, Estimator, RenderSettings, Sharing};
 use serde_json::{Value, json};
 
 use super::{

@@ -2,11 +2,9 @@
 //! with it.
 use std::path::PathBuf;
 
-use noisefall::{
-    import::Opened,
-    math::SimdLevel,
-    render::{threads::Threads, truth},
-};
+use noisefall_base::math::SimdLevel;
+use noisefall_formats::import::Opened;
+use noisefall_render::render::{threads::Threads, truth};
 
 use super::{
     messages::{Failure, print},

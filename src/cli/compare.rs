@@ -1,14 +1,14 @@
 //! `noisefall compare`: measures the difference of two images, and whether it exceeds noise.
 use std::{path::PathBuf, process::ExitCode};
 
-use noisefall::{
+use noisefall_base::{
     math::colour::luminance,
-    measure::{Bias, Comparison, Evidence, Floor, compare},
     memory::{Reservation, TooMuch, reserve},
-    render::{
-        Display, Frame,
-        image_file::{Format, Picture},
-    },
+};
+use noisefall_kernel::measure::{Bias, Comparison, Evidence, Floor, compare};
+use noisefall_render::render::{
+    Display, Frame,
+    image_file::{Format, Picture},
 };
 
 use serde_json::json;

@@ -5,11 +5,11 @@ use std::{
     sync::Arc,
 };
 
-use noisefall::{
+use noisefall_formats::{
     export::{self, ExportSource, Exported},
     import::Opened,
-    scene::describe,
 };
+use noisefall_scene::scene::describe;
 
 use super::{
     messages::{Failure, print, wrong_usage},

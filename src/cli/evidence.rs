@@ -2,12 +2,9 @@
 use std::{path::PathBuf, process::ExitCode, sync::atomic::Ordering, time::Duration};
 
 use indicatif::{ProgressBar, ProgressStyle};
-use noisefall::{
-    file::replace,
-    math::SimdLevel,
-    render::threads::Threads,
-    study::{CSV, EvidencePlan, Machine, Store, StudyError, StudyScene, collect, reserve_chapter},
-};
+use noisefall_base::{file::replace, math::SimdLevel};
+use noisefall_lab::study::{CSV, EvidencePlan, Machine, Store, StudyError, StudyScene, collect, reserve_chapter};
+use noisefall_render::render::threads::Threads;
 
 use super::{
     folder,

@@ -1,10 +1,8 @@
 //! Figures under the names that `render --json`, `compare --json` and `study.csv` share. `docs/figures.schema.json` describes
 //! them.
-use noisefall::{
-    measure::{Bias, Comparison},
-    render::settings_text::on_or_off,
-    scene::RenderSettings,
-};
+use noisefall_kernel::measure::{Bias, Comparison};
+use noisefall_render::render::settings_text::on_or_off;
+use noisefall_scene::scene::RenderSettings;
 use serde_json::{Map, Value, json};
 
 pub type Figures = Map<String, Value>;

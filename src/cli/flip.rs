@@ -1,9 +1,9 @@
 //! FLIP: the difference that an observer perceives when alternating between two images.
 //!
 //! P. Andersson et al., "FLIP: A Difference Evaluator for Alternating Images", HPG 2020.
-use noisefall::render::Frame;
+use noisefall_render::render::Frame;
 #[cfg(feature = "flip")]
-use noisefall::render::{Display, tone::to_srgb};
+use noisefall_render::render::{Display, tone::to_srgb};
 
 /// Memory for both images in a perceptually uniform colour space, each with its filtered copies.
 #[cfg(feature = "flip")]

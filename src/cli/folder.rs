@@ -1,7 +1,7 @@
 //! The folder of `-o DIR`.
 use std::path::Path;
 
-use noisefall::file::{check, replace};
+use noisefall_base::file::{check, replace};
 
 use super::messages::{Failure, print};
 

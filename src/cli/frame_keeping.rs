@@ -1,8 +1,8 @@
 //! Checkpoints of a sequence. The frame in progress has one, which is removed when its image is written.
 use std::{path::Path, time::Duration};
 
-use noisefall::{
-    file, quote,
+use noisefall_base::{file, quote};
+use noisefall_render::{
     render::{
         RenderRequest,
         checkpoint::{KeptFile, probe},

@@ -5,22 +5,26 @@ use std::{
 };
 
 use crossbeam_channel::{Receiver, unbounded};
-use noisefall::{
+use noisefall_base::{
     file::{self, numbered},
-    import::Opened,
     progress::Progress,
     quote,
+};
+use noisefall_formats::import::Opened;
+use noisefall_render::{
     render::{
         Budget, RenderRequest,
         checkpoint::{
             EXTENSION, KeepEvent, KeepPlan, KeptFile, KeptRender, file_differences, is_kept_file, keep_scene, kept_header,
-            probe_difference, reopen,
+            probe_difference,
         },
         threads::Threads,
     },
     render_file::{Header, Target},
-    scene::description::SceneDescription,
 };
+use noisefall_scene::scene::description::SceneDescription;
+
+use crate::kept_scene::{choices, reopen};
 
 use super::{
     loading::with_bar,
@@ -69,7 +73,8 @@ pub struct KeptImage<'a> {
 impl KeptImage<'_> {
     /// What the file of a render says about its image. Reads the files that the scene names.
     pub fn header(&self, options: &SceneOptions, budget: &Budget, threads: &Threads) -> Result<Header, Failure> {
-        let scene = keep_scene(&self.request.scene, self.path, &options.import_options(self.size));
+        let choices = choices(self.path, &options.import_options(self.size));
+        let scene = keep_scene(&self.request.scene, self.path, choices);
         let header = kept_header(self.request, scene, self.description, target(budget), threads);
         header.map_err(|error| error.report())
     }

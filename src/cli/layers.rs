@@ -1,15 +1,12 @@
 //! `render --layers`: further channels of an EXR.
-use noisefall::{
-    declare::Words,
-    integrator::{Features, features},
-    math::SimdLevel,
-    render::{
-        Frame,
-        layers::{Channel, Layer, LayerSources, channels},
-        threads::Threads,
-    },
-    scene::{Camera, Scene},
+use noisefall_base::{declare::Words, math::SimdLevel};
+use noisefall_kernel::integrator::{Features, features};
+use noisefall_render::render::{
+    Frame,
+    layers::{Channel, Layer, LayerSources, channels},
+    threads::Threads,
 };
+use noisefall_scene::scene::{Camera, Scene};
 
 use super::{
     messages::{Failure, tell},

@@ -1,8 +1,8 @@
 //! Options that take lists of settings. A study combines the lists.
-use noisefall::{
+use noisefall_lab::study::Lists;
+use noisefall_scene::{
     sampling::{Directions, Sampler},
     scene::{Estimator, Reuse, Roulette},
-    study::Lists,
 };
 
 use super::options::{self as parse, BounceCap};

@@ -7,7 +7,7 @@ use std::{
     time::Duration,
 };
 
-use noisefall::render::{
+use noisefall_render::render::{
     Frame,
     tev::{Tev, TevError, TevStream, check_address},
 };

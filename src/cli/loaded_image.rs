@@ -1,11 +1,9 @@
 //! Images that `noisefall compare` reads.
 use std::{io::Read, path::Path};
 
-use noisefall::{
-    file::open_regular,
-    image::{PNG, looks_like},
-    render::image_file::{Picture, Provenance, provenance, read},
-};
+use noisefall_base::file::open_regular;
+use noisefall_render::render::image_file::{Picture, Provenance, provenance, read};
+use noisefall_scene::image::{PNG, looks_like};
 
 use super::messages::Failure;
 

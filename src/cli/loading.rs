@@ -3,7 +3,7 @@ use std::{thread, time::Duration};
 
 use crossbeam_channel::{RecvTimeoutError, bounded};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use noisefall::progress::Progress;
+use noisefall_base::progress::Progress;
 
 /// Most scenes open faster, and have no bar.
 const DELAY: Duration = Duration::from_millis(500);
@@ -49,7 +49,7 @@ fn show(bar: &ProgressBar, progress: &Progress) {
 
 #[cfg(test)]
 mod tests {
-    use noisefall::progress::Stage;
+    use noisefall_base::progress::Stage;
 
     use super::*;
 

@@ -3,7 +3,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Command;
 use clap_mangen::Man;
-use noisefall::file::replace;
+use noisefall_base::file::replace;
 
 use super::{
     folder,

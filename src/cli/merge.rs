@@ -7,13 +7,11 @@ use std::{
     time::{Duration, Instant},
 };
 
-use noisefall::{
-    file, quote,
-    render::{
-        checkpoint::EXTENSION,
-        image_file::{self, Format},
-        split::{Join, SampleFile, SampleRanges, write},
-    },
+use noisefall_base::{file, quote};
+use noisefall_render::render::{
+    checkpoint::EXTENSION,
+    image_file::{self, Format},
+    split::{Join, SampleFile, SampleRanges, write},
 };
 
 use super::{

@@ -6,7 +6,7 @@ use std::{
     process::ExitCode,
 };
 
-use noisefall::quote;
+use noisefall_base::quote;
 
 /// Error message of a command, of one or several lines.
 pub type Failure = String;

@@ -54,10 +54,8 @@ use std::{
 };
 
 use clap::{CommandFactory, Parser, Subcommand};
-use noisefall::{
-    declare::nearest,
-    scene::{ShippedScene, description::SceneDescription},
-};
+use noisefall_base::declare::nearest;
+use noisefall_scene::scene::{ShippedScene, description::SceneDescription};
 
 pub use self::messages::Failure;
 use self::{
@@ -126,7 +124,7 @@ pub fn run() -> ExitCode {
         return wrong_usage(&mistake);
     }
     let arguments = Arguments::try_parse().unwrap_or_else(|error| meant::with_advice(error, &Arguments::command()).exit());
-    arguments.memory.into_iter().for_each(noisefall::memory::set_limit);
+    arguments.memory.into_iter().for_each(noisefall_base::memory::set_limit);
     let succeeded = |()| ExitCode::SUCCESS;
     let done = match arguments.command {
         None => window(arguments.scene, &arguments.options).map(succeeded),
@@ -158,7 +156,7 @@ pub fn run() -> ExitCode {
 
 /// Prints the JSON Schema, which is generated from the declarations of the scene format.
 fn schema() -> Result<(), Failure> {
-    let schema = noisefall::declare::schema("Noisefall scene", &mut SceneDescription::default());
+    let schema = noisefall_base::declare::schema("Noisefall scene", &mut SceneDescription::default());
     print(&format!("{schema:#}"))
 }
 

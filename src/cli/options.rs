@@ -1,12 +1,10 @@
 //! Parsers of option values.
 use std::{ops::Range, time::Duration};
 
-use noisefall::{
-    declare::Words,
-    measure::Floor,
-    render::{Display, ToneMap, WhiteBalance, image_file::Format},
-    scene::Roulette,
-};
+use noisefall_base::declare::Words;
+use noisefall_kernel::measure::Floor;
+use noisefall_render::render::{Display, ToneMap, WhiteBalance, image_file::Format};
+use noisefall_scene::scene::Roulette;
 
 use super::replay::Which;
 
@@ -223,7 +221,7 @@ pub fn format(text: &str) -> Result<Format, String> {
 
 #[cfg(test)]
 mod tests {
-    use noisefall::{
+    use noisefall_scene::{
         sampling::{Directions, Sampler},
         scene::{Estimator, Reuse},
     };

@@ -7,14 +7,12 @@ use std::{
     process::ExitCode,
 };
 
-use noisefall::{
-    file::{WriteError, replace, save_elsewhere},
-    render::{
-        Display, Frame,
-        checkpoint::is_kept_file,
-        image_file::{Contents, Format, ImageError, check_target},
-        layers::Channel,
-    },
+use noisefall_base::file::{WriteError, replace, save_elsewhere};
+use noisefall_render::render::{
+    Display, Frame,
+    checkpoint::is_kept_file,
+    image_file::{Contents, Format, ImageError, check_target},
+    layers::Channel,
 };
 
 use super::messages::{Failure, print, tell};
@@ -183,7 +181,7 @@ mod tests {
         let (reason, rescued) = error.split_once("\nthe image was saved as ").expect("it is saved");
         assert!(reason.contains("there is no folder"), "{error}");
         let rescued = Path::new(rescued.strip_suffix(" instead").expect("the end of the message"));
-        assert_eq!(noisefall::render::image_file::read(rescued).expect("it is a picture").radiance, [[1.0; 3]]);
+        assert_eq!(noisefall_render::render::image_file::read(rescued).expect("it is a picture").radiance, [[1.0; 3]]);
         assert!(rescued.starts_with(std::env::temp_dir()));
         std::fs::remove_file(rescued).expect("it is there");
     }

@@ -13,14 +13,12 @@ use std::{
 use crossbeam_channel::Receiver;
 
 use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
-use noisefall::{
-    quote,
-    render::{
-        Budget, Published, RenderRequest, Status,
-        checkpoint::{KeepEvent, KeptRender},
-        still::StillRenderer,
-        threads::Threads,
-    },
+use noisefall_base::quote;
+use noisefall_render::render::{
+    Budget, Published, RenderRequest, Status,
+    checkpoint::{KeepEvent, KeptRender},
+    still::StillRenderer,
+    threads::Threads,
 };
 
 use super::{

@@ -1,13 +1,11 @@
 //! Memory of `noisefall render`, reserved before the render begins.
-use noisefall::{
-    integrator::Features,
-    memory::{Reservation, TooMuch},
-    render::{
-        checkpoint, denoise,
-        film::Film,
-        halves::Halves,
-        layers::{self, Layer},
-    },
+use noisefall_base::memory::{Reservation, TooMuch};
+use noisefall_kernel::integrator::Features;
+use noisefall_render::render::{
+    checkpoint, denoise,
+    film::Film,
+    halves::Halves,
+    layers::{self, Layer},
 };
 
 /// Reserves the memory that an image takes beside that of the worker: for its layers, for the surfaces in them, and for denoising.

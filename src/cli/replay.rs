@@ -1,16 +1,14 @@
 //! `noisefall render --pixel X,Y --sample N`: prints one path vertex by vertex, or a table of the samples of a pixel.
 use std::path::Path;
 
-use noisefall::{
-    file::replace,
-    integrator::{pixel_samples, replay},
-    render::{
-        path_samples::{self, SampleTable},
-        path_text::{self, PathId},
-        sharing::resolved,
-    },
-    scene::{Camera, CameraRays, RenderSettings, Scene},
+use noisefall_base::file::replace;
+use noisefall_kernel::integrator::{pixel_samples, replay};
+use noisefall_render::render::{
+    path_samples::{self, SampleTable},
+    path_text::{self, PathId},
+    sharing::resolved,
 };
+use noisefall_scene::scene::{Camera, CameraRays, RenderSettings, Scene};
 
 use super::messages::{Failure, print, tell};
 

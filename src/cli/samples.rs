@@ -8,9 +8,9 @@ use std::{
 };
 
 use indicatif::{ProgressBar, ProgressStyle};
-use noisefall::{
-    file,
-    import::ImportOptions,
+use noisefall_base::file;
+use noisefall_formats::import::ImportOptions;
+use noisefall_render::{
     render::{
         Display, RenderRequest,
         checkpoint::{counters, keep_scene, kept_header},
@@ -22,8 +22,10 @@ use noisefall::{
         threads::{PassJob, Threads},
     },
     render_file::{Header, ImageFacts, Kind, Target},
-    scene::{RenderSettings, Scene, description::SceneDescription},
 };
+use noisefall_scene::scene::{RenderSettings, Scene, description::SceneDescription};
+
+use crate::kept_scene::choices;
 
 use super::{
     messages::{Failure, tell},
@@ -138,7 +140,7 @@ impl SampleJob {
     }
 
     fn header(&self, request: &RenderRequest) -> Result<Header, Failure> {
-        let kept = keep_scene(&self.scene, &self.scene_path, &self.import);
+        let kept = keep_scene(&self.scene, &self.scene_path, choices(&self.scene_path, &self.import));
         let header = kept_header(request, kept, self.description.as_deref(), Target::default(), &self.threads);
         header.map_err(|error| error.report())
     }

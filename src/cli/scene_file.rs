@@ -1,10 +1,8 @@
 //! Scene arguments: files of any format, and the options of those of other programs.
 use std::path::Path;
 
-use noisefall::{
-    import::{self, ImportOptions, Opened, Remarks, is_foreign},
-    quote,
-};
+use noisefall_base::quote;
+use noisefall_formats::import::{self, ImportOptions, Opened, Remarks, is_foreign};
 
 use super::{
     loading::with_bar,

@@ -1,11 +1,8 @@
 //! `noisefall scenes`: lists the scenes that are part of the program, or writes their files.
 use std::path::{Path, PathBuf};
 
-use noisefall::{
-    declare::nearest,
-    file::replace,
-    scene::{ShippedScene, describe},
-};
+use noisefall_base::{declare::nearest, file::replace};
+use noisefall_scene::scene::{ShippedScene, describe};
 
 use super::{
     folder,

@@ -4,10 +4,8 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use noisefall::{
-    file::numbered,
-    scene::{Camera, CameraSequence},
-};
+use noisefall_base::file::numbered;
+use noisefall_scene::scene::{Camera, CameraSequence};
 
 use super::{
     messages::{Failure, tell},

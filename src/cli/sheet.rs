@@ -2,15 +2,17 @@
 use std::{path::PathBuf, process::ExitCode, sync::atomic::Ordering, time::Duration};
 
 use indicatif::{ProgressBar, ProgressStyle};
-use noisefall::{
+use noisefall_base::{
     file::{check, replace},
     math::SimdLevel,
     memory::reserve,
-    render::{film::Film, image_file::Format, threads::Threads, tone::to_srgb},
+};
+use noisefall_lab::{
     report::sheet::{self, Cell},
-    scene::{Camera, RenderSettings},
     study::{Bench, Lists, StudyError, differing_labels, study_size},
 };
+use noisefall_render::render::{film::Film, image_file::Format, threads::Threads, tone::to_srgb};
+use noisefall_scene::scene::{Camera, RenderSettings};
 
 use super::{
     lists::{ListOptions, item},
@@ -149,7 +151,7 @@ fn cells(arguments: &Arguments, bench: &Bench, combinations: &[RenderSettings], 
 #[cfg(test)]
 mod tests {
     use clap::Parser;
-    use noisefall::scene::{Reuse, built_in};
+    use noisefall_scene::scene::{Reuse, built_in};
 
     use super::*;
 

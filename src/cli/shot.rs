@@ -1,14 +1,12 @@
 //! One image of `noisefall render`: rendered, written, and reported.
 use std::{path::Path, process::ExitCode, sync::Arc, time::Instant};
 
-use noisefall::{
-    import::Remarks,
-    render::{
-        Display, Frame, Published, RenderRequest, State, Status, checkpoint::MIXED_KEY, denoise, pass::SampleId,
-        replay_command::replay_command, settings_text::settings_text, threads::Threads, truth::Reference,
-    },
-    scene::{Camera, RenderSettings, Scene},
+use noisefall_formats::import::Remarks;
+use noisefall_render::render::{
+    Display, Frame, Published, RenderRequest, State, Status, checkpoint::MIXED_KEY, denoise, pass::SampleId,
+    replay_command::replay_command, settings_text::settings_text, threads::Threads, truth::Reference,
 };
+use noisefall_scene::scene::{Camera, RenderSettings, Scene};
 
 use super::{
     layers::Layers,

@@ -1,8 +1,8 @@
 //! The image of exact sums: written, and reported. It is the same whether the sums come from one render or from joined files.
 use std::process::ExitCode;
 
-use noisefall::{
-    quote,
+use noisefall_base::quote;
+use noisefall_render::{
     render::{
         Display, Frame, Status,
         checkpoint::is_kept_file,
@@ -10,9 +10,8 @@ use noisefall::{
         split::{NoSamples, SampleRanges, SplitPicture},
     },
     render_file::{Counters, Header},
-    sampling::Sampler,
-    scene::Sharing,
 };
+use noisefall_scene::{sampling::Sampler, scene::Sharing};
 use serde_json::{Value, json};
 
 use super::{

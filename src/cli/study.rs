@@ -7,15 +7,15 @@ use std::{
 };
 
 use indicatif::{ProgressBar, ProgressStyle};
-use noisefall::{
-    math::SimdLevel,
-    measure::Floor,
-    render::threads::Threads,
+use noisefall_base::math::SimdLevel;
+use noisefall_kernel::measure::Floor;
+use noisefall_lab::study::{
+    CSV, Findings, Lists, Machine, Plan, Progress, Store, Study, StudyError, StudyScene, html, label, reserve, table, verdict,
+};
+use noisefall_render::render::threads::Threads;
+use noisefall_scene::{
     sampling::{Directions, Sampler},
     scene::{Estimator, Roulette},
-    study::{
-        CSV, Findings, Lists, Machine, Plan, Progress, Store, Study, StudyError, StudyScene, html, label, reserve, table, verdict,
-    },
 };
 
 use super::{

@@ -1,8 +1,6 @@
 //! The triangle of bidirectional path tracing: an image of every strategy (s, t).
-use noisefall::{
-    report::sheet::Cell,
-    scene::{RenderSettings, Scene, Strategy},
-};
+use noisefall_lab::report::sheet::Cell;
+use noisefall_scene::scene::{RenderSettings, Scene, Strategy};
 
 use super::messages::Failure;
 
@@ -50,7 +48,7 @@ mod tests {
 
     #[test]
     fn rows_are_as_long_as_the_last_one() {
-        let scene = noisefall::scene::built_in();
+        let scene = noisefall_scene::scene::built_in();
         let settings = strategies(&scene, RenderSettings::default(), 2, true).expect("lights and diffuse surfaces");
         let names: Vec<_> = settings.iter().filter_map(label).collect();
         assert_eq!(names[..3], ["s = 0, t = 2", "s = 0, t = 3", "s = 1, t = 2"]);
@@ -64,7 +62,7 @@ mod tests {
     #[test]
     fn a_scene_without_light_paths_says_why() {
         let text = "format = 1\n[camera]\neye = [0, 0, 1]\nlook_at = [0, 0, 0]\nfov = 40\nresolution = [8, 8]\n";
-        let scene = noisefall::scene::parse("dark.toml", text.to_owned()).expect("a scene without light");
+        let scene = noisefall_scene::scene::parse("dark.toml", text.to_owned()).expect("a scene without light");
         let error = strategies(&scene, RenderSettings::default(), 2, true).expect_err("no light");
         assert!(error.contains("no strategies") && error.contains("light"), "{error}");
     }

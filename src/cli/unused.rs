@@ -1,8 +1,6 @@
 //! Notes on settings that a render does not use.
-use noisefall::{
-    render::{sharing::resolved, threads::Threads},
-    scene::{CameraRays, RenderSettings, Reuse, Scene},
-};
+use noisefall_render::render::{sharing::resolved, threads::Threads};
+use noisefall_scene::scene::{CameraRays, RenderSettings, Reuse, Scene};
 
 use super::messages::tell;
 

@@ -4,10 +4,8 @@ use std::{
     time::Instant,
 };
 
-use noisefall::{
-    file::replace,
-    validate::{Effort, FailedScene, Section, Suite, Validation, csv, drawings, html, json, reference_names},
-};
+use noisefall_base::file::replace;
+use noisefall_lab::validate::{Effort, FailedScene, Section, Suite, Validation, csv, drawings, html, json, reference_names};
 
 use super::{
     folder,

@@ -4,13 +4,10 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use noisefall::{
-    declare::key_of_file,
-    quote,
-    render::{
-        checkpoint::is_kept_file,
-        split::{Join, SampleFile, SampleFileError},
-    },
+use noisefall_base::{declare::key_of_file, quote};
+use noisefall_render::render::{
+    checkpoint::is_kept_file,
+    split::{Join, SampleFile, SampleFileError},
 };
 
 use super::messages::{Failure, tell};

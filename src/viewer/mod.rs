@@ -18,10 +18,8 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 pub use app::App;
 pub use background::{opened_scene::GivenScene, preferences::Preferences};
-use noisefall::{
-    math::SimdLevel,
-    render::{pass::panic_message, threads::Threads},
-};
+use noisefall_base::math::SimdLevel;
+use noisefall_render::render::{pass::panic_message, threads::Threads};
 use panels::window::{all_but_one, cores};
 
 const ICON: &[u8] = include_bytes!("../../assets/icon.png");

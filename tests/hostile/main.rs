@@ -30,7 +30,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use noisefall::memory::set_limit;
+use noisefall_base::memory::set_limit;
 use rand::{Rng, SeedableRng, rngs::SmallRng};
 
 use self::{

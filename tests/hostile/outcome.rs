@@ -1,16 +1,16 @@
 //! Reads a file as the program would.
 use std::{fs, path::Path};
 
-use noisefall::{
+use noisefall_formats::import::{self, ImportOptions};
+use noisefall_lab::study::Store;
+use noisefall_render::render::{
+    checkpoint::KeptFile,
+    split::{Join, JoinError, SampleFile},
+};
+use noisefall_scene::{
     image::{Encoding, read as read_picture},
-    import::{self, ImportOptions},
     model::Model,
-    render::{
-        checkpoint::KeptFile,
-        split::{Join, JoinError, SampleFile},
-    },
     scene::{CameraPath, built_in, describe, load},
-    study::Store,
 };
 
 use super::bases::Reader;

@@ -2,9 +2,8 @@
 use std::{ops::ControlFlow, path::Path, sync::Arc};
 
 use crossbeam_channel::unbounded;
-use noisefall::{
-    import::ImportOptions,
-    math::SimdLevel,
+use noisefall_base::math::SimdLevel;
+use noisefall_render::{
     render::{
         Budget, Display, Frame, RenderRequest,
         checkpoint::{KeepPlan, keep_scene, kept_header},
@@ -15,14 +14,14 @@ use noisefall::{
         threads::{PassJob, Threads},
     },
     render_file::{Header, ImageFacts, Kind, Target},
-    scene::{Camera, RenderSettings, Reuse},
 };
+use noisefall_scene::scene::{Camera, RenderSettings, Reuse};
 
 use super::bases::{Base, Reader, Structure};
 
 /// An image of two tiles.
 fn request() -> RenderRequest {
-    let scene = Arc::new(noisefall::scene::built_in());
+    let scene = Arc::new(noisefall_scene::scene::built_in());
     let camera = Camera { resolution: [40, 9], ..scene.camera };
     let settings = RenderSettings { adaptive: true, reuse: Reuse::Off, ..scene.settings };
     RenderRequest { scene, camera, settings }
@@ -34,7 +33,7 @@ fn threads() -> Threads {
 
 fn header(folder: &Path, target: Target) -> Header {
     let request = request();
-    let kept = keep_scene(&request.scene, &folder.join("a.toml"), &ImportOptions::default());
+    let kept = keep_scene(&request.scene, &folder.join("a.toml"), None);
     kept_header(&request, kept, None, target, &threads()).expect("it names no files")
 }
 

@@ -5,7 +5,7 @@ use std::{
     process::{Command, Output},
 };
 
-use noisefall::{
+use noisefall_render::{
     render::split::{SampleFile, SampleFileError, write},
     render_file::Header,
 };

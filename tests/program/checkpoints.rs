@@ -7,7 +7,7 @@ use std::{
     time::Duration,
 };
 
-use noisefall::render::{checkpoint::KeptFile, image_file::SETTINGS_KEY};
+use noisefall_render::render::{checkpoint::KeptFile, image_file::SETTINGS_KEY};
 use rand::{Rng, SeedableRng, rngs::SmallRng};
 
 use crate::command_line::{Shell, json, scene, text};

@@ -1,10 +1,8 @@
 //! `noisefall compare`: error, bias with its standard error, FLIP and difference images.
 use std::fs;
 
-use noisefall::{
-    measure::exact::{furnace, furnace_capped, furnace_capped_variance},
-    render::{Display, Frame, image_file},
-};
+use noisefall_kernel::measure::exact::{furnace, furnace_capped, furnace_capped_variance};
+use noisefall_render::render::{Display, Frame, image_file};
 use serde_json::Value;
 
 use super::command_line::{Shell, scene, text};

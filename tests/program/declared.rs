@@ -1,10 +1,10 @@
 //! The declarations of the scene format: manual, schema, writer, and ranges.
 use std::{fs, path::Path};
 
-use noisefall::{
-    declare::{CountRange, Declare, Dice, Parameter, Parameters, Range, Textured, Value, check, manual, schema, write},
-    scene::{describe, description::SceneDescription},
+use noisefall_base::declare::{
+    CountRange, Declare, Dice, Parameter, Parameters, Range, Textured, Value, check, manual, schema, write,
 };
+use noisefall_scene::scene::{describe, description::SceneDescription};
 use rand::{SeedableRng, rngs::SmallRng};
 
 use super::json_schema::fits;

@@ -1,7 +1,7 @@
 //! `render --denoise`.
 use std::fs;
 
-use noisefall::render::{
+use noisefall_render::render::{
     denoise::LABEL,
     image_file::{provenance, read},
 };

@@ -6,18 +6,18 @@ use std::{
 };
 
 use glam::DVec3;
-use noisefall::{
+use noisefall_base::{
     declare::{Dice, OneOf, Parameters, Precision},
     math::SimdLevel,
-    render::{
-        Frame,
-        film::Film,
-        threads::{PassJob, Threads},
-    },
-    scene::{
-        Camera, RenderSettings, Reuse, Scene, describe,
-        description::{EmissionDescription, SceneDescription, Transform},
-    },
+};
+use noisefall_render::render::{
+    Frame,
+    film::Film,
+    threads::{PassJob, Threads},
+};
+use noisefall_scene::scene::{
+    Camera, RenderSettings, Reuse, Scene, describe,
+    description::{EmissionDescription, SceneDescription, Transform},
 };
 use rand::{Rng, SeedableRng, rngs::SmallRng};
 

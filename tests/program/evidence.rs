@@ -86,7 +86,7 @@ fn the_chapter_of_the_furnace_finds_what_is_known_of_it() {
     assert!(read("bias_of_roulette.tex").contains("\\begin{tabular}{lrrrrrl}"));
     // The corner of the first image with a cap has radiance 1.
     let corner = || {
-        let sheet = noisefall::render::image_file::read(&shell.path("out/pictures_by_cap.png")).expect("a picture");
+        let sheet = noisefall_render::render::image_file::read(&shell.path("out/pictures_by_cap.png")).expect("a picture");
         sheet.radiance[12 * sheet.width as usize + 12][0]
     };
     assert!((corner() - 1.0).abs() < 2e-3, "{}", corner());

@@ -2,15 +2,19 @@
 use std::{fs, path::Path, sync::Arc};
 
 use glam::DVec3;
-use noisefall::{
+use noisefall_base::{
     declare::{Assets, Precision},
+    math::SimdLevel,
+};
+use noisefall_formats::{
     export::{ExportSource, write},
     import,
+};
+use noisefall_render::render::{image_file::read, threads::Threads};
+use noisefall_scene::{
     light::background::image::Image as Sky,
     material::Lambertian,
-    math::SimdLevel,
     model::Model,
-    render::{image_file::read, threads::Threads},
     scene::{
         Scene,
         description::{SceneDescription, Transform},
@@ -62,14 +66,14 @@ fn in_memory() -> (Arc<SceneDescription>, Assets) {
     let mut scene = SceneDescription { background: Some(background("textures/sky.hdr")), ..SceneDescription::default() };
     (scene.camera.eye, scene.camera.look_at) = (DVec3::new(0.1, 0.2, 2.0), DVec3::ZERO);
     scene.textures.insert("gradient".to_owned(), Image { path: "textures/gradient.png".to_owned(), ..Image::default() }.into());
-    scene.add_material("paint", Lambertian { albedo: noisefall::declare::Textured::Texture("gradient".to_owned()) });
+    scene.add_material("paint", Lambertian { albedo: noisefall_base::declare::Textured::Texture("gradient".to_owned()) });
     let tent = scene.add_object("tent", Mesh { source: MeshSource::File("meshes/tent.ply".to_owned()), smooth: None });
     tent.material = Some("paint".to_owned());
     tent.transform = vec![Transform::Translate(DVec3::new(0.1, 0.0, 1.0 / 7.0))];
     (Arc::new(scene), assets)
 }
 
-fn background(path: &str) -> noisefall::scene::description::BackgroundDescription {
+fn background(path: &str) -> noisefall_scene::scene::description::BackgroundDescription {
     Sky { path: path.to_owned(), ..Sky::default() }.into()
 }
 

@@ -10,11 +10,44 @@ pub type Module = Vec<String>;
 
 pub type Imports = BTreeMap<Module, BTreeSet<Module>>;
 
-pub fn source() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("src")
+/// A file of the source.
+pub struct SourceFile {
+    /// Its path below the folder `src` of its crate, with `/`. No two crates have a module of the same name.
+    pub name: String,
+    pub path: PathBuf,
 }
 
-pub fn source_files(folder: &Path) -> Vec<PathBuf> {
+impl SourceFile {
+    /// Whether it has only tests.
+    pub fn is_test(&self) -> bool {
+        self.name.split('/').any(|part| part == "tests" || part == "tests.rs")
+    }
+
+    /// Its code, as [`code`] cuts it out.
+    pub fn code(&self) -> String {
+        code(&fs::read_to_string(&self.path).expect("source is text"))
+    }
+}
+
+/// The top of the repository.
+fn top() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// All files of the source, crate by crate.
+pub fn source() -> Vec<SourceFile> {
+    let crates = fs::read_dir(top().join("crates")).expect("the folder can be read").map(|entry| entry.expect("an entry").path());
+    let mut folders: Vec<PathBuf> = crates.chain([top().to_owned()]).map(|folder| folder.join("src")).collect();
+    folders.sort();
+    let named = |folder: &PathBuf, path: PathBuf| {
+        let name = path.strip_prefix(folder).expect("it lies there").display().to_string().replace('\\', "/");
+        SourceFile { name, path }
+    };
+    let files = folders.iter().flat_map(|folder| source_files(folder).into_iter().map(|path| named(folder, path)));
+    files.collect()
+}
+
+fn source_files(folder: &Path) -> Vec<PathBuf> {
     let entries = fs::read_dir(folder).expect("the folder can be read").map(|entry| entry.expect("an entry").path());
     let is_source = |path: &PathBuf| path.is_dir() || path.extension().is_some_and(|extension| extension == "rs");
     let entries = entries.filter(is_source);
@@ -23,10 +56,8 @@ pub fn source_files(folder: &Path) -> Vec<PathBuf> {
 
 /// The modules that each module imports. A name that is re-exported counts as an import from where it is defined.
 pub fn imports() -> Imports {
-    let source = source();
-    let is_test = |path: &PathBuf| path.iter().any(|part| part == "tests" || part == "tests.rs");
-    let read = |path: PathBuf| (module(&source, &path), uses(&code(&fs::read_to_string(&path).expect("source is text"))));
-    let files: Files = source_files(&source).into_iter().filter(|path| !is_test(path)).map(read).collect();
+    let files = source().into_iter().filter(|file| !file.is_test());
+    let files: Files = files.map(|file| (module(&file.name), uses(&file.code()))).collect();
     let used = |(from, uses): (&Module, &Vec<Use>)| {
         let paths = uses.iter().filter(|found| !found.exports).filter_map(|found| resolve(&files, from, &found.path));
         (from.clone(), paths.filter(|to| to != from).collect())
@@ -41,9 +72,8 @@ struct Use {
     exports: bool,
 }
 
-fn module(source: &Path, file: &Path) -> Module {
-    let file = file.strip_prefix(source).expect("it lies in the source").with_extension("");
-    let names: Module = file.iter().map(|name| name.to_string_lossy().into_owned()).collect();
+fn module(name: &str) -> Module {
+    let names: Module = name.trim_end_matches(".rs").split('/').map(str::to_owned).collect();
     let is_root = |name: &String| name == "mod" || name == "lib" || name == "main";
     if names.last().is_some_and(is_root) { names[..names.len() - 1].to_vec() } else { names }
 }
@@ -105,7 +135,7 @@ fn expand(tree: &str, before: &[String], found: &mut impl FnMut(Module)) {
 fn resolve(files: &Files, from: &[String], path: &[String]) -> Option<Module> {
     let child = |name: &String| files.contains_key(&[from, std::slice::from_ref(name)].concat());
     let (mut base, mut rest) = match path.first()?.as_str() {
-        "crate" | "noisefall" => (Vec::new(), &path[1..]),
+        root if root == "crate" || root.starts_with("noisefall") => (Vec::new(), &path[1..]),
         "self" => (from.to_vec(), &path[1..]),
         "super" => (from.to_vec(), path),
         _ if child(&path[0]) => (from.to_vec(), path),

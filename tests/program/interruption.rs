@@ -7,7 +7,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use noisefall::render::image_file::{SETTINGS_KEY, read};
+use noisefall_render::render::image_file::{SETTINGS_KEY, read};
 
 use crate::command_line::{Shell, scene, text};
 

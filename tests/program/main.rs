@@ -7,6 +7,7 @@ mod closed_streams;
 mod command_line;
 mod command_notes;
 mod compare;
+mod crates;
 mod declared;
 mod denoising;
 mod edited_scenes;

@@ -2,12 +2,14 @@
 use std::{fs, sync::Arc};
 
 use glam::DVec3;
-use noisefall::{
+use noisefall_base::{
     declare::Textured,
+    math::{F, One, V},
+};
+use noisefall_scene::{
     geometry::Shape,
     light::{Background, Side, background::constant::ConstantRadiance},
     material::{AlphaSource, Conductor, Dielectric, Lambertian, Material, Mirror, Plastic, Reflectance, Roughness, Stage},
-    math::{F, One, V},
     sampling::{Directions, Filter, Sampler},
     scene::{Estimator, Lens, MaterialInstance, Object, Projection, Reuse, Roulette, Scene, Shutter, Truth, parse},
     texture::ColourSource,

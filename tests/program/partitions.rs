@@ -1,9 +1,8 @@
 //! However the samples of an image are split, over ranges, threads and instruction sets, the joined image has the same bytes.
 use std::path::{Path, PathBuf};
 
-use noisefall::{
-    Camera, Display, PassJob, RenderRequest, RenderSettings, Scene, SimdLevel, Threads,
-    import::ImportOptions,
+use noisefall::{Camera, Display, PassJob, RenderRequest, RenderSettings, Scene, SimdLevel, Threads};
+use noisefall_render::{
     render::{
         checkpoint::{keep_scene, kept_header},
         image_file::{Contents, Format},
@@ -11,6 +10,8 @@ use noisefall::{
         split::{Join, SampleFile, SampleFilm, SampleRanges, SplitPicture, write},
     },
     render_file::{Header, ImageFacts, Kind, Target},
+};
+use noisefall_scene::{
     sampling::Sampler,
     scene::{Reuse, Sharing},
 };
@@ -71,7 +72,7 @@ impl Image {
 
     fn header(&self, samples: [u32; 2]) -> Header {
         let (scene, camera, settings) = (self.scene.clone(), self.camera, self.settings);
-        let kept = keep_scene(&scene, Path::new("a.toml"), &ImportOptions::default());
+        let kept = keep_scene(&scene, Path::new("a.toml"), None);
         let threads = Threads::new(1, SimdLevel::best()).expect("a thread");
         let header = kept_header(&RenderRequest { scene, camera, settings }, kept, None, Target::default(), &threads);
         let image = Some(ImageFacts { shares: self.sharing().correlates(), ..ImageFacts::default() });

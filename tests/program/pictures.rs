@@ -1,8 +1,8 @@
 //! Image files.
 use std::fs;
 
-use noisefall::measure::SampleNoise;
-use noisefall::render::{
+use noisefall_kernel::measure::SampleNoise;
+use noisefall_render::render::{
     Display, Frame, ToneMap,
     denoise::LABEL,
     image_file::{SETTINGS_KEY, check_target, provenance, read, save},
@@ -190,13 +190,11 @@ fn a_picture_opens_as_the_scene_that_it_shows() {
 
 #[test]
 fn pictures_whose_scene_cannot_be_used_are_reported() {
-    use noisefall::{
-        render::{Display, Frame},
-        scene::load,
-    };
+    use noisefall_render::render::{Display, Frame};
+    use noisefall_scene::scene::load;
     let folder = tempfile::tempdir().expect("a folder");
     let frame = Frame { width: 1, height: 1, full_resolution: [1, 1], radiance: vec![[1.0; 3]], ..Frame::default() };
-    let scene = noisefall::scene::built_in();
+    let scene = noisefall_scene::scene::built_in();
     let carried = |scene_text: &str, camera: serde_json::Value, roulette: serde_json::Value| {
         let mut settings = serde_json::json!(scene.settings);
         settings["roulette"] = roulette;

@@ -2,10 +2,8 @@
 //! that states the position and the range. `declared.rs` tests those of every declaration.
 use std::{collections::BTreeSet, fs};
 
-use noisefall::{
-    declare::{Choice, Declare, Form, Parameter, Parameters, Value},
-    scene::{SceneError, description::SceneDescription, parse},
-};
+use noisefall_base::declare::{Choice, Declare, Form, Parameter, Parameters, Value};
+use noisefall_scene::scene::{SceneError, description::SceneDescription, parse};
 
 /// A number of the format.
 struct Range {

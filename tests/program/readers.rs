@@ -1,7 +1,5 @@
 //! Files are opened in one place, which refuses what is no regular file; texts of unknown length have a limit.
-use std::fs;
-
-use crate::imports::{code, source, source_files};
+use crate::imports::source;
 
 /// What opens a file for reading, or reads one without limit.
 const READS: [&str; 6] =
@@ -16,14 +14,12 @@ const FOLDER: [&str; 2] = ["import/paths.rs", "import/spelling.rs"];
 
 /// The files of the source whose code has one of these, by their paths.
 fn with(texts: &[&str], within: &str) -> Vec<String> {
-    let source = source();
     let mut found = Vec::new();
-    for path in source_files(&source) {
-        let name = path.strip_prefix(&source).expect("it lies in the source").display().to_string().replace('\\', "/");
-        let is_test = name.contains("tests") || ["file/faults.rs", "export/round_trip.rs"].contains(&name.as_str());
-        if name.starts_with(within) && !is_test {
-            let code = code(&fs::read_to_string(&path).expect("source is text"));
-            found.extend(texts.iter().any(|text| has_word(&code, text)).then_some(name));
+    for file in source() {
+        let is_test = file.name.contains("tests") || ["file/faults.rs", "export/round_trip.rs"].contains(&file.name.as_str());
+        if file.name.starts_with(within) && !is_test {
+            let code = file.code();
+            found.extend(texts.iter().any(|text| has_word(&code, text)).then_some(file.name));
         }
     }
     found.sort();

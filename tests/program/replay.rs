@@ -1,7 +1,7 @@
 //! `render --pixel`: a path as text and LaTeX, and samples as a table.
 use std::fs;
 
-use noisefall::integrator::End;
+use noisefall_kernel::integrator::End;
 
 use super::command_line::{Shell, json, scene, text};
 

@@ -2,12 +2,11 @@
 use std::{fs, path::Path, sync::Arc};
 
 use glam::DVec3;
-use noisefall::{
-    declare::Precision,
+use noisefall_base::{declare::Precision, math::SimdLevel};
+use noisefall_render::render::threads::Threads;
+use noisefall_scene::{
     light::background::{constant::Constant, image::Image},
     material::{Dielectric, Lambertian, Roughness},
-    math::SimdLevel,
-    render::threads::Threads,
     scene::{
         Scene,
         description::{BackgroundDescription, SceneDescription, Transform},

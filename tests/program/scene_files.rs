@@ -4,7 +4,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use noisefall::{
+use noisefall_scene::{
     sampling::{Directions, Sampler},
     scene::{BUILT_IN, Roulette, SceneError, Truth, built_in, load, parse},
 };
@@ -238,7 +238,7 @@ fn a_scene_that_cannot_show_anything_says_so() {
 
 #[test]
 fn flip_turns_the_emitting_side_and_two_sided_has_both() {
-    use noisefall::light::Side;
+    use noisefall_scene::light::Side;
     let side = |emission: &str, flip: &str| {
         let text = GOOD.replace("emission = { radiance = [1.0, 2.0, 3.0] }", &format!("emission = {emission}\n{flip}"));
         parse("test.toml", text).expect("it is good").objects[0].emission.map(|emission| emission.side)

@@ -1,7 +1,7 @@
 //! Messages about invalid scene files: plain words, with a position, and of readable length.
 use std::{fs, path::Path};
 
-use noisefall::scene::{load, parse};
+use noisefall_scene::scene::{load, parse};
 
 use super::scene_files::{GOOD, error, refuses};
 

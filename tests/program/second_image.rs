@@ -5,9 +5,11 @@ use std::{
 };
 
 use crossbeam_channel::{Receiver, Sender, bounded, unbounded};
-use noisefall::{
-    math::SimdLevel,
-    render::{Budget, Publish, Published, Region, RenderRequest, RenderTask, Renderer, State, threads::Threads},
+use noisefall_base::math::SimdLevel;
+use noisefall_render::render::{
+    Budget, Publish, Published, Region, RenderRequest, RenderTask, Renderer, State, threads::Threads,
+};
+use noisefall_scene::{
     sampling::Directions,
     scene::{Camera, Estimator, RenderSettings, Reuse, Scene, built_in, load},
 };

@@ -1,7 +1,7 @@
 //! Layers, turntables and camera paths on the command line.
 use std::fs;
 
-use noisefall::render::image_file::read;
+use noisefall_render::render::image_file::read;
 
 use crate::command_line::{Shell, scene, text};
 

@@ -1,5 +1,5 @@
 //! Shapes and transforms in scene files.
-use noisefall::{
+use noisefall_scene::{
     geometry::Shape,
     scene::{Scene, parse},
 };

@@ -170,9 +170,10 @@ fn references_are_files_where_there_are_some() {
     let report = |folder: &str| fs::read_to_string(shell.path(folder).join("report.html")).expect("a report");
     assert!(report("out").contains("sky.ref.exr, which itself has an estimated error of"));
     // A file of another program, or of an older version of this one.
-    let picture = noisefall::render::image_file::read(&shell.path("sky.ref.exr")).expect("a picture");
-    let frame = noisefall::render::Frame { width: 20, height: 10, radiance: picture.radiance, ..Default::default() };
-    noisefall::render::image_file::save(&frame, Default::default(), "{}", &shell.path("foreign.exr")).expect("it is saved");
+    let picture = noisefall_render::render::image_file::read(&shell.path("sky.ref.exr")).expect("a picture");
+    let frame = noisefall_render::render::Frame { width: 20, height: 10, radiance: picture.radiance, ..Default::default() };
+    noisefall_render::render::image_file::save(&frame, Default::default(), "{}", &shell.path("foreign.exr"))
+        .expect("it is saved");
     let foreign =
         shell.run(&[&["study", "sky.toml", "-o", "foreign", "--reference", "foreign.exr", "--floor", "0.5"], &few[..]].concat());
     let told = text(&foreign.stdout);

@@ -1,7 +1,7 @@
 //! Images in tev while they are rendered.
 use std::{net::TcpListener, sync::Arc, time::Duration};
 
-use noisefall::render::{
+use noisefall_render::render::{
     Frame,
     image_file::read,
     tev::{Tev, TevStream},
@@ -70,7 +70,7 @@ fn the_command_shows_its_image_in_tev_and_writes_the_same_radiance() {
     let done = shell.run(&[&["render", &spheres, "--tev", &server.address, "-o", "out.exr"][..], &size].concat());
     assert!(done.status.success() && done.stderr.is_empty(), "{}", text(&done.stderr));
     let packets = server.finish();
-    let title = noisefall::scene::load(spheres.as_ref()).expect("it is a scene").title;
+    let title = noisefall_scene::scene::load(spheres.as_ref()).expect("it is a scene").title;
     assert!(matches!(&packets[0], Packet::Create { name, .. } if *name == title), "{:?}", packets[0]);
     assert_eq!(image(&packets), ([24, 16], read(&shell.path("out.exr")).expect("an image").radiance));
 }

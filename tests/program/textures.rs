@@ -1,7 +1,7 @@
 //! Textures of scene files: their compiled form, and messages about invalid ones.
 use std::{fs, path::Path};
 
-use noisefall::scene::parse;
+use noisefall_scene::scene::parse;
 
 use super::scene_files::{GOOD, error, refuses};
 

@@ -11,7 +11,7 @@ fn schema() -> serde_json::Value {
 }
 
 fn references() -> String {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/references").display().to_string()
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("crates/lab/references").display().to_string()
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Warnings about scenes that are valid but probably not as intended.
 use std::fs;
 
-use noisefall::scene::parse;
+use noisefall_scene::scene::parse;
 
 use super::{
     command_line::{Shell, scene, text},

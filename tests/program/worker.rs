@@ -4,11 +4,11 @@ use std::{
     time::{Duration, Instant},
 };
 
-use noisefall::{
-    math::SimdLevel,
-    render::{Budget, Frame, Publish, Published, RenderRequest, RenderTask, Renderer, State, Target, threads::Threads},
-    scene::{Camera, RenderSettings, Reuse, Roulette, Scene, parse},
+use noisefall_base::math::SimdLevel;
+use noisefall_render::render::{
+    Budget, Frame, Publish, Published, RenderRequest, RenderTask, Renderer, State, Target, threads::Threads,
 };
+use noisefall_scene::scene::{Camera, RenderSettings, Reuse, Roulette, Scene, parse};
 
 /// A scene with an image of one colour: a sphere around the camera that emits and reflects nothing.
 fn plain(radiance: f32, resolution: u32) -> Arc<Scene> {
@@ -100,7 +100,7 @@ fn uninterrupted(request: RenderRequest, spp: u32) -> Vec<[f32; 3]> {
 }
 
 fn noisy() -> RenderRequest {
-    let scene = Arc::new(noisefall::scene::built_in());
+    let scene = Arc::new(noisefall_scene::scene::built_in());
     let camera = Camera { resolution: [320, 200], ..scene.camera };
     RenderRequest { camera, settings: scene.settings, scene }
 }
@@ -209,7 +209,7 @@ fn paths_that_never_end_are_cut_counted_and_reported() {
 
 #[test]
 fn a_panic_in_a_pass_becomes_a_status_with_pixel_sample_and_message() {
-    let mut broken = noisefall::scene::built_in();
+    let mut broken = noisefall_scene::scene::built_in();
     broken.surfaces.rows.truncate(1);
     let scene = Arc::new(broken);
     let renderer = renderer(Publish::Live);
@@ -222,7 +222,7 @@ fn a_panic_in_a_pass_becomes_a_status_with_pixel_sample_and_message() {
     // It fails alone, as it says.
     let settings = RenderSettings { reuse: Reuse::Off, ..scene.settings };
     let rays = scene.rays(&Camera { resolution: failure.resolution, ..camera });
-    let replays = || noisefall::integrator::replay(&scene, &rays, &settings, failure.at.pixel, failure.at.sample);
+    let replays = || noisefall_kernel::integrator::replay(&scene, &rays, &settings, failure.at.pixel, failure.at.sample);
     assert!(std::panic::catch_unwind(std::panic::AssertUnwindSafe(replays)).is_err());
     renderer.submit(2, noisy());
     wait_for(&renderer, "the next picture", |p| p.frame.generation == 2);
@@ -230,8 +230,8 @@ fn a_panic_in_a_pass_becomes_a_status_with_pixel_sample_and_message() {
 
 #[test]
 fn samples_that_are_no_numbers_are_dropped_and_counted_with_the_way_to_replay_them() {
-    use noisefall::light::{Emission, Emitters, Side};
-    let mut broken = noisefall::scene::built_in();
+    use noisefall_scene::light::{Emission, Emitters, Side};
+    let mut broken = noisefall_scene::scene::built_in();
     Arc::get_mut(&mut broken.lights).expect("no other scene has them").emitters = Emitters::new(&[Emission {
         radiance: [1.0, f32::NAN, 1.0],
         mean: [1.0; 3],
@@ -248,6 +248,6 @@ fn samples_that_are_no_numbers_are_dropped_and_counted_with_the_way_to_replay_th
     assert!(done.status.invalid_samples > 0 && done.frame.radiance.len() == 64 * 64);
     assert!(done.frame.radiance.iter().flatten().all(|c| c.is_finite()), "the picture stays finite");
     let first = done.status.first_invalid.expect("the first one is known");
-    let replayed = noisefall::integrator::replay(&scene, &scene.rays(&camera), &scene.settings, first.pixel, first.sample);
+    let replayed = noisefall_kernel::integrator::replay(&scene, &scene.rays(&camera), &scene.settings, first.pixel, first.sample);
     assert!(replayed.radiance[1].is_nan());
 }

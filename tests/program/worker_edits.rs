@@ -5,9 +5,9 @@ use std::{
     time::{Duration, Instant},
 };
 
-use noisefall::{
-    declare::Precision,
-    render::{Budget, EditResult, Frame, Publish, Published, Renderer, SceneEdit, State},
+use noisefall_base::declare::Precision;
+use noisefall_render::render::{Budget, EditResult, Frame, Publish, Published, Renderer, SceneEdit, State};
+use noisefall_scene::{
     scene::{
         Scene,
         description::{EmissionDescription, SceneDescription},

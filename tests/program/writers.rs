@@ -1,7 +1,5 @@
 //! All files are written by the module whose tests make the disk fail.
-use std::{fs, path::Path};
-
-use crate::imports::{code, source, source_files};
+use crate::imports::source;
 
 /// What creates, changes or renames a file.
 const WRITES: [&str; 11] = [
@@ -23,14 +21,10 @@ const WRITERS: [&str; 5] =
 
 #[test]
 fn every_file_is_replaced_whole_by_the_same_module() {
-    let source = source();
-    let is_test = |path: &Path| path.iter().any(|part| part == "tests" || part == "tests.rs");
     let mut found = Vec::new();
-    for path in source_files(&source).into_iter().filter(|path| !is_test(path)) {
-        let text = code(&fs::read_to_string(&path).expect("source is text"));
-        if WRITES.iter().any(|write| text.contains(write)) {
-            found.push(path.strip_prefix(&source).expect("it lies in the source").display().to_string());
-        }
+    for file in source().into_iter().filter(|file| !file.is_test()) {
+        let code = file.code();
+        found.extend(WRITES.iter().any(|write| code.contains(write)).then_some(file.name));
     }
     found.sort();
     let mut writers = WRITERS;
@@ -40,11 +34,9 @@ fn every_file_is_replaced_whole_by_the_same_module() {
 
 #[test]
 fn exports_write_their_files_where_no_link_is_followed() {
-    let source = source();
     let mut with_door = Vec::new();
-    for path in source_files(&source.join("export")) {
-        let name = path.strip_prefix(&source).expect("it lies in the source").display().to_string();
-        let text = code(&fs::read_to_string(&path).expect("source is text"));
+    for file in source().into_iter().filter(|file| file.name.starts_with("export/")) {
+        let (text, name) = (file.code(), file.name);
         // The scene file itself is where the user says.
         let is_around = ["replace_by(", "create_dir"].iter().any(|write| text.contains(write));
         assert!(!is_around || name.contains("tests"), "{name} writes by itself");

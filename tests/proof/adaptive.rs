@@ -1,12 +1,12 @@
 //! Adaptive sampling: the same image with less noise.
-use noisefall::{
-    math::SimdLevel,
-    measure::{Floor, compare},
-    render::{
-        film::Film,
-        frame::Frame,
-        threads::{PassJob, Threads},
-    },
+use noisefall_base::math::SimdLevel;
+use noisefall_kernel::measure::{Floor, compare};
+use noisefall_render::render::{
+    film::Film,
+    frame::Frame,
+    threads::{PassJob, Threads},
+};
+use noisefall_scene::{
     sampling::Sampler,
     scene::{Camera, Estimator, RenderSettings, Scene, load},
 };

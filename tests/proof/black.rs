@@ -1,8 +1,6 @@
 //! Black surfaces: a coat, and the rise of Fresnel's reflectance, remain.
-use noisefall::{
-    measure::exact::fresnel,
-    scene::{Estimator, RenderSettings, Roulette, Scene},
-};
+use noisefall_kernel::measure::exact::fresnel;
+use noisefall_scene::scene::{Estimator, RenderSettings, Roulette, Scene};
 
 use crate::picture::{BLUE, Measure, RED, assert_all_within, picture, scene, settings};
 

@@ -2,11 +2,11 @@
 use std::f64::consts::{FRAC_1_PI, PI};
 
 use glam::{DVec3, Vec3};
-use noisefall::{
-    integrator::{Batch, BothEnds, PathPoint, Replay, Splat, StrategyTerm, TILE, Work, pixel_samples, replay, trace},
-    math::SimdLevel,
-    scene::{Camera, Estimator, RenderSettings, Reuse, Scene},
+use noisefall_base::math::SimdLevel;
+use noisefall_kernel::integrator::{
+    Batch, BothEnds, PathPoint, Replay, Splat, StrategyTerm, TILE, Work, pixel_samples, replay, trace,
 };
+use noisefall_scene::scene::{Camera, Estimator, RenderSettings, Reuse, Scene};
 
 use crate::picture::scene;
 

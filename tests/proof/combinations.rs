@@ -1,7 +1,7 @@
 //! Path, light and mis agree for every pair of features, because features that work alone may fail together.
-use noisefall::{
-    integrator::{Batch, TILE, Work, trace},
-    math::{SimdLevel, colour::luminance},
+use noisefall_base::math::{SimdLevel, colour::luminance};
+use noisefall_kernel::integrator::{Batch, TILE, Work, trace};
+use noisefall_scene::{
     sampling::Sampler,
     scene::{Estimator, RenderSettings, Reuse, Scene},
 };

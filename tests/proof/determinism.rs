@@ -1,14 +1,14 @@
 //! A sample is a pure function of its index: threads, SIMD level, interruptions and replays do not change a bit.
 use std::sync::atomic::{AtomicU32, Ordering};
 
-use noisefall::{
-    integrator::replay,
-    math::SimdLevel,
-    render::{
-        film::Film,
-        frame::Frame,
-        threads::{PassJob, Threads},
-    },
+use noisefall_base::math::SimdLevel;
+use noisefall_kernel::integrator::replay;
+use noisefall_render::render::{
+    film::Film,
+    frame::Frame,
+    threads::{PassJob, Threads},
+};
+use noisefall_scene::{
     sampling::{Directions, Sampler},
     scene::{Camera, Estimator, RenderSettings, Reuse, Roulette, Scene, built_in},
 };
@@ -31,6 +31,7 @@ fn settings(sampler: Sampler, reuse: Reuse) -> RenderSettings {
         adaptive: true,
         seed: 5,
         strategy: None,
+        fault: None,
     }
 }
 

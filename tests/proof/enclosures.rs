@@ -1,6 +1,6 @@
 //! Closed shapes other than spheres: furnaces, darkness, invisible glass, and the view from inside.
-use noisefall::{
-    measure::exact::furnace,
+use noisefall_kernel::measure::exact::furnace;
+use noisefall_scene::{
     sampling::Directions,
     scene::{Estimator, RenderSettings, Roulette, Scene},
 };

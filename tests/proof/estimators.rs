@@ -1,6 +1,6 @@
 //! The estimators agree on every shipped scene. If neither path nor light sampling is good everywhere, MIS is better than
 //! either.
-use noisefall::{
+use noisefall_scene::{
     sampling::Sampler,
     scene::{Camera, Estimator, RenderSettings, Scene, load},
 };

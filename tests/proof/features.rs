@@ -2,9 +2,9 @@
 use std::{path::Path, sync::atomic::AtomicU32, sync::atomic::Ordering};
 
 use glam::{DVec3, Vec3};
-use noisefall::{
-    integrator::{Features, features, replay},
-    math::SimdLevel,
+use noisefall_base::math::SimdLevel;
+use noisefall_kernel::integrator::{Features, features, replay};
+use noisefall_scene::{
     sampling::Filter,
     scene::{Camera, RenderSettings, Scene, Shutter, load},
 };

@@ -2,8 +2,8 @@
 //!
 //! A sample is X = Σ_k ρᵏ w₁ … w_k with independent weights w of mean 1: 2 cos θ for uniform directions, 1 for cosine ones, and
 //! 1/q or 0 for roulette. `measure::exact::furnace_variance` derives Var X.
-use noisefall::{
-    measure::exact::{furnace, furnace_capped, furnace_variance},
+use noisefall_kernel::measure::exact::{furnace, furnace_capped, furnace_variance};
+use noisefall_scene::{
     sampling::{Directions, Sampler},
     scene::{Estimator, RenderSettings, Reuse, Roulette, Scene, load},
 };
@@ -30,6 +30,7 @@ fn settings(directions: Directions) -> RenderSettings {
         adaptive: false,
         seed: 11,
         strategy: None,
+        fault: None,
     }
 }
 

@@ -1,7 +1,7 @@
 //! Glass that absorbs nothing is invisible in a uniform field, whatever its shape, roughness or nesting: a path returns the
 //! radiance 1 wherever it leaves (the furnace for interfaces; the factor η² that radiance gains on entering is lost on leaving).
 //! Surfaces that reflect all light are invisible too.
-use noisefall::scene::{Estimator, RenderSettings, Roulette, Scene};
+use noisefall_scene::scene::{Estimator, RenderSettings, Roulette, Scene};
 
 use crate::{
     picture::{RED, assert_all_within, picture, scene, settings},

@@ -1,13 +1,13 @@
 //! Camera and lamp inside or outside a sphere that does not emit.
 use glam::DVec3;
-use noisefall::{
-    math::SimdLevel,
-    measure::exact::{Lamp, lamberts_ball, mean_over_pixel},
-    render::{
-        estimate::Estimate,
-        film::Film,
-        threads::{PassJob, Threads},
-    },
+use noisefall_base::math::SimdLevel;
+use noisefall_kernel::measure::exact::{Lamp, lamberts_ball, mean_over_pixel};
+use noisefall_render::render::{
+    estimate::Estimate,
+    film::Film,
+    threads::{PassJob, Threads},
+};
+use noisefall_scene::{
     sampling::{Directions, Sampler},
     scene::{Camera, Estimator, RenderSettings, Reuse, Roulette, Scene, load},
 };
@@ -40,6 +40,7 @@ fn render(scene: &Scene, directions: Directions, spp: u32) -> Vec<Estimate> {
         adaptive: true,
         seed: 3,
         strategy: None,
+        fault: None,
     };
     let mut film = Film::new(camera.resolution);
     let threads = Threads::new(2, SimdLevel::best()).expect("two threads can be had");

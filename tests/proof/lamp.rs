@@ -1,10 +1,8 @@
 //! Light from a spherical lamp, above or partly below the horizon, on diffuse ground: ρ E/π with E in closed form.
 use std::f64::consts::PI;
 
-use noisefall::{
-    measure::exact::horizon_sphere_irradiance,
-    scene::{Estimator, RenderSettings, Scene},
-};
+use noisefall_kernel::measure::exact::horizon_sphere_irradiance;
+use noisefall_scene::scene::{Estimator, RenderSettings, Scene};
 
 use crate::{
     picture::{Mean, RED, WITH_CAMERA_PATHS, picture, scene, settings},

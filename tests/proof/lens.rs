@@ -2,7 +2,7 @@
 //! lamp or not, so the mean of n samples of probability p has the variance p (1 − p)/n.
 use std::f64::consts::PI;
 
-use noisefall::scene::Estimator;
+use noisefall_scene::scene::Estimator;
 use statrs::distribution::{ContinuousCDF, Normal};
 
 use crate::{

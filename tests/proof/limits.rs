@@ -1,8 +1,8 @@
 //! The image at an end of a parameter's range is the limit of the images towards that end.
 //!
 //! Both images use the same random numbers, so they differ by the effect of the parameter and hardly by noise.
-use noisefall::{
-    declare::{Choice, Declare, OneOf, Parameter, Parameters, Range, Textured, Value, write},
+use noisefall_base::declare::{Choice, Declare, OneOf, Parameter, Parameters, Range, Textured, Value, write};
+use noisefall_scene::{
     material::{
         Material,
         kinds::{Blend, DiffuseTransmission},

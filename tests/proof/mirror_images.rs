@@ -2,16 +2,14 @@
 //!
 //! Shapes, materials and their parameters, and projections are those of the declarations, so that a new kind is tried without an edit here. A
 //! parameter that has a handedness, such as the rotation of a tangent, must turn the other way in the mirror.
-use noisefall::{
-    declare::{Dice, OneOf},
-    description::{
-        BackgroundDescription, DVec3, Projection, SceneDescription,
-        materials::Material,
-        shapes::{ShapeKind, Transform},
-    },
-    edit::new_text,
-    scene::{Estimator, Scene, describe, parse},
+use noisefall::description::{
+    BackgroundDescription, DVec3, Projection, SceneDescription,
+    materials::Material,
+    shapes::{ShapeKind, Transform},
 };
+use noisefall_base::declare::{Dice, OneOf};
+use noisefall_edit::edit::new_text;
+use noisefall_scene::scene::{Estimator, Scene, describe, parse};
 use rand::{Rng, SeedableRng, rngs::SmallRng};
 
 use crate::picture::{LUMINANCE, Mean, assert_all_within, picture, settings};
@@ -72,7 +70,7 @@ fn block(pixels: &[Mean], x: usize, y: usize) -> Mean {
 fn deviations([plain, mirrored]: &[Scene; 2]) -> Vec<f64> {
     const SPP: u32 = 64;
     let first = picture(plain, settings(Estimator::Mis), LUMINANCE, SPP);
-    let other = noisefall::scene::RenderSettings { seed: 99, ..settings(Estimator::Mis) };
+    let other = noisefall_scene::scene::RenderSettings { seed: 99, ..settings(Estimator::Mis) };
     let second = picture(mirrored, other, LUMINANCE, SPP);
     let [across, down] = RESOLUTION.map(|side| side / BLOCK);
     let of_block = |at: usize| {

@@ -4,10 +4,8 @@
 //! at a right angle. Looking at a: L = L_a + r_a (L_b + r_b L), so that L = (L_a + r_a L_b)/(1 − r_a r_b). With a cap at n
 //! reflections it is the sum of the first n + 1 terms L_a, r_a L_b, r_a r_b L_a, … There is no chance in any of it: every single
 //! sample is that number, by every estimator.
-use noisefall::{
-    measure::exact::{furnace, furnace_capped},
-    scene::{Estimator, RenderSettings, Roulette, Scene},
-};
+use noisefall_kernel::measure::exact::{furnace, furnace_capped};
+use noisefall_scene::scene::{Estimator, RenderSettings, Roulette, Scene};
 
 use crate::{
     picture::{BLUE, GREEN, Measure, RED, picture, scene, settings},

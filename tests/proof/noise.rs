@@ -2,15 +2,15 @@
 //! the bias from stopping at a noise target.
 use std::path::Path;
 
-use noisefall::{
-    math::SimdLevel,
-    measure::{Floor, relative},
-    render::{
-        film::Film,
-        frame::Frame,
-        sharing::resolved,
-        threads::{PassJob, Threads},
-    },
+use noisefall_base::math::SimdLevel;
+use noisefall_kernel::measure::{Floor, relative};
+use noisefall_render::render::{
+    film::Film,
+    frame::Frame,
+    sharing::resolved,
+    threads::{PassJob, Threads},
+};
+use noisefall_scene::{
     sampling::{Directions, Sampler},
     scene::{Camera, Estimator, RenderSettings, Reuse, Roulette, Scene, load},
 };

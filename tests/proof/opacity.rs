@@ -2,16 +2,14 @@
 //!
 //! A surface of opacity α multiplies the light that crosses it by 1 − α and its own light by α. A blend is the mean of its parts by
 //! weight. None of this changes the distribution of directions, so the estimators have the exact means of the scene without it.
-use noisefall::{
-    integrator::{pixel_samples, replay},
-    math::SimdLevel,
-    render::{
-        film::Film,
-        frame::Frame,
-        threads::{PassJob, Threads},
-    },
-    scene::{Camera, Estimator, RenderSettings, Reuse, Roulette, Scene, load},
+use noisefall_base::math::SimdLevel;
+use noisefall_kernel::integrator::{pixel_samples, replay};
+use noisefall_render::render::{
+    film::Film,
+    frame::Frame,
+    threads::{PassJob, Threads},
 };
+use noisefall_scene::scene::{Camera, Estimator, RenderSettings, Reuse, Roulette, Scene, load};
 
 use crate::{
     both_ends::sum,

@@ -1,6 +1,6 @@
 //! Images of scenes in the tests.
-pub use noisefall::measure::{Mean, Measure, Picture, picture};
-use noisefall::{
+pub use noisefall_kernel::measure::{Mean, Measure, Picture, picture};
+use noisefall_scene::{
     sampling::{Directions, Sampler},
     scene::{Estimator, RenderSettings, Reuse, Roulette, Scene, parse},
 };
@@ -28,6 +28,7 @@ pub fn settings(estimator: Estimator) -> RenderSettings {
         // Estimators that are compared with each other share no random numbers.
         seed: 17 + estimator as u32,
         strategy: None,
+        fault: None,
     }
 }
 
@@ -39,7 +40,7 @@ pub const WITH_CAMERA_PATHS: [Estimator; 5] =
 pub const RED: Measure = |radiance| f64::from(radiance[0]);
 pub const GREEN: Measure = |radiance| f64::from(radiance[1]);
 pub const BLUE: Measure = |radiance| f64::from(radiance[2]);
-pub const LUMINANCE: Measure = |[r, g, b, _]| f64::from(noisefall::math::colour::luminance([r, g, b]));
+pub const LUMINANCE: Measure = |[r, g, b, _]| f64::from(noisefall_base::math::colour::luminance([r, g, b]));
 
 /// The number of standard errors that the largest of `count` deviations exceeds as rarely as a single one exceeds [`SIGMAS`]
 /// (Bonferroni's bound).

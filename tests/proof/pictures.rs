@@ -3,13 +3,13 @@
 //! A change that is meant to change images says so in its commit and updates the hashes.
 use std::{collections::BTreeMap, fmt::Write, fs, path::Path};
 
-use noisefall::{
-    math::SimdLevel,
-    render::{
-        film::Film,
-        frame::Frame,
-        threads::{PassJob, Threads},
-    },
+use noisefall_base::math::SimdLevel;
+use noisefall_render::render::{
+    film::Film,
+    frame::Frame,
+    threads::{PassJob, Threads},
+};
+use noisefall_scene::{
     sampling::Sampler,
     scene::{Camera, Estimator, RenderSettings, Reuse, Scene, load},
 };

@@ -3,10 +3,8 @@
 //! Each face reflects R(θ), the mean of both polarisations, and a crossing lets a pass. Of what comes from beyond the plate
 //! (1 − R)² a Σ (R a)²ᵏ arrives, that is (1 − R)/(1 + R) if a = 1; of what comes from the viewer's side R + (1 − R)² R a² Σ (R a)²ᵏ
 //! returns, 2 R/(1 + R) if a = 1 (G. G. Stokes, 1862).
-use noisefall::{
-    measure::exact::fresnel,
-    scene::{Estimator, RenderSettings, Roulette},
-};
+use noisefall_kernel::measure::exact::fresnel;
+use noisefall_scene::scene::{Estimator, RenderSettings, Roulette};
 
 use crate::{
     picture::{RED, picture, scene, settings},

@@ -1,13 +1,10 @@
-//! Images of an independent renderer: means over blocks of 16 × 16 pixels with their standard errors, in `tests/references`.
+//! Images of an independent renderer: means over blocks of 16 × 16 pixels with their standard errors, in `crates/lab/references`.
 //!
 //! `NOISEFALL_REFERENCE_SPP=4096 cargo test --release --test proof references` compares with more samples.
 use std::path::Path;
 
-use noisefall::{
-    sampling::Sampler,
-    scene::RenderSettings,
-    validate::{BlockZScores, block_z_scores},
-};
+use noisefall_lab::validate::{BlockZScores, block_z_scores};
+use noisefall_scene::{sampling::Sampler, scene::RenderSettings};
 
 const SPP: u32 = 256;
 /// Limit for about 800 block means per scene; by chance one in 10⁵ exceeds it.
@@ -15,7 +12,7 @@ const MOST_SIGMAS: f64 = 4.5;
 
 fn agrees(name: &str) {
     let spp = std::env::var("NOISEFALL_REFERENCE_SPP").ok().and_then(|spp| spp.parse().ok()).unwrap_or(SPP);
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/references").join(format!("{name}.toml"));
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("crates/lab/references").join(format!("{name}.toml"));
     let found = block_z_scores(&path, |scene| RenderSettings { sampler: Sampler::Independent, seed: 21, ..scene.settings }, spp);
     let BlockZScores { worst, rms, count, .. } = found.unwrap_or_else(|reason| panic!("{name}: {reason}"));
     println!("{name}, {spp} spp: |z| at most {worst:.2} of {count}, rms {rms:.3}");

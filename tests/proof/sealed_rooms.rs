@@ -1,7 +1,7 @@
 //! Rooms that let no light in: along edges and in corners, where walls meet, rounding must open no gap.
 //!
 //! Walls that are objects of their own are no closed shape: between two of them a ray may find a crack as wide as rounding.
-use noisefall::scene::{Estimator, RenderSettings};
+use noisefall_scene::scene::{Estimator, RenderSettings};
 
 use crate::picture::{RED, picture, scene, settings};
 

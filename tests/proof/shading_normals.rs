@@ -5,12 +5,10 @@
 use std::path::PathBuf;
 
 use glam::{DMat2, DVec2, DVec3, Vec3};
-use noisefall::{
-    integrator::{Features, features},
-    math::SimdLevel,
-    render::{Display, Frame, image_file::save},
-    scene::{Estimator, Scene},
-};
+use noisefall_base::math::SimdLevel;
+use noisefall_kernel::integrator::{Features, features};
+use noisefall_render::render::{Display, Frame, image_file::save};
+use noisefall_scene::scene::{Estimator, Scene};
 
 use crate::{
     picture::{LUMINANCE, picture, scene, settings},

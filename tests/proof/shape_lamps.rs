@@ -3,10 +3,8 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use glam::{DAffine3, DMat3, DVec3};
-use noisefall::{
-    measure::exact::polygon_irradiance,
-    scene::{Estimator, RenderSettings},
-};
+use noisefall_kernel::measure::exact::polygon_irradiance;
+use noisefall_scene::scene::{Estimator, RenderSettings};
 
 use crate::{
     picture::{Mean, RED, WITH_CAMERA_PATHS, picture, scene, settings},

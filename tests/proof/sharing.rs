@@ -1,9 +1,9 @@
 //! Shared paths and bright samples: the image is the same, and the light of a path is distributed without loss.
 use std::{ops::Range, path::Path};
 
-use noisefall::{
-    integrator::{Batch, TILE, Work, thresholds, trace},
-    math::SimdLevel,
+use noisefall_base::math::SimdLevel;
+use noisefall_kernel::integrator::{Batch, TILE, Work, thresholds, trace};
+use noisefall_scene::{
     sampling::{Directions, Sampler},
     scene::{Camera, Estimator, RenderSettings, Reuse, Roulette, Scene, built_in, load},
 };

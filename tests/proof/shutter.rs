@@ -1,9 +1,7 @@
 //! The shutter: moving objects are visible at the times when it is open, and at no others.
-use noisefall::{
-    integrator::{features, replay},
-    math::SimdLevel,
-    scene::{Estimator, RenderSettings, Reuse, Scene},
-};
+use noisefall_base::math::SimdLevel;
+use noisefall_kernel::integrator::{features, replay};
+use noisefall_scene::scene::{Estimator, RenderSettings, Reuse, Scene};
 
 use crate::picture::{RED, assert_all_within, picture, scene, settings};
 

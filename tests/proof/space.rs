@@ -1,5 +1,5 @@
 //! Meshes, isosurfaces and motion against exact solutions, and against the same shapes in other representations.
-use noisefall::scene::{Estimator, Scene};
+use noisefall_scene::scene::{Estimator, Scene};
 
 use crate::{
     picture::{LUMINANCE, RED, assert_all_within, picture, scene, settings},

@@ -1,5 +1,5 @@
 //! Statistics of samples.
-pub use noisefall::measure::{Moments, samples};
+pub use noisefall_kernel::measure::{Moments, samples};
 
 /// Limit of deviations in these tests, in standard errors.
 pub const SIGMAS: f64 = 4.0;

@@ -7,7 +7,7 @@
 use std::f64::consts::{PI, TAU};
 
 use glam::DVec3;
-use noisefall::scene::{Estimator, Scene, parse};
+use noisefall_scene::scene::{Estimator, Scene, parse};
 
 use crate::{
     picture::{Mean, Picture, RED, picture, settings},

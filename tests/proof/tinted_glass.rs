@@ -3,7 +3,7 @@
 //! Every ray goes through the common centre of the balls, so it hits every surface at a right angle. There R = ((n − 1)/(n + 1))²
 //! of the light is reflected (Fresnel's equations at normal incidence) and 1 − R is transmitted. A distance s transmits a =
 //! transmittanceˢ (Beer's law). A uniform field of radiance 1 surrounds the balls.
-use noisefall::scene::{Estimator, RenderSettings, Roulette};
+use noisefall_scene::scene::{Estimator, RenderSettings, Roulette};
 
 use crate::{
     glass::{O, in_white_light},
@@ -125,12 +125,10 @@ fn a_clear_ball_within_endless_fog_is_clear() {
 
 #[test]
 fn threads_forget_the_media_of_the_scene_before() {
-    use noisefall::{
-        math::SimdLevel,
-        render::{
-            film::Film,
-            threads::{PassJob, Threads},
-        },
+    use noisefall_base::math::SimdLevel;
+    use noisefall_render::render::{
+        film::Film,
+        threads::{PassJob, Threads},
     };
     let scene = |tints: usize| {
         let tint = |i: usize| format!("materials.tint{i}.dielectric = {{ ior = 1.1, transmittance = 0.{i:02} }}\n");

@@ -1,7 +1,7 @@
 //! Lights so small or thin that the rounding of a direction decides whether a ray hits them: E = L A cos θ/d² at any size.
 use std::f64::consts::PI;
 
-use noisefall::scene::{Estimator, RenderSettings, Scene};
+use noisefall_scene::scene::{Estimator, RenderSettings, Scene};
 
 use crate::picture::{RED, assert_all_within, picture, scene, settings};
 

@@ -1,9 +1,7 @@
 //! Vertex colours of meshes, as the view of a triangle whose colour is its barycentric coordinates.
-use noisefall::{
-    integrator::{Features, features},
-    math::SimdLevel,
-    scene::{Estimator, Scene},
-};
+use noisefall_base::math::SimdLevel;
+use noisefall_kernel::integrator::{Features, features};
+use noisefall_scene::scene::{Estimator, Scene};
 
 use crate::picture::{RED, assert_all_within, picture, scene, settings};
 

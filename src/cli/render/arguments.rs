@@ -2,8 +2,8 @@
 use std::{ops::Range, path::PathBuf, time::Duration};
 
 use clap::ArgGroup;
-use noisefall::{
-    render::{image_file::Format, layers::Layer, tev::DEFAULT_ADDRESS},
+use noisefall_render::render::{image_file::Format, layers::Layer, tev::DEFAULT_ADDRESS};
+use noisefall_scene::{
     sampling::{Directions, Sampler},
     scene::{Estimator, Reuse, Roulette},
 };

@@ -4,12 +4,12 @@ use std::{
     sync::Arc,
 };
 
-use noisefall::{
-    import::{Opened, Remarks},
+use noisefall_formats::import::{Opened, Remarks};
+use noisefall_render::{
     render::{checkpoint::is_kept_file, settings_text::options},
     render_file::Header,
-    scene::{Camera, RenderSettings, Scene, description::SceneDescription},
 };
+use noisefall_scene::scene::{Camera, RenderSettings, Scene, description::SceneDescription};
 
 use super::arguments::Arguments;
 use crate::cli::{keeping::Resumed, messages::Failure};
@@ -80,11 +80,10 @@ impl Arguments {
             directions: self.directions.unwrap_or(of_scene.directions),
             roulette: self.roulette.unwrap_or(of_scene.roulette),
             max_bounces: self.max_bounces.map_or(of_scene.max_bounces, |cap| cap.0),
-            count_crossings: of_scene.count_crossings,
             reuse: self.reuse.unwrap_or(of_scene.reuse),
             adaptive: self.adaptive.unwrap_or(of_scene.adaptive),
             seed: self.seed.unwrap_or(of_scene.seed),
-            strategy: of_scene.strategy,
+            ..of_scene
         }
     }
 }

@@ -11,12 +11,12 @@ use std::{
     time::{Duration, Instant},
 };
 
-use noisefall::{
-    math::SimdLevel,
+use noisefall_base::math::SimdLevel;
+use noisefall_render::{
     render::{Budget, RenderRequest, image_file::Format, sharing::resolved, threads::Threads, truth::Reference},
     render_file::Target,
-    scene::{Estimator, RenderSettings, Scene},
 };
+use noisefall_scene::scene::{Estimator, RenderSettings, Scene};
 
 pub use self::arguments::Arguments;
 use self::begin::Begun;

@@ -1,6 +1,6 @@
 //! Options of `noisefall render` in place of those of the scene.
 use clap::Parser;
-use noisefall::{
+use noisefall_scene::{
     sampling::{Directions, Sampler},
     scene::{Estimator, RenderSettings, Reuse, Roulette, built_in},
 };

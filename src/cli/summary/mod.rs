@@ -1,13 +1,11 @@
 //! Summary of a finished image: notes, and a line of text or JSON.
 use std::path::Path;
 
-use noisefall::{
-    import::Remarks,
-    math::SimdLevel,
-    measure::{Bias, Comparison},
-    render::{Frame, State, Status},
-    scene::{Camera, RenderSettings, Scene},
-};
+use noisefall_base::math::SimdLevel;
+use noisefall_formats::import::Remarks;
+use noisefall_kernel::measure::{Bias, Comparison};
+use noisefall_render::render::{Frame, State, Status};
+use noisefall_scene::scene::{Camera, RenderSettings, Scene};
 use serde_json::{Value, json};
 
 use super::{figures, output::Output};
@@ -119,7 +117,7 @@ impl Done<'_> {
             ("threads", json!(self.threads)),
             ("simd", json!(SimdLevel::best().name())),
             ("version", json!(env!("CARGO_PKG_VERSION"))),
-            ("commit", json!(env!("NOISEFALL_COMMIT"))),
+            ("commit", json!(noisefall_render::COMMIT)),
             ("shares", json!(status.sharing.correlates())),
             ("sharing", json!(status.sharing.name())),
             ("adapts", json!(status.adapts)),

@@ -1,11 +1,9 @@
 //! Summaries of images: notes, lines and figures.
 use std::time::Duration;
 
-use noisefall::{
-    import::Remark,
-    render::{Target, image_file::Format},
-    scene::{Roulette, Sharing, built_in},
-};
+use noisefall_formats::import::Remark;
+use noisefall_render::render::{Target, image_file::Format};
+use noisefall_scene::scene::{Roulette, Sharing, built_in};
 
 use super::*;
 
@@ -75,7 +73,7 @@ fn every_figure_stands_under_its_name() {
     let line = said(&of_time, &frame(1.0), settings).json;
     let mut expected = json!({
         "scene": "a.toml", "width": 4, "height": 1, "spp": 2, "mean_spp": 2.5, "stopped_by": "time", "threads": 3,
-        "simd": SimdLevel::best().name(), "version": env!("CARGO_PKG_VERSION"), "commit": env!("NOISEFALL_COMMIT"),
+        "simd": SimdLevel::best().name(), "version": env!("CARGO_PKG_VERSION"), "commit": noisefall_render::COMMIT,
         "estimator": "mis", "directions": "bsdf", "sampler": "sobol", "roulette": "throughput", "roulette_start": 4,
         "max_bounces": 5, "reuse": "auto", "shares": true, "adaptive": "off", "adapts": false, "seed": 8,
         "build_seconds": 0.25, "seconds": 0.5, "paths": 10, "paths_per_second": 20.0, "rays": 77, "mean": [1.0, 2.0, 4.0],

@@ -1,8 +1,8 @@
 //! Adds parts to the scene: shapes and lamps where the image shows a surface, as large as suits what the camera sees there.
 use glam::DVec3;
-use noisefall::{
-    declare::{Declare, Path},
-    edit::{Document, Edit, Placement, Tree},
+use noisefall_base::declare::{Declare, Path};
+use noisefall_edit::edit::{Document, Edit, Placement, Tree};
+use noisefall_scene::{
     material::Material,
     scene::description::MaterialDescription,
     texture::{TextureKind, checker::Checker},

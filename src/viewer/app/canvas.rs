@@ -1,6 +1,6 @@
 //! Joins the canvas and its overlays with the state of the window.
 use egui::{TextureHandle, Ui};
-use noisefall::render::view::Legend;
+use noisefall_render::render::view::Legend;
 
 use super::state::App;
 use crate::viewer::canvas::{

@@ -1,6 +1,6 @@
 //! Commands of the toolbar and of keys.
 use egui::Ui;
-use noisefall::render::State;
+use noisefall_render::render::State;
 
 use super::{front::FrontDialog, state::App};
 use crate::viewer::background::catalogue::SceneRequest;

@@ -1,7 +1,7 @@
 //! Joins the windows over the image with the state of the window.
 use std::path::PathBuf;
 
-use noisefall::{
+use noisefall_scene::{
     material::Material,
     scene::{
         Estimator, RenderSettings, Roulette,

@@ -1,10 +1,8 @@
 //! The display of a frame: the request to the display pipeline, the reference, and black images.
 use std::sync::Arc;
 
-use noisefall::{
-    render::{Frame, RenderRequest, truth::Reference, view::DisplaySettings, view::View},
-    scene::Camera,
-};
+use noisefall_render::render::{Frame, RenderRequest, truth::Reference, view::DisplaySettings, view::View};
+use noisefall_scene::scene::Camera;
 
 use super::state::App;
 use crate::viewer::background::{display_request::BounceTerm, display_request::DisplayRequest};

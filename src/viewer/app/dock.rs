@@ -2,10 +2,8 @@
 use std::sync::Arc;
 
 use egui::{Align, Layout, Panel, ScrollArea, Ui};
-use noisefall::{
-    render::{Frame, RenderRequest, RenderTask},
-    scene::{RenderSettings, Strategy},
-};
+use noisefall_render::render::{Frame, RenderRequest, RenderTask};
+use noisefall_scene::scene::{RenderSettings, Strategy};
 
 use super::state::App;
 use crate::viewer::dialogs::save_target::SaveTarget;

@@ -2,10 +2,8 @@
 use std::path::Path as FilePath;
 
 use glam::DVec3;
-use noisefall::{
-    declare::{OwnedValue, Path, Textured},
-    edit::Edit,
-};
+use noisefall_base::declare::{OwnedValue, Path, Textured};
+use noisefall_edit::edit::Edit;
 
 use super::state::App;
 use crate::viewer::background::dropped::DroppedFile;

@@ -1,8 +1,8 @@
 //! Copies parts of the scene. An object in the place of another one is hard to see and wrong to render, so the pointer moves the copy,
 //! or it is put beside the original.
 use glam::DVec3;
-use noisefall::{
-    edit::Edit,
+use noisefall_edit::edit::Edit;
+use noisefall_scene::{
     scene::{Object, description::LampDescription},
     shape::Transform,
 };

@@ -1,10 +1,8 @@
 //! Edits of the open scene. The worker compiles and renders them. After a drag, the settler compiles the exact scene.
 use std::sync::Arc;
 
-use noisefall::{
-    render::RenderRequest,
-    scene::{Camera, Scene, description::SceneDescription},
-};
+use noisefall_render::render::RenderRequest;
+use noisefall_scene::scene::{Camera, Scene, description::SceneDescription};
 
 use super::state::App;
 use crate::viewer::background::{render_worker::EditedDescription, settler::EditedScene};

@@ -1,11 +1,8 @@
 //! Joins the outliner and the inspector with the document.
 use egui::{RichText, ScrollArea, Ui};
-use noisefall::{
-    declare::{Declare, Family, OneOf, Path},
-    edit::Edit,
-    scene::Camera,
-    texture::TextureKind,
-};
+use noisefall_base::declare::{Declare, Family, OneOf, Path};
+use noisefall_edit::edit::Edit;
+use noisefall_scene::{scene::Camera, texture::TextureKind};
 
 use super::{new_bump::new_bump, scene_editor::SceneEditor, state::App};
 use crate::viewer::background::opened_scene::OpenedScene;

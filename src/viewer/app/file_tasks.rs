@@ -2,7 +2,7 @@
 use std::path::PathBuf;
 
 use crossbeam_channel::Receiver;
-use noisefall::edit::Version;
+use noisefall_edit::edit::Version;
 
 use crate::viewer::background::{
     background_task::BackgroundTask,

@@ -1,7 +1,7 @@
 //! Joins the gizmo with the selected object or lamp: its operations are edits of the document.
 use egui::Ui;
 use glam::DVec3;
-use noisefall::shape::Transform;
+use noisefall_scene::shape::Transform;
 
 use super::{scene_editor::SceneEditor, state::App};
 use crate::viewer::canvas::{

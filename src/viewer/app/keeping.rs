@@ -1,7 +1,7 @@
 //! Keeps the render in a file, and continues from one.
 use std::{path::PathBuf, time::Duration};
 
-use noisefall::{
+use noisefall_render::{
     render::{Budget, checkpoint::MIXED_KEY},
     render_file::Target,
 };

@@ -1,7 +1,7 @@
 //! A new bump map whose bumps have a size that suits the objects with the material.
-use noisefall::{
-    declare::{Path, Step},
-    edit::{Document, Edit, Tree},
+use noisefall_base::declare::{Path, Step};
+use noisefall_edit::edit::{Document, Edit, Tree};
+use noisefall_scene::{
     scene::{Scene, description::Bump},
     texture::{TextureKind, noise::Noise},
 };

@@ -1,8 +1,6 @@
 //! Carries out what the menus of the outliner ask for.
-use noisefall::{
-    declare::{OwnedValue, Path},
-    edit::Edit,
-};
+use noisefall_base::declare::{OwnedValue, Path};
+use noisefall_edit::edit::Edit;
 
 use super::state::App;
 use crate::viewer::panels::{outliner::Action, subject::Subject};

@@ -1,11 +1,9 @@
 //! Follows the files of the open scene: other programs can change them.
 use std::path::Path;
 
-use noisefall::{
-    edit::Outside,
-    import::is_foreign,
-    scene::{SceneError, load},
-};
+use noisefall_edit::edit::Outside;
+use noisefall_formats::import::is_foreign;
+use noisefall_scene::scene::{SceneError, load};
 
 use super::{scene_editor::SceneEditor, state::App};
 use crate::viewer::background::{

@@ -1,10 +1,8 @@
 //! Notices on the image: why it is black, and that the exposure of a scene that was opened does not suit it.
 use egui::Ui;
-use noisefall::{
-    declare::capitalised,
-    render::{Frame, view::View},
-    scene::Camera,
-};
+use noisefall_base::declare::capitalised;
+use noisefall_render::render::{Frame, view::View};
+use noisefall_scene::scene::Camera;
 
 use super::state::App;
 use crate::viewer::background::exposure_meter::misfit;

@@ -1,10 +1,8 @@
 //! Receives what the threads have finished: scenes, references, frames, images, saved files.
 use std::sync::Arc;
 
-use noisefall::{
-    edit::Document,
-    render::{Budget, RenderTask, WhiteBalance},
-};
+use noisefall_edit::edit::Document;
+use noisefall_render::render::{Budget, RenderTask, WhiteBalance};
 
 use super::{file_tasks::OutsideChanges, history::History, scene_editor::SceneEditor, selection::Selection, state::App};
 use crate::viewer::background::{

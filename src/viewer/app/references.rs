@@ -1,7 +1,7 @@
 //! The reference of the image: rendered, taken from the image, or opened.
 use std::path::PathBuf;
 
-use noisefall::{render::RenderRequest, render_file::Target};
+use noisefall_render::{render::RenderRequest, render_file::Target};
 
 use super::state::App;
 use crate::viewer::background::{
@@ -39,7 +39,7 @@ impl App {
     /// Why the image cannot be the reference, if it cannot.
     pub fn why_no_reference(&self) -> Option<String> {
         let worker = &self.background.worker;
-        let is_full = |frame: &noisefall::render::Frame| frame.generation == worker.generation() && !frame.is_coarse();
+        let is_full = |frame: &noisefall_render::render::Frame| frame.generation == worker.generation() && !frame.is_coarse();
         if !self.results.shown.as_deref().is_some_and(|frame| is_full(frame) && frame.spp > 0) {
             return Some("There is no full image yet.".to_owned());
         }

@@ -2,14 +2,12 @@
 use std::sync::Arc;
 
 use egui::{Context, TextureHandle, TextureOptions};
-use noisefall::{
-    measure::LogRatio,
-    render::{
-        Frame, Status,
-        view::{Legend, ZScoreHistogram},
-    },
-    scene::Camera,
+use noisefall_kernel::measure::LogRatio;
+use noisefall_render::render::{
+    Frame, Status,
+    view::{Legend, ZScoreHistogram},
 };
+use noisefall_scene::scene::Camera;
 
 use crate::viewer::background::{
     display_image::{DisplayImage, PixelValues, ReferenceComparison},

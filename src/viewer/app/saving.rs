@@ -4,11 +4,9 @@ use std::{
     sync::Arc,
 };
 
-use noisefall::{
-    file::replace,
-    render::{Frame, image_file::Contents, settings_text::settings_text, view::View},
-    scene::Strategy,
-};
+use noisefall_base::file::replace;
+use noisefall_render::render::{Frame, image_file::Contents, settings_text::settings_text, view::View};
+use noisefall_scene::scene::Strategy;
 
 use super::state::App;
 use crate::viewer::background::{
@@ -120,7 +118,7 @@ fn part(term: &BounceTerm) -> String {
 
 #[cfg(test)]
 mod tests {
-    use noisefall::render::view::DisplaySettings;
+    use noisefall_render::render::view::DisplaySettings;
 
     use super::*;
     use crate::viewer::background::display_request::tests::request;

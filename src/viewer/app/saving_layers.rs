@@ -4,16 +4,14 @@ use std::{
     sync::Arc,
 };
 
-use noisefall::{
-    integrator::{Features, features},
-    math::SimdLevel,
-    render::{
-        Display, Frame, RenderRequest,
-        image_file::Contents,
-        layers::{Layer, LayerSources, channels, reserve},
-        settings_text::settings_text,
-        threads::Threads,
-    },
+use noisefall_base::math::SimdLevel;
+use noisefall_kernel::integrator::{Features, features};
+use noisefall_render::render::{
+    Display, Frame, RenderRequest,
+    image_file::Contents,
+    layers::{Layer, LayerSources, channels, reserve},
+    settings_text::settings_text,
+    threads::Threads,
 };
 
 use super::state::App;

@@ -1,11 +1,9 @@
 //! The open scene as it is edited: its document and the steps that led to it.
 use std::sync::Arc;
 
-use noisefall::{
-    declare::Problem,
-    edit::{Document, Edit, Gesture, History, Outside, Version},
-    scene::description::SceneDescription,
-};
+use noisefall_base::declare::Problem;
+use noisefall_edit::edit::{Document, Edit, Gesture, History, Outside, Version};
+use noisefall_scene::scene::description::SceneDescription;
 
 use crate::viewer::panels::{inspector::Inspector, outliner::Outliner};
 
@@ -121,10 +119,8 @@ impl SceneEditor {
 
 #[cfg(test)]
 mod tests {
-    use noisefall::{
-        declare::{OwnedValue, Path},
-        scene::BUILT_IN,
-    };
+    use noisefall_base::declare::{OwnedValue, Path};
+    use noisefall_scene::scene::BUILT_IN;
 
     use super::*;
 

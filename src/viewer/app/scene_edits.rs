@@ -1,9 +1,7 @@
 //! Edits of the open scene, undo and redo included: the document changes at once, and its image follows.
-use noisefall::{
-    declare::{Problem, capitalised},
-    edit::Edit,
-    scene::description::{ObjectDescription, SceneDescription},
-};
+use noisefall_base::declare::{Problem, capitalised};
+use noisefall_edit::edit::Edit;
+use noisefall_scene::scene::description::{ObjectDescription, SceneDescription};
 
 use super::{scene_editor::SceneEditor, state::App};
 use crate::viewer::panels::subject::Subject;

@@ -2,7 +2,7 @@
 use std::path::Path;
 
 use egui::ViewportCommand;
-use noisefall::render::State;
+use noisefall_render::render::State;
 
 use super::state::App;
 use crate::viewer::dialogs::unsaved::{self, Leaving, UnsavedAnswer};

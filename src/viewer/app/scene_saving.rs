@@ -2,10 +2,8 @@
 use std::path::{Path, PathBuf};
 
 use crossbeam_channel::TryRecvError;
-use noisefall::{
-    declare::{OwnedValue, Path as ParameterPath},
-    edit::{Edit, Version, Written},
-};
+use noisefall_base::declare::{OwnedValue, Path as ParameterPath};
+use noisefall_edit::edit::{Edit, Version, Written};
 
 use super::{file_tasks::PendingSave, state::App};
 use crate::viewer::background::{

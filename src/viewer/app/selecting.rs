@@ -3,7 +3,7 @@ use std::sync::Arc;
 
 use egui::Ui;
 use glam::DVec3;
-use noisefall::render::RenderRequest;
+use noisefall_render::render::RenderRequest;
 
 use super::state::App;
 use crate::viewer::canvas::{framing, picking, picture_area::PictureArea, selection};

@@ -1,5 +1,5 @@
 //! The selected part of the scene.
-use noisefall::shape::Transform;
+use noisefall_scene::shape::Transform;
 
 use crate::viewer::background::outline::OutlineFinder;
 use crate::viewer::canvas::gizmo::Gizmo;

@@ -1,11 +1,9 @@
 //! The session: what the user has requested.
 use std::{path::Path, sync::Arc};
 
-use noisefall::{
-    edit::WindowView,
-    render::{Budget, Frame, RenderRequest, view::DisplaySettings},
-    scene::{Camera, RenderSettings, built_in, description::SceneDescription},
-};
+use noisefall_edit::edit::WindowView;
+use noisefall_render::render::{Budget, Frame, RenderRequest, view::DisplaySettings};
+use noisefall_scene::scene::{Camera, RenderSettings, built_in, description::SceneDescription};
 
 use super::history::{Controls, StopTarget};
 use crate::viewer::background::{earlier_scenes::EarlierScenes, given_reference::GivenReference, opened_scene::OpenedScene};

@@ -1,6 +1,7 @@
 //! Joins the panels at the right and at the bottom with the state of the window.
 use egui::{ScrollArea, Ui};
-use noisefall::{declare::capitalised, render::RenderRequest};
+use noisefall_base::declare::capitalised;
+use noisefall_render::render::RenderRequest;
 
 use super::state::App;
 use crate::viewer::background::{adviser::Adviser, catalogue::SceneRequest, recent};

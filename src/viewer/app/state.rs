@@ -1,7 +1,7 @@
 //! The state of the window.
 use std::path::PathBuf;
 
-use noisefall::render::threads::Threads;
+use noisefall_render::render::threads::Threads;
 
 use super::{
     file_tasks::OutsideChanges, file_tasks::PendingSave, history::History, results::Results, scene_editor::SceneEditor,

@@ -1,7 +1,7 @@
 //! Requests to the render worker.
 use std::time::Duration;
 
-use noisefall::render::{Budget, State};
+use noisefall_render::render::{Budget, State};
 
 use super::state::App;
 use crate::viewer::canvas::interaction::Tool;

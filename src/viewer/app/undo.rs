@@ -1,6 +1,6 @@
 //! Joins the history with the state of the window.
 use egui::Event;
-use noisefall::render::Budget;
+use noisefall_render::render::Budget;
 
 use super::{
     history::{Controls, Gesture, Restored, StopTarget},

@@ -1,7 +1,8 @@
 //! The state of the window itself: tools, tabs and dialogs.
 use std::path::{Path, PathBuf};
 
-use noisefall::{edit::WindowView, render::Region};
+use noisefall_edit::edit::WindowView;
+use noisefall_render::render::Region;
 
 use crate::viewer::background::{progress_keeper::FoundRender, recovery_files::FoundRecovery, sequence_task::SequenceRequest};
 use crate::viewer::canvas::{interaction::Tool, picture_view::PictureView};

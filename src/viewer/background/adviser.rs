@@ -4,11 +4,9 @@ use std::{
     time::Duration,
 };
 
-use noisefall::{
-    math::SimdLevel,
-    render::{RenderRequest, threads::Threads},
-    study::{Advice, advise},
-};
+use noisefall_base::math::SimdLevel;
+use noisefall_lab::study::{Advice, advise};
+use noisefall_render::render::{RenderRequest, threads::Threads};
 
 use super::background_task::BackgroundTask;
 

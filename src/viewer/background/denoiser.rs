@@ -7,13 +7,11 @@ use std::{
     time::Duration,
 };
 
-use noisefall::{
-    math::SimdLevel,
-    render::{
-        Frame,
-        denoise::{denoised, reserve, steps},
-        threads::Threads,
-    },
+use noisefall_base::math::SimdLevel;
+use noisefall_render::render::{
+    Frame,
+    denoise::{denoised, reserve, steps},
+    threads::Threads,
 };
 
 use super::background_task::BackgroundTask;

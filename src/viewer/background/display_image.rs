@@ -1,14 +1,11 @@
 //! Turns frames into screen pixels and compares them with the reference.
 use std::sync::Arc;
 
-use noisefall::{
-    integrator::Features,
-    measure::LogRatio,
-    render::{
-        Frame,
-        truth::Reference,
-        view::{Field, Legend, Scale, Sources, View, ZScoreHistogram, draw},
-    },
+use noisefall_kernel::{integrator::Features, measure::LogRatio};
+use noisefall_render::render::{
+    Frame,
+    truth::Reference,
+    view::{Field, Legend, Scale, Sources, View, ZScoreHistogram, draw},
 };
 
 use super::{
@@ -153,7 +150,7 @@ fn lit(frame: &Frame) -> f32 {
 
 #[cfg(test)]
 mod tests {
-    use noisefall::render::{
+    use noisefall_render::render::{
         Series,
         tone::to_srgb,
         view::{DisplaySettings, View},

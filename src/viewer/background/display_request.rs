@@ -1,11 +1,9 @@
 //! A request to turn frames into screen pixels.
 use std::sync::Arc;
 
-use noisefall::{
-    integrator::Features,
-    render::{Frame, truth::Reference, view::DisplaySettings},
-    scene::Strategy,
-};
+use noisefall_kernel::integrator::Features;
+use noisefall_render::render::{Frame, truth::Reference, view::DisplaySettings};
+use noisefall_scene::scene::Strategy;
 
 /// Frames and how they are displayed.
 #[derive(Clone)]
@@ -83,7 +81,7 @@ impl BounceTerm {
 
 #[cfg(test)]
 pub mod tests {
-    use noisefall::render::view::View;
+    use noisefall_render::render::view::View;
 
     use super::*;
 

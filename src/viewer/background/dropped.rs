@@ -5,8 +5,8 @@ use std::{
 };
 
 use glam::DVec3;
-use noisefall::{
-    file::open_regular,
+use noisefall_base::file::open_regular;
+use noisefall_scene::{
     image::{Encoding, Picture, carried_text, read as read_image},
     model::{Model, read as read_model},
 };

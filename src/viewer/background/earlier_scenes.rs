@@ -1,7 +1,7 @@
 //! The scenes before the edits, for as long as the renderer keeps images of them.
 use std::sync::{Arc, Weak};
 
-use noisefall::scene::{Scene, description::SceneDescription};
+use noisefall_scene::scene::{Scene, description::SceneDescription};
 
 /// Scenes with their descriptions. It keeps no scene in memory by itself.
 #[derive(Default)]
@@ -24,7 +24,7 @@ impl EarlierScenes {
 
 #[cfg(test)]
 mod tests {
-    use noisefall::shape::Sphere;
+    use noisefall_scene::shape::Sphere;
 
     use super::*;
 

@@ -1,5 +1,5 @@
 //! Finds images that lie far outside the range of the display.
-use noisefall::math::colour::luminance;
+use noisefall_base::math::colour::luminance;
 
 /// The image is measured by the means of SIDE × SIDE blocks: noise averages out within them.
 const SIDE: usize = 6;

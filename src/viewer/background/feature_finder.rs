@@ -1,13 +1,10 @@
 //! Finds the first surfaces along camera rays, off the UI thread, while a view shows them.
 use std::sync::Arc;
 
-use noisefall::{
-    integrator::{Features, features},
-    math::SimdLevel,
-    memory::Reservation,
-    render::threads::Threads,
-    scene::{Camera, Scene},
-};
+use noisefall_base::{math::SimdLevel, memory::Reservation};
+use noisefall_kernel::integrator::{Features, features};
+use noisefall_render::render::threads::Threads;
+use noisefall_scene::scene::{Camera, Scene};
 
 use super::background_task::BackgroundTask;
 
@@ -75,7 +72,7 @@ impl FeatureFinder {
 
 #[cfg(test)]
 mod tests {
-    use noisefall::scene::built_in;
+    use noisefall_scene::scene::built_in;
 
     use super::*;
 

@@ -1,12 +1,10 @@
 //! The file of a scene: saves to it, compares it with the document, and finds the files that a scene names.
 use std::path::{Path, PathBuf};
 
-use noisefall::{
-    declare::{Assets, for_each_file},
-    edit::{Document, Outside, Version, Written},
-    export::{self, ExportSource},
-    scene::{description::SceneDescription, load, read_text},
-};
+use noisefall_base::declare::{Assets, for_each_file};
+use noisefall_edit::edit::{Document, Outside, Version, Written};
+use noisefall_formats::export::{self, ExportSource};
+use noisefall_scene::scene::{description::SceneDescription, load, read_text};
 
 /// The file of a document as it is now.
 pub enum FileState {
@@ -93,11 +91,9 @@ pub fn named_files(description: &SceneDescription) -> Vec<PathBuf> {
 
 #[cfg(test)]
 mod tests {
-    use noisefall::{
-        declare::{OwnedValue, Path as ParameterPath},
-        edit::Edit,
-        scene::{BUILT_IN, describe},
-    };
+    use noisefall_base::declare::{OwnedValue, Path as ParameterPath};
+    use noisefall_edit::edit::Edit;
+    use noisefall_scene::scene::{BUILT_IN, describe};
 
     use super::*;
 

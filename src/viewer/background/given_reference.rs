@@ -1,12 +1,12 @@
 //! References that are given by the user: files, and rendered images.
 use std::sync::Arc;
 
-use noisefall::{
-    render::{
-        Frame, RenderRequest,
-        image_file::{Picture, Provenance},
-        truth::Reference,
-    },
+use noisefall_render::render::{
+    Frame, RenderRequest,
+    image_file::{Picture, Provenance},
+    truth::Reference,
+};
+use noisefall_scene::{
     sampling::Sampler,
     scene::{Camera, Scene, Sharing},
 };

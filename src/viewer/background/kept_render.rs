@@ -4,20 +4,19 @@ use std::{
     sync::Arc,
 };
 
+use crate::kept_scene::{choices, reopen};
 use crossbeam_channel::unbounded;
-use noisefall::{
-    import::{ImportOptions, Opened, Remarks},
-    math::SimdLevel,
+use noisefall_base::math::SimdLevel;
+use noisefall_formats::import::{ImportOptions, Opened, Remarks};
+use noisefall_render::{
     render::{
         KeepHandle, RenderRequest,
-        checkpoint::{
-            KeepEvent, KeepPlan, KeptFile, KeptRender, file_differences, keep_scene, kept_header, probe_difference, reopen,
-        },
+        checkpoint::{KeepEvent, KeepPlan, KeptFile, KeptRender, file_differences, keep_scene, kept_header, probe_difference},
         threads::Threads,
     },
     render_file::{Header, Target},
-    scene::{Scene, description::SceneDescription},
 };
+use noisefall_scene::scene::{Scene, description::SceneDescription};
 
 /// A render that continues.
 pub struct OpenedRender {
@@ -77,7 +76,7 @@ impl RenderToKeep {
     /// What the file says about the image. Reads the files that the scene names.
     pub fn header(&self) -> Result<Header, String> {
         let (path, options) = &self.scene;
-        let kept = keep_scene(&self.request.scene, path, options);
+        let kept = keep_scene(&self.request.scene, path, choices(path, options));
         let threads = Threads::new(1, SimdLevel::best()).map_err(|error| error.to_string())?;
         let header = kept_header(&self.request, kept, Some(&self.description), self.target, &threads);
         Ok(Header { remarks: self.remarks.clone(), ..header.map_err(|error| error.report())? })

@@ -4,12 +4,10 @@ use std::{
     sync::Arc,
 };
 
-use noisefall::{
-    edit::{Document, Recovery, Template},
-    import::{self, ImportOptions, Opened, Remarks},
-    render::{checkpoint::is_kept_file, truth::Reference},
-    scene::{BUILT_IN, Scene, ShippedScene, Truth, built_in, description::SceneDescription, parse},
-};
+use noisefall_edit::edit::{Document, Recovery, Template};
+use noisefall_formats::import::{self, ImportOptions, Opened, Remarks};
+use noisefall_render::render::{checkpoint::is_kept_file, truth::Reference};
+use noisefall_scene::scene::{BUILT_IN, Scene, ShippedScene, Truth, built_in, description::SceneDescription, parse};
 
 use super::{
     catalogue::{self, BUILT_IN_NAME},

@@ -1,7 +1,7 @@
 //! The outline of the selected object, from the object ids of the pixels, off the UI thread.
 use std::{ops::Range, sync::Arc};
 
-use noisefall::integrator::Features;
+use noisefall_kernel::integrator::Features;
 
 use super::background_task::BackgroundTask;
 
@@ -95,11 +95,9 @@ impl OutlineFinder {
 
 #[cfg(test)]
 mod tests {
-    use noisefall::{
-        integrator::features,
-        math::SimdLevel,
-        scene::{Camera, built_in},
-    };
+    use noisefall_base::math::SimdLevel;
+    use noisefall_kernel::integrator::features;
+    use noisefall_scene::scene::{Camera, built_in};
 
     use super::*;
 

@@ -4,7 +4,7 @@ use std::{
     thread::JoinHandle,
 };
 
-use noisefall::file::{read_text, replace};
+use noisefall_base::file::{read_text, replace};
 use serde::{Deserialize, Serialize};
 
 const FILE: &str = "window.toml";

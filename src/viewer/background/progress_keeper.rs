@@ -4,7 +4,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use noisefall::render::{KeepHandle, checkpoint::KeptFile};
+use noisefall_render::render::{KeepHandle, checkpoint::KeptFile};
 
 use super::{
     background_task::BackgroundTask,

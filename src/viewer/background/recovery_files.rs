@@ -6,11 +6,9 @@ use std::{
     time::Duration,
 };
 
-use noisefall::{
-    edit::{Document, Recovery, WindowView},
-    file::open_regular,
-    scene::read_text,
-};
+use noisefall_base::file::open_regular;
+use noisefall_edit::edit::{Document, Recovery, WindowView};
+use noisefall_scene::scene::read_text;
 use tempfile::NamedTempFile;
 
 use super::catalogue::in_full;
@@ -125,11 +123,9 @@ pub fn is_in_use(file: &Path) -> bool {
 
 #[cfg(test)]
 pub mod tests {
-    use noisefall::{
-        declare::{OwnedValue, Path as ParameterPath},
-        edit::Edit,
-        scene::BUILT_IN,
-    };
+    use noisefall_base::declare::{OwnedValue, Path as ParameterPath};
+    use noisefall_edit::edit::Edit;
+    use noisefall_scene::scene::BUILT_IN;
 
     use super::*;
 

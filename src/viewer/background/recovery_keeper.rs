@@ -6,7 +6,7 @@ use std::{
 };
 
 use crossbeam_channel::{Receiver, Sender, unbounded};
-use noisefall::edit::{Document, Version, WindowView};
+use noisefall_edit::edit::{Document, Version, WindowView};
 
 use super::{
     background_task::BackgroundTask,

@@ -1,8 +1,6 @@
 //! Reduces images to the pixels of the screen by a box filter in linear light: no line is lost, and noise looks as strong as it is.
-use noisefall::{
-    math::colour::linear_from_srgb,
-    render::{Display, tone::to_srgb},
-};
+use noisefall_base::math::colour::linear_from_srgb;
+use noisefall_render::render::{Display, tone::to_srgb};
 
 /// The size of the texture for a picture: that of the screen where it has fewer pixels, and never more than `most_side`.
 pub fn texture_size(picture: [usize; 2], screen: Option<[u32; 2]>, most_side: usize) -> [usize; 2] {

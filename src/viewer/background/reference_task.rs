@@ -10,8 +10,8 @@ use std::{
 };
 
 use crossbeam_channel::unbounded;
-use noisefall::{
-    math::SimdLevel,
+use noisefall_base::math::SimdLevel;
+use noisefall_render::{
     render::{
         Budget, Frame, Published, RenderRequest, State,
         checkpoint::{EXTENSION, KeepPlan, KeptFile, KeptRender},
@@ -19,6 +19,8 @@ use noisefall::{
         threads::Threads,
     },
     render_file::{Header, sha256},
+};
+use noisefall_scene::{
     sampling::{Directions, Sampler},
     scene::{Estimator, RenderSettings, Reuse, Roulette},
 };
@@ -180,11 +182,9 @@ fn remove_oldest(folder: &Path) {
 
 #[cfg(test)]
 mod tests {
-    use noisefall::{
-        import::ImportOptions,
-        render_file::Target,
-        scene::{Camera, built_in, description::SceneDescription},
-    };
+    use noisefall_formats::import::ImportOptions;
+    use noisefall_render::render_file::Target;
+    use noisefall_scene::scene::{Camera, built_in, description::SceneDescription};
 
     use super::*;
 

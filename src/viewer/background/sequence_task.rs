@@ -8,18 +8,15 @@ use std::{
     },
 };
 
-use noisefall::{
-    file::numbered,
-    math::SimdLevel,
-    render::{
-        Budget, Display, Published, RenderRequest, State,
-        image_file::{Contents, check_target},
-        settings_text::settings_text,
-        still::StillRenderer,
-        threads::Threads,
-    },
-    scene::{Camera, CameraSequence},
+use noisefall_base::{file::numbered, math::SimdLevel};
+use noisefall_render::render::{
+    Budget, Display, Published, RenderRequest, State,
+    image_file::{Contents, check_target},
+    settings_text::settings_text,
+    still::StillRenderer,
+    threads::Threads,
 };
+use noisefall_scene::scene::{Camera, CameraSequence};
 
 use super::background_task::BackgroundTask;
 
@@ -155,7 +152,8 @@ fn write(image: &RenderRequest, display: Display, published: &Published, path: &
 
 #[cfg(test)]
 mod tests {
-    use noisefall::{render::image_file::read, scene::built_in};
+    use noisefall_render::render::image_file::read;
+    use noisefall_scene::scene::built_in;
 
     use super::*;
 

@@ -1,10 +1,8 @@
 //! Compiles an edited scene exactly, off the UI thread, when the drag ends.
 use std::{path::PathBuf, sync::Arc};
 
-use noisefall::{
-    declare::Precision,
-    scene::{Scene, description::SceneDescription},
-};
+use noisefall_base::declare::Precision;
+use noisefall_scene::scene::{Scene, description::SceneDescription};
 
 use super::background_task::BackgroundTask;
 
@@ -73,7 +71,7 @@ mod tests {
         time::{Duration, Instant},
     };
 
-    use noisefall::shape::{Transform, mesh::Mesh};
+    use noisefall_scene::shape::{Transform, mesh::Mesh};
 
     use super::*;
 

@@ -1,7 +1,7 @@
 //! The connection to tev. Connecting and sending are done on other threads.
 use std::sync::Arc;
 
-use noisefall::render::{
+use noisefall_render::render::{
     Frame,
     tev::{DEFAULT_ADDRESS, Tev, TevStream},
 };

@@ -1,10 +1,8 @@
 //! Moves the camera by mouse and keys. It stops where it would see nothing.
 use egui::{Key, Modifiers, PointerButton, Rect, Response};
 use glam::DVec3;
-use noisefall::{
-    integrator::clear_fraction,
-    scene::{Camera, Scene},
-};
+use noisefall_kernel::integrator::clear_fraction;
+use noisefall_scene::scene::{Camera, Scene};
 
 use super::navigation;
 

@@ -1,6 +1,6 @@
 //! Moves the camera so that an object fills the image.
 use glam::DVec3;
-use noisefall::scene::Camera;
+use noisefall_scene::scene::Camera;
 
 use super::projection::pixel_width;
 
@@ -41,7 +41,7 @@ pub fn around(spheres: impl Iterator<Item = (DVec3, f64)> + Clone) -> Option<(DV
 
 #[cfg(test)]
 mod tests {
-    use noisefall::scene::{Projection, built_in};
+    use noisefall_scene::scene::{Projection, built_in};
 
     use super::*;
     use crate::viewer::canvas::projection::project;

@@ -1,9 +1,7 @@
 //! The canvas: zooms and pans the image, moves the camera, marks regions, and reports the pixel under the pointer.
 use egui::{Color32, CursorIcon, PointerButton, Pos2, Rect, Response, Sense};
-use noisefall::{
-    render::Region,
-    scene::{Camera, Scene},
-};
+use noisefall_render::render::Region;
+use noisefall_scene::scene::{Camera, Scene};
 
 use super::{
     drawing::Pictures, drawing::areas, drawing::draw, drawing::is_second, flight, flight::wheel_factor,
@@ -146,7 +144,7 @@ mod tests {
 
     /// The visible parts of two images of 200 × 100 pixels, in points.
     fn seen(split: Split, wipe: f32) -> [Option<Rect>; 2] {
-        let camera = noisefall::scene::built_in().camera;
+        let camera = noisefall_scene::scene::built_in().camera;
         let mut view = PictureView { wipe, ..PictureView::default() };
         let second = Some(TextureId::User(2));
         let pictures = Pictures { first: TextureId::User(1), second, resolution: [200, 100], split };

@@ -1,6 +1,6 @@
 //! Icons of lamps without surface, which no pixel shows.
 use egui::{Color32, Pos2, Stroke, Ui, Vec2};
-use noisefall::scene::{
+use noisefall_scene::scene::{
     Camera,
     description::{LampDescription, SceneDescription},
 };

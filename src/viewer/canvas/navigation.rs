@@ -2,7 +2,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use glam::{DQuat, DVec3};
-use noisefall::scene::Camera;
+use noisefall_scene::scene::Camera;
 
 /// Smallest angle between the view and the vertical, radians.
 const POLE: f64 = 0.02;
@@ -65,7 +65,7 @@ pub fn dolly(camera: &Camera, factor: f64) -> Camera {
 
 #[cfg(test)]
 mod tests {
-    use noisefall::scene::built_in;
+    use noisefall_scene::scene::built_in;
 
     use super::*;
 

@@ -1,6 +1,6 @@
 //! Overlays on the image: the legend of a view, the marked region, the histogram of z-scores.
 use egui::{Align2, Color32, FontId, Pos2, Rect, Stroke, StrokeKind, Ui, Vec2, pos2, vec2};
-use noisefall::render::{
+use noisefall_render::render::{
     Region,
     view::{Legend, Scale, ZScoreHistogram},
 };

@@ -1,7 +1,7 @@
 //! The object and the surface under a pixel.
 use glam::DVec3;
-use noisefall::{
-    integrator::{Vertex, replay},
+use noisefall_kernel::integrator::{Vertex, replay};
+use noisefall_scene::{
     sampling::Filter,
     scene::{Camera, RenderSettings, Scene, Shutter},
 };
@@ -31,7 +31,7 @@ fn first_vertex(scene: &Scene, camera: &Camera, pixel: [u32; 2]) -> Option<Verte
 
 #[cfg(test)]
 mod tests {
-    use noisefall::scene::parse;
+    use noisefall_scene::scene::parse;
 
     use super::*;
 

@@ -1,6 +1,6 @@
 //! Mapping between image pixels and the screen.
 use egui::{Pos2, Rect, Vec2};
-use noisefall::render::Region;
+use noisefall_render::render::Region;
 
 /// Position of an image on the screen.
 #[derive(Clone, Copy, Debug)]

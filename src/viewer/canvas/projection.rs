@@ -1,7 +1,7 @@
 //! Projects points and lines of the scene to the image.
 use egui::{Pos2, Rect};
 use glam::DVec3;
-use noisefall::scene::Camera;
+use noisefall_scene::scene::Camera;
 
 /// In pixels from the upper left corner, as a pinhole in the middle of the lens sees it; `None` behind the camera.
 pub fn project(camera: &Camera, p: DVec3) -> Option<[f32; 2]> {
@@ -54,10 +54,8 @@ pub fn clip(rect: Rect, [from, to]: [Pos2; 2]) -> Option<[Pos2; 2]> {
 
 #[cfg(test)]
 mod tests {
-    use noisefall::{
-        math::{F, One},
-        scene::{Projection, built_in},
-    };
+    use noisefall_base::math::{F, One};
+    use noisefall_scene::scene::{Projection, built_in};
 
     use super::*;
 

@@ -1,9 +1,7 @@
 //! "What should I use here?": the settings that a study recommends.
 use egui::{Align2, Grid, ProgressBar, RichText, ScrollArea, Ui};
-use noisefall::{
-    scene::RenderSettings,
-    study::{Advice, Candidate},
-};
+use noisefall_lab::study::{Advice, Candidate};
+use noisefall_scene::scene::RenderSettings;
 
 use crate::viewer::background::adviser::Adviser;
 use crate::viewer::widgets::{palette::Palette, quotation::with_quotation_marks, style::over_the_picture};

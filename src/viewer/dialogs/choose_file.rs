@@ -1,9 +1,9 @@
 //! The dialog that chooses a file for a value of the scene.
 use std::path::{Path as FilePath, PathBuf};
 
-use noisefall::{
-    declare::{OwnedValue, Path, Step, Textured},
-    edit::{Document, Edit, Tree},
+use noisefall_base::declare::{OwnedValue, Path, Step, Textured};
+use noisefall_edit::edit::{Document, Edit, Tree};
+use noisefall_scene::{
     image::EXTENSIONS,
     texture::{TextureKind, image::Image},
 };

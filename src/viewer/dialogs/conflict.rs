@@ -1,6 +1,6 @@
 //! Asks which version of a scene to keep if another program has changed its file.
 use egui::Ui;
-use noisefall::edit::Outside;
+use noisefall_edit::edit::Outside;
 
 use super::{
     question::{Choice, ask},

@@ -1,6 +1,6 @@
 //! The dialog that asks for the address of tev.
 use egui::{Align, Align2, Button, Layout, RichText, Ui};
-use noisefall::render::tev::{DEFAULT_ADDRESS, check_address};
+use noisefall_render::render::tev::{DEFAULT_ADDRESS, check_address};
 
 use super::question::hold_keyboard;
 use crate::viewer::widgets::path_field::PathField;

@@ -7,10 +7,8 @@ use std::{
 use crossbeam_channel::{Receiver, TryRecvError, unbounded};
 use egui::{Align2, ColorImage, Response, RichText, ScrollArea, Sense, TextureHandle, TextureOptions, Ui, Vec2, vec2};
 use include_dir::{Dir, include_dir};
-use noisefall::{
-    render::{Display, image_file, tone::to_srgb},
-    scene::ShippedScene,
-};
+use noisefall_render::render::{Display, image_file, tone::to_srgb};
+use noisefall_scene::scene::ShippedScene;
 
 use super::question::hold_keyboard;
 use crate::viewer::background::catalogue::{BUILT_IN_NAME, CatalogueEntry, SceneRequest, open_entry};

@@ -1,6 +1,6 @@
 //! The window that says which file is being read.
 use egui::{Align2, ProgressBar, Spinner};
-use noisefall::progress::Progress;
+use noisefall_base::progress::Progress;
 
 use crate::viewer::widgets::style::{elided, over_the_picture};
 

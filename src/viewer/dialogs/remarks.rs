@@ -2,7 +2,7 @@
 use std::path::is_separator;
 
 use egui::{Align2, ScrollArea, style::ScrollStyle};
-use noisefall::import::Remarks;
+use noisefall_formats::import::Remarks;
 
 use crate::viewer::widgets::{quotation::with_quotation_marks, style::over_the_picture};
 

@@ -1,7 +1,8 @@
 //! Files to save, and their names.
 use std::path::{Path, PathBuf, is_separator};
 
-use noisefall::{file, render::image_file::check_target};
+use noisefall_base::file;
+use noisefall_render::render::image_file::check_target;
 
 use crate::viewer::background::catalogue::file_stem;
 

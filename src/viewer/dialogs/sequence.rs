@@ -2,7 +2,9 @@
 use std::path::{Path, PathBuf};
 
 use egui::{Align, Align2, Button, DragValue, Layout, RichText, Ui};
-use noisefall::{file::numbered, render::image_file::check_target, scene::CameraSequence};
+use noisefall_base::file::numbered;
+use noisefall_render::render::image_file::check_target;
+use noisefall_scene::scene::CameraSequence;
 
 use super::question::{Choice, ask, hold_keyboard};
 use crate::viewer::background::sequence_task::ExistingFrames;

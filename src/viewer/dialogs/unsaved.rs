@@ -2,7 +2,7 @@
 use std::path::PathBuf;
 
 use egui::Ui;
-use noisefall::edit::Template;
+use noisefall_edit::edit::Template;
 
 use super::question::{Choice, ask};
 use crate::viewer::background::recovery_files::FoundRecovery;

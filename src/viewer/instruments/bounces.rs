@@ -1,10 +1,8 @@
 //! The bounces instrument: the image as a series, term by term.
 use egui::{Color32, Label, RichText, Sense, Slider, Ui, vec2};
-use noisefall::{
-    integrator::TERMS,
-    render::{Frame, Series, view::View},
-    scene::Strategy,
-};
+use noisefall_kernel::integrator::TERMS;
+use noisefall_render::render::{Frame, Series, view::View};
+use noisefall_scene::scene::Strategy;
 
 use super::strategies;
 

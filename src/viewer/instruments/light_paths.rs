@@ -1,5 +1,5 @@
 //! Paths from lights, which bounces and paths of pixels do not show.
-use noisefall::scene::{RenderSettings, Scene};
+use noisefall_scene::scene::{RenderSettings, Scene};
 
 /// Whether the render takes paths from lights, too. Instruments then show the paths from the camera, as MIS weights them.
 pub fn are_traced(scene: &Scene, settings: &RenderSettings) -> bool {

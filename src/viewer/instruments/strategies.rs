@@ -1,6 +1,6 @@
 //! The image by strategy of bidirectional paths: the triangle of Veach (1997, figure 10.3).
 use egui::{Button, Grid, RichText, Ui, vec2};
-use noisefall::scene::Strategy;
+use noisefall_scene::scene::Strategy;
 
 use crate::viewer::widgets::palette::Palette;
 

@@ -1,7 +1,7 @@
 //! The panel of the camera's numbers.
 use egui::{Button, Label, RichText, vec2};
 use glam::DVec3;
-use noisefall::scene::{Camera, Lens, Scene, description::CameraDescription};
+use noisefall_scene::scene::{Camera, Lens, Scene, description::CameraDescription};
 
 use crate::viewer::widgets::{
     kinds::{kinds, number_rows},

@@ -1,6 +1,6 @@
 //! Exposure, white balance and tone map. None of them restarts the render.
 use egui::{Button, ComboBox, DragValue, Slider, SliderClamping, Ui};
-use noisefall::render::{Display, ToneMap, WhiteBalance};
+use noisefall_render::render::{Display, ToneMap, WhiteBalance};
 
 use crate::viewer::widgets::{
     explained::Explained,

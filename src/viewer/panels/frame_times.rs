@@ -2,7 +2,7 @@
 use std::time::Duration;
 
 use egui::{Align2, RichText};
-use noisefall::scene::CompileReport;
+use noisefall_scene::scene::CompileReport;
 
 use crate::viewer::widgets::counted::counted;
 

@@ -2,7 +2,7 @@
 use std::ops::Range;
 
 use egui::{RichText, Ui};
-use noisefall::{
+use noisefall_scene::{
     geometry::Shape,
     scene::{Object, Scene},
 };
@@ -39,7 +39,7 @@ fn size(object: &Object) -> String {
 
 #[cfg(test)]
 mod tests {
-    use noisefall::scene::parse;
+    use noisefall_scene::scene::parse;
 
     use super::*;
 

@@ -1,11 +1,9 @@
 //! The value under the pointer, with the unit of the displayed view.
-use noisefall::{
-    integrator::Features,
-    math::colour::luminance,
-    render::{
-        Frame,
-        view::{Legend, View},
-    },
+use noisefall_base::math::colour::luminance;
+use noisefall_kernel::integrator::Features;
+use noisefall_render::render::{
+    Frame,
+    view::{Legend, View},
 };
 
 use crate::viewer::background::display_image::PixelValues;
@@ -86,7 +84,7 @@ fn number(number: Option<f32>, legend: &Legend) -> String {
 mod tests {
     use std::sync::Arc;
 
-    use noisefall::render::{colour_map::ColourMap, view::Scale};
+    use noisefall_render::render::{colour_map::ColourMap, view::Scale};
 
     use super::*;
 

@@ -1,6 +1,6 @@
 //! Presets of the estimator: the textbook one for experiments, and the fastest one.
 use egui::Ui;
-use noisefall::scene::{Estimator, RenderSettings, Reuse};
+use noisefall_scene::scene::{Estimator, RenderSettings, Reuse};
 
 use crate::viewer::widgets::style::row;
 
@@ -70,7 +70,7 @@ pub fn show(ui: &mut Ui, settings: &mut RenderSettings) {
 
 #[cfg(test)]
 mod tests {
-    use noisefall::{sampling::Sampler, scene::Roulette};
+    use noisefall_scene::{sampling::Sampler, scene::Roulette};
 
     use super::*;
 

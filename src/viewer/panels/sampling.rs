@@ -1,8 +1,8 @@
 //! The panel of render settings: estimator, sampler, directions, roulette, cap and seed.
 use egui::{Checkbox, ComboBox, RichText, Ui};
-use noisefall::{
-    declare::OneOf,
-    render::Status,
+use noisefall_base::declare::OneOf;
+use noisefall_render::render::Status;
+use noisefall_scene::{
     sampling::Sampler,
     scene::{Estimator, EstimatorInForce, RenderSettings, Reuse, Roulette, Sharing},
 };

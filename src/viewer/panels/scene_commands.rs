@@ -1,11 +1,8 @@
 //! The buttons over the list of parts: they add parts, begin new scenes, and save this one.
 use egui::{Popup, Ui};
-use noisefall::{
-    declare::OneOf,
-    edit::{TEMPLATES, Template},
-    light::lamp::LampKind,
-    shape::ShapeKind,
-};
+use noisefall_base::declare::OneOf;
+use noisefall_edit::edit::{TEMPLATES, Template};
+use noisefall_scene::{light::lamp::LampKind, shape::ShapeKind};
 
 use super::outliner::New;
 use crate::viewer::widgets::list::{closing, explained};

@@ -2,10 +2,8 @@
 use std::time::Duration;
 
 use egui::Ui;
-use noisefall::{
-    render::{Budget, Region},
-    scene::description::RenderDescription,
-};
+use noisefall_render::render::{Budget, Region};
+use noisefall_scene::scene::description::RenderDescription;
 
 use crate::viewer::widgets::{
     number,

@@ -1,6 +1,6 @@
 //! The parts of a scene that can be selected and edited.
-use noisefall::{
-    declare::{Declare, OneOf, Path, Step},
+use noisefall_base::declare::{Declare, OneOf, Path, Step};
+use noisefall_scene::{
     light::lamp::LampKind,
     material::Material,
     scene::{
@@ -116,8 +116,8 @@ impl Subject {
 
 #[cfg(test)]
 mod tests {
-    use noisefall::{
-        edit::Tree,
+    use noisefall_edit::edit::Tree;
+    use noisefall_scene::{
         material::Lambertian,
         scene::description::{BackgroundDescription, LampDescription},
         shape::Sphere,

@@ -1,6 +1,6 @@
 //! The buttons above the image.
 use egui::{Button, Ui};
-use noisefall::scene::RenderSettings;
+use noisefall_scene::scene::RenderSettings;
 
 use crate::viewer::{canvas::interaction::Tool, instruments::compare::menu};
 

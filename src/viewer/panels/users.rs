@@ -1,6 +1,6 @@
 //! The objects that use a material, as buttons that select them.
 use egui::Ui;
-use noisefall::scene::description::SceneDescription;
+use noisefall_scene::scene::description::SceneDescription;
 
 use super::subject::Subject;
 

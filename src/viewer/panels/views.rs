@@ -2,7 +2,7 @@
 use std::sync::Arc;
 
 use egui::{ComboBox, Ui};
-use noisefall::render::{Frame, colour_map::ColourMap, view::View};
+use noisefall_render::render::{Frame, colour_map::ColourMap, view::View};
 
 use crate::viewer::widgets::{
     list::{explained, value_entry},

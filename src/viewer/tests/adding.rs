@@ -1,8 +1,8 @@
 //! New objects are as large as suits the view where they are placed.
 use std::path::Path;
 
-use noisefall::{
-    declare::OneOf,
+use noisefall_base::declare::OneOf;
+use noisefall_scene::{
     light::lamp::LampKind,
     scene::{Object, Scene},
     shape::ShapeKind,
@@ -13,7 +13,7 @@ use crate::viewer::{canvas::projection::project, panels::outliner::New};
 
 /// The template Studio: a ball of 1.2 m on a backdrop of 48 m.
 fn studio() -> Window {
-    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("src/edit/templates/studio.toml");
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("crates/edit/src/edit/templates/studio.toml");
     let mut window = open(Some(path));
     wait(&mut window, "the scene", |app| app.session.opened.is_some());
     window.state_mut().session.camera.resolution = [96, 64];

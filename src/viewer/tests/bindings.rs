@@ -1,8 +1,6 @@
 //! Every control of the panels changes the setting that it names, and no other.
-use noisefall::{
-    render::Region,
-    scene::{Camera, RenderSettings},
-};
+use noisefall_render::render::Region;
+use noisefall_scene::scene::{Camera, RenderSettings};
 
 use super::*;
 

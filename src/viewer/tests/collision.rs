@@ -1,5 +1,6 @@
 //! The camera stops before it would see nothing. If it sees nothing, the image says why and offers a way back.
-use noisefall::{math::colour::luminance, scene::Camera};
+use noisefall_base::math::colour::luminance;
+use noisefall_scene::scene::Camera;
 
 use super::*;
 
@@ -226,7 +227,7 @@ fn home_leads_back_from_everywhere_by_button_and_by_key() {
 #[test]
 fn the_toolbar_is_one_line_in_a_window_of_1280_with_a_region_too() {
     let mut window = window("cornell_spheres");
-    window.state_mut().session.budget.region = Some(noisefall::render::Region::between([10, 10], [40, 40]));
+    window.state_mut().session.budget.region = Some(noisefall_render::render::Region::between([10, 10], [40, 40]));
     window.run_steps(4);
     let labels = ["Pause", "Step", "Restart", "Image", "Clear", "Home", "Fit", "1:1", "Compare with…", "Save…", "Help"];
     let rects = labels.map(|label| window.get_all_by_label(label).next().expect("it is there").rect());

@@ -1,5 +1,5 @@
 //! The comparison of two settings: its sides, its layouts and its menu.
-use noisefall::scene::RenderSettings;
+use noisefall_scene::scene::RenderSettings;
 
 use super::*;
 use crate::viewer::{canvas::drawing::Split, instruments::compare::comparison::CompareLayout};

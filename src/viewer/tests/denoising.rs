@@ -1,5 +1,5 @@
 //! The denoised view.
-use noisefall::render::{denoise::LABEL, view::View};
+use noisefall_render::render::{denoise::LABEL, view::View};
 
 use super::*;
 

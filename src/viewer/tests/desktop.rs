@@ -1,6 +1,6 @@
 //! Features of a desktop program: recent files, full screen, the clipboard, and white balance that can be reset.
 use egui::{OutputCommand, ViewportCommand, ViewportId};
-use noisefall::render::WhiteBalance;
+use noisefall_render::render::WhiteBalance;
 
 use super::*;
 

@@ -1,8 +1,6 @@
 //! Materials and textures are dragged from the list onto objects.
-use noisefall::{
-    declare::{OwnedValue, Path, Textured},
-    edit::Tree,
-};
+use noisefall_base::declare::{OwnedValue, Path, Textured};
+use noisefall_edit::edit::Tree;
 
 use super::{
     edited::{description, edits, select},

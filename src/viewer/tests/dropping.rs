@@ -1,7 +1,7 @@
 //! Meshes, textures and skies are dropped on the window.
-use noisefall::{
-    declare::{OwnedValue, Path, Textured},
-    edit::Tree,
+use noisefall_base::declare::{OwnedValue, Path, Textured};
+use noisefall_edit::edit::Tree;
+use noisefall_scene::{
     light::background::{BackgroundDescription, image::Image},
     material::Material,
     shape::{ShapeKind, mesh::MeshSource},

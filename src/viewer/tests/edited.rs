@@ -1,10 +1,7 @@
 //! Helpers for tests of edits.
-use noisefall::{
-    declare::{OwnedValue, Path},
-    edit::Tree,
-    scene::description::SceneDescription,
-    shape::ShapeKind,
-};
+use noisefall_base::declare::{OwnedValue, Path};
+use noisefall_edit::edit::Tree;
+use noisefall_scene::{scene::description::SceneDescription, shape::ShapeKind};
 
 use super::*;
 

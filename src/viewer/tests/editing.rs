@@ -2,8 +2,8 @@
 use std::sync::Arc;
 
 use egui::pos2;
-use noisefall::{
-    render::{RenderRequest, RenderTask},
+use noisefall_render::render::{RenderRequest, RenderTask};
+use noisefall_scene::{
     scene::{Camera, RenderSettings, built_in, describe, description::SceneDescription, description::Transform},
     shape::mesh::{Knot, Mesh, MeshSource},
 };

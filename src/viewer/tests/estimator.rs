@@ -1,5 +1,6 @@
 //! Panel and status line say which estimator renders, and why.
-use noisefall::{render::RenderTask, scene::Strategy};
+use noisefall_render::render::RenderTask;
+use noisefall_scene::scene::Strategy;
 
 use super::*;
 use crate::viewer::instruments::tabs::InstrumentTab;

@@ -1,7 +1,7 @@
 //! A scene far outside the range of the display offers an exposure, and keeps the one that is chosen.
 use std::path::Path as FilePath;
 
-use noisefall::scene::describe;
+use noisefall_scene::scene::describe;
 
 use super::{scene_files::save, *};
 

@@ -1,7 +1,7 @@
 //! Scenes of other programs in the window: remarks, saving, dropping.
 use std::{path::Path as FilePath, sync::Arc};
 
-use noisefall::import::{Remark, Remarks};
+use noisefall_formats::import::{Remark, Remarks};
 
 use super::*;
 use crate::viewer::dialogs::open::OpenDialog;

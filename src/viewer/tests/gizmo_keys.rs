@@ -1,5 +1,5 @@
 //! Keys move, rotate and scale the selected object.
-use noisefall::shape::ShapeKind;
+use noisefall_scene::shape::ShapeKind;
 
 use crate::viewer::panels::outliner::{Action, New};
 

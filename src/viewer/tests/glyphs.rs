@@ -12,8 +12,10 @@ fn sources(folder: &Path) -> Vec<PathBuf> {
 fn the_fonts_have_every_letter_that_the_window_writes() {
     let mut window = open(None);
     window.run_steps(2);
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-    let folders = ["viewer", "render", "study", "scene", "sampling"].map(|folder| root.join(folder));
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let folders =
+        ["src/viewer", "crates/render/src", "crates/lab/src/study", "crates/scene/src/scene", "crates/scene/src/sampling"]
+            .map(|folder| root.join(folder));
     let mut missing = Vec::new();
     for path in folders.iter().flat_map(|folder| sources(folder)) {
         let text = fs::read_to_string(&path).expect("source is text");

@@ -1,10 +1,8 @@
 //! The instruments: convergence, comparison, bounces, views, region, targets.
 use std::sync::Arc;
 
-use noisefall::{
-    render::{Frame, denoise::LABEL, view::View as Shown},
-    scene::RenderSettings,
-};
+use noisefall_render::render::{Frame, denoise::LABEL, view::View as Shown};
+use noisefall_scene::scene::RenderSettings;
 
 use super::*;
 use crate::viewer::background::display_image::render;

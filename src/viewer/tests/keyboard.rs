@@ -1,6 +1,6 @@
 //! The keyboard belongs to one part of the window at a time, and nothing that is typed is lost.
 use egui::Event;
-use noisefall::render::view::View;
+use noisefall_render::render::view::View;
 
 use super::*;
 use crate::viewer::dialogs::unsaved::Leaving;

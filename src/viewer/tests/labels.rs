@@ -1,11 +1,9 @@
 //! Labels of given figures: each in its place, with its unit.
 use std::sync::Arc;
 
-use noisefall::{
-    measure::LogRatio,
-    render::{Frame, Series, pass::SampleId},
-    scene::{CompileReport, RenderSettings, Sharing, built_in},
-};
+use noisefall_kernel::measure::LogRatio;
+use noisefall_render::render::{Frame, Series, pass::SampleId};
+use noisefall_scene::scene::{CompileReport, RenderSettings, Sharing, built_in};
 
 use super::*;
 use crate::viewer::background::{

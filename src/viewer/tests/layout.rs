@@ -2,10 +2,8 @@
 use std::sync::Arc;
 
 use egui::{Rect, Vec2};
-use noisefall::{
-    import::{Remark, Remarks},
-    scene::RenderSettings,
-};
+use noisefall_formats::import::{Remark, Remarks};
+use noisefall_scene::scene::RenderSettings;
 
 use super::{rasteriser::Blind, *};
 use crate::viewer::background::display_image::ReferenceComparison;
@@ -63,7 +61,7 @@ fn assert_apart(window: &Window, size: Vec2, names: &[&str]) {
 fn toolbar_tabs_and_instruments_fit_a_small_window() {
     for (size, scale) in SIZES {
         let mut window = sized(size, scale);
-        window.state_mut().session.budget.region = Some(noisefall::render::Region::between([4, 4], [40, 40]));
+        window.state_mut().session.budget.region = Some(noisefall_render::render::Region::between([4, 4], [40, 40]));
         for tab in [
             None,
             Some(InstrumentTab::Convergence),
@@ -106,7 +104,7 @@ fn figures_of_the_line_below_end_in_the_window() {
         let mut window = sized(size, scale);
         window.state_mut().session.settings.max_bounces = Some(3);
         wait(&mut window, "figures", |app| app.results.status.spp >= 4);
-        window.state_mut().session.budget.region = Some(noisefall::render::Region::between([4, 4], [40, 40]));
+        window.state_mut().session.budget.region = Some(noisefall_render::render::Region::between([4, 4], [40, 40]));
         window.run_steps(5);
         let labels = window.query_all_by_role(Role::Label);
         let line: Vec<Rect> = labels.map(|label| label.rect()).filter(|rect| rect.top() > size.y - 30.0).collect();

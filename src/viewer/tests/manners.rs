@@ -1,8 +1,6 @@
 //! The window rests when there is nothing to do, uses other threads, and joins moves of a drag; the tour and the gallery.
-use noisefall::{
-    render::{RenderRequest, RenderTask},
-    scene::RenderSettings,
-};
+use noisefall_render::render::{RenderRequest, RenderTask};
+use noisefall_scene::scene::RenderSettings;
 
 use super::*;
 use crate::viewer::instruments::tabs::InstrumentTab;

@@ -1,5 +1,5 @@
 //! Messages and dialogs close one by one.
-use noisefall::render::Region;
+use noisefall_render::render::Region;
 
 use super::*;
 

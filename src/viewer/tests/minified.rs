@@ -1,7 +1,7 @@
 //! An image with more pixels than the screen: every pixel counts.
 use std::sync::Arc;
 
-use noisefall::render::Frame;
+use noisefall_render::render::Frame;
 
 use super::*;
 use crate::viewer::background::{display_image::render, display_request::DisplayRequest};

@@ -74,9 +74,9 @@ use egui_kittest::{
     kittest::{NodeT, Queryable},
 };
 use glam::DVec3;
-use noisefall::{
-    math::SimdLevel,
-    render::{State, Target, ToneMap, image_file, threads::Threads},
+use noisefall_base::math::SimdLevel;
+use noisefall_render::render::{State, Target, ToneMap, image_file, threads::Threads};
+use noisefall_scene::{
     sampling::{Directions, Filter, Sampler},
     scene::{Estimator, Lens, Projection, Reuse, Roulette},
 };

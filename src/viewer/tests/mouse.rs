@@ -1,5 +1,5 @@
 //! Mouse and keys over the image: which way things move, by how much, and with which tool.
-use noisefall::scene::Camera;
+use noisefall_scene::scene::Camera;
 
 use super::*;
 use crate::viewer::{canvas::navigation, instruments::compare::comparison::CompareLayout};
@@ -216,7 +216,7 @@ fn keys_fly_and_turn_and_shift_is_faster() {
 #[test]
 fn pixels_of_a_comparison_are_those_of_the_side_that_they_lie_on() {
     let mut window = window("cornell_spheres");
-    let other = noisefall::scene::RenderSettings { max_bounces: Some(0), ..window.state().session.settings };
+    let other = noisefall_scene::scene::RenderSettings { max_bounces: Some(0), ..window.state().session.settings };
     window.state_mut().start_comparison(other);
     wait(&mut window, "both", |app| app.results.textures[1].is_some() && app.results.second_frame.is_some());
     let over = |window: &mut Window, x: f32| {

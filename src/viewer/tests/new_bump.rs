@@ -1,9 +1,7 @@
 //! A new bump map is visible at once.
-use noisefall::{
-    declare::{OwnedValue, Path},
-    edit::Tree,
-    scene::Scene,
-};
+use noisefall_base::declare::{OwnedValue, Path};
+use noisefall_edit::edit::Tree;
+use noisefall_scene::scene::Scene;
 
 use super::{
     edited::{bits, description, edits, select},
@@ -14,8 +12,9 @@ use super::{
 /// The mean angle between the shading normals of an object in two scenes, degrees.
 fn tilt(window: &Window, [before, after]: [&Scene; 2], object: &str) -> f64 {
     let camera = window.state().session.camera;
-    let [before, after] = [before, after]
-        .map(|scene| noisefall::integrator::features(SimdLevel::best(), scene, &camera, &|| false).expect("they are found"));
+    let [before, after] = [before, after].map(|scene| {
+        noisefall_kernel::integrator::features(SimdLevel::best(), scene, &camera, &|| false).expect("they are found")
+    });
     let dot = |a: [f32; 3], b: [f32; 3]| f64::from(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]);
     let scene = &window.state().session.opened.as_ref().expect("it is open").scene;
     let is_of = |place: &usize| scene.objects.get(before.object[*place] as usize).is_some_and(|found| found.name == object);

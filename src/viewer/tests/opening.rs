@@ -4,7 +4,7 @@ use std::sync::{
     atomic::{AtomicBool, Ordering},
 };
 
-use noisefall::scene::RenderSettings;
+use noisefall_scene::scene::RenderSettings;
 
 use super::*;
 
@@ -21,7 +21,7 @@ fn another_scene_takes_everything_over_and_the_same_one_keeps_the_exposure() {
     let app = window.state_mut();
     app.session.look.display.exposure = 2.0;
     app.window.view.actual_size();
-    app.session.budget = noisefall::render::Budget { paused: true, steps: 7, noise: Some(0.1), ..Default::default() };
+    app.session.budget = noisefall_render::render::Budget { paused: true, steps: 7, noise: Some(0.1), ..Default::default() };
     let other = RenderSettings { seed: 8, ..app.session.settings };
     app.start_comparison(other);
     app.instruments.path.look_at([3, 4]);
@@ -32,7 +32,7 @@ fn another_scene_takes_everything_over_and_the_same_one_keeps_the_exposure() {
     let app = window.state();
     let scene = &app.session.opened.as_ref().expect("it is open").scene;
     assert_eq!((app.session.camera, app.session.settings), (scene.camera, scene.settings));
-    assert_eq!(app.session.budget, noisefall::render::Budget { max_spp: Some(5), steps: 7, ..Default::default() });
+    assert_eq!(app.session.budget, noisefall_render::render::Budget { max_spp: Some(5), steps: 7, ..Default::default() });
     assert!(
         app.session.comparison.is_none()
             && app.session.pinned.is_none()
@@ -70,7 +70,7 @@ fn a_dropped_file_is_a_scene_a_picture_with_its_scene_or_a_reference() {
         app.session.opened.as_ref().is_some_and(|opened| opened.path.as_ref() == Some(&picture))
     });
     let of_picture = window.state().session.opened.as_ref().map(|opened| opened.scene.objects.len());
-    assert_eq!(of_picture, noisefall::scene::load(&shipped("cornell_spheres")).ok().map(|scene| scene.objects.len()));
+    assert_eq!(of_picture, noisefall_scene::scene::load(&shipped("cornell_spheres")).ok().map(|scene| scene.objects.len()));
 }
 
 #[test]

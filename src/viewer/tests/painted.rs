@@ -2,7 +2,7 @@
 use std::sync::Arc;
 
 use egui::{Color32, Rect, Shape, pos2};
-use noisefall::render::{
+use noisefall_render::render::{
     Frame, Region, Series,
     colour_map::ColourMap,
     view::{Legend, Scale, ZScoreHistogram},

@@ -1,9 +1,7 @@
 //! The path inspector: what it shows is what the renderer took.
-use noisefall::{
-    integrator::{Batch, TILE, Work, trace},
-    math::colour::luminance,
-    render::sharing::resolved,
-};
+use noisefall_base::math::colour::luminance;
+use noisefall_kernel::integrator::{Batch, TILE, Work, trace};
+use noisefall_render::render::sharing::resolved;
 
 use super::*;
 use crate::viewer::instruments::tabs::InstrumentTab;
@@ -99,7 +97,8 @@ fn what_is_inspected_is_of_the_picture_as_it_is_now() {
         let app = window.state();
         let scene = &app.session.opened.as_ref().expect("it is open").scene;
         let rays = scene.rays(&app.session.camera);
-        let replay = noisefall::integrator::replay(scene, &rays, &resolved(scene, &rays, &app.session.settings), [31, 25], 2);
+        let replay =
+            noisefall_kernel::integrator::replay(scene, &rays, &resolved(scene, &rays, &app.session.settings), [31, 25], 2);
         assert_eq!(app.instruments.path.replay().map(|(_, shown)| shown.vertices.clone()), Some(replay.vertices));
     }
     // A pixel that the picture has no more is not inspected.

@@ -1,5 +1,5 @@
 //! Sharing and presets: experiments compare what they say they compare.
-use noisefall::scene::{Estimator, RenderSettings, Sharing};
+use noisefall_scene::scene::{Estimator, RenderSettings, Sharing};
 
 use super::*;
 use crate::viewer::{instruments::tabs::InstrumentTab, panels::presets::Preset};

@@ -1,7 +1,7 @@
 //! Renders that are kept, and continued.
 use std::path::Path;
 
-use noisefall::render::checkpoint::KeptFile;
+use noisefall_render::render::checkpoint::KeptFile;
 
 use super::{exports::open_export, *};
 use crate::viewer::background::progress_keeper::ProgressKeeper;

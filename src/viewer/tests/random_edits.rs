@@ -1,9 +1,9 @@
 //! Random edits, undo, saves and changes by other programs: in the end the image is that of the saved file.
-use noisefall::{
-    declare::OneOf,
-    edit::{Document, Tree},
+use noisefall_base::declare::OneOf;
+use noisefall_edit::edit::{Document, Tree};
+use noisefall_render::render::Budget;
+use noisefall_scene::{
     material::Material,
-    render::Budget,
     scene::{RenderSettings, built_in, description::SceneDescription},
     shape::ShapeKind,
 };

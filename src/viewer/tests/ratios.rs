@@ -1,5 +1,8 @@
 //! Comparisons: no winner out of noise, samples of the side under the pointer, and a way to end.
-use noisefall::{integrator::pixel_samples, math::colour::luminance, render::sharing::resolved, scene::RenderSettings};
+use noisefall_base::math::colour::luminance;
+use noisefall_kernel::integrator::pixel_samples;
+use noisefall_render::render::sharing::resolved;
+use noisefall_scene::scene::RenderSettings;
 
 use super::*;
 use crate::viewer::instruments::{compare::comparison::CompareLayout, tabs::InstrumentTab};

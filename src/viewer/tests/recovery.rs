@@ -33,7 +33,7 @@ fn lose(folder: &Path, kept_in: &Path) -> PathBuf {
 
 fn radius(window: &Window) -> f64 {
     let description = window.state().editor.as_ref().expect("a scene is open").document.description();
-    let noisefall::shape::ShapeKind::Sphere(ball) = &description.objects[5].shape else { panic!("it is a ball") };
+    let noisefall_scene::shape::ShapeKind::Sphere(ball) = &description.objects[5].shape else { panic!("it is a ball") };
     ball.radius
 }
 

@@ -1,6 +1,6 @@
 //! References that are rendered, taken from the image, or opened, and the legend of the curves that they are for.
-use noisefall::declare::{OwnedValue, Path};
-use noisefall::edit::Edit;
+use noisefall_base::declare::{OwnedValue, Path};
+use noisefall_edit::edit::Edit;
 
 use super::{edited::edits, *};
 use crate::viewer::instruments::tabs::InstrumentTab;

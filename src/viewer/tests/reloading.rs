@@ -1,5 +1,5 @@
 //! Other programs change the files of the open scene.
-use noisefall::scene::description::SceneDescription;
+use noisefall_scene::scene::description::SceneDescription;
 
 use super::{
     scene_files::{grow, save, window_of_copy},
@@ -39,7 +39,7 @@ fn with_radius(text: &str, radius: &str) -> String {
 }
 
 fn radius(app: &App) -> f64 {
-    let noisefall::shape::ShapeKind::Sphere(ball) = &description(app).objects[5].shape else { panic!("it is a ball") };
+    let noisefall_scene::shape::ShapeKind::Sphere(ball) = &description(app).objects[5].shape else { panic!("it is a ball") };
     ball.radius
 }
 

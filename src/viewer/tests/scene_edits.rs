@@ -1,8 +1,6 @@
 //! The scene is changed as a user would: select a part, change it, take it back.
-use noisefall::{
-    declare::{OwnedValue, Path, Textured},
-    edit::{Edit, Tree},
-};
+use noisefall_base::declare::{OwnedValue, Path, Textured};
+use noisefall_edit::edit::{Edit, Tree};
 
 use super::{
     edited::{bits, description, edits, material, select},

@@ -1,10 +1,8 @@
 //! The edited scene is saved, and unsaved changes are not lost without a question.
 use std::path::Path as FilePath;
 
-use noisefall::{
-    declare::{OwnedValue, Path},
-    edit::Edit,
-};
+use noisefall_base::declare::{OwnedValue, Path};
+use noisefall_edit::edit::Edit;
 
 use super::{
     edited::description,

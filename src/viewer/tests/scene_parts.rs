@@ -1,5 +1,5 @@
 //! Parts of the scene come and go: by menus, by keys, and by their names.
-use noisefall::shape::{ShapeKind, Transform};
+use noisefall_scene::shape::{ShapeKind, Transform};
 
 use super::{
     edited::{bits, center, description, edits, select},

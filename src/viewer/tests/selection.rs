@@ -1,6 +1,6 @@
 //! Selecting objects in the image.
 use egui::Shape;
-use noisefall::render::Region;
+use noisefall_render::render::Region;
 
 use super::*;
 use crate::viewer::canvas::projection::project;

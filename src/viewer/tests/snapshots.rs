@@ -58,6 +58,6 @@ fn the_instruments_look_as_they_did() {
         app.instruments.path.look_at([38, 45]);
     };
     compare(&mut at_rest("glass_and_mirror", 16, inspected), "pixel");
-    let scored = |app: &mut App| app.session.look.view = noisefall::render::view::View::ZScore;
+    let scored = |app: &mut App| app.session.look.view = noisefall_render::render::view::View::ZScore;
     compare(&mut at_rest("furnace", 64, scored), "z_score");
 }

@@ -1,5 +1,5 @@
 //! Thousands of random events: no panic, no stale frame, no leaked memory.
-use noisefall::render::view::DisplaySettings;
+use noisefall_render::render::view::DisplaySettings;
 use rand::{Rng, SeedableRng, rngs::SmallRng, seq::IndexedRandom};
 
 use super::*;
@@ -168,7 +168,7 @@ fn settled_memory(window: &mut Window, enough: usize) -> usize {
     }
     let app = window.state_mut();
     // At rest there is one frame, and not one more for each that is on its way.
-    let budget = noisefall::render::Budget { max_spp: Some(8), ..Default::default() };
+    let budget = noisefall_render::render::Budget { max_spp: Some(8), ..Default::default() };
     (app.session.budget, app.window.tab, app.session.comparison) = (budget, None, None);
     wait(window, "the picture", |app| {
         app.results.shown.as_ref().is_some_and(|frame| frame.generation == app.background.worker.generation() && frame.spp == 8)

@@ -1,5 +1,6 @@
 //! Parts of the window that must not move, and figures that must not be wrong.
-use noisefall::{render::view::View as Shown, scene::RenderSettings};
+use noisefall_render::render::view::View as Shown;
+use noisefall_scene::scene::RenderSettings;
 
 use super::{rasteriser::Blind, *};
 use crate::viewer::{
@@ -54,7 +55,7 @@ fn rows_of_the_panel_stay_where_they_are() {
         ("a lens", |app| app.session.camera.lens = Some(Lens { radius: 0.1, focus: 3.0 })),
         ("a parallel projection", |app| app.session.camera.projection = Projection::orthographic(3.0)),
         ("a camera that cannot be", |app| app.session.camera.up = DVec3::ZERO),
-        ("a region", |app| app.session.budget.region = Some(noisefall::render::Region::between([1, 1], [20, 20]))),
+        ("a region", |app| app.session.budget.region = Some(noisefall_render::render::Region::between([1, 1], [20, 20]))),
     ];
     for (what, change) in changes {
         change(window.state_mut());

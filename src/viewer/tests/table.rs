@@ -1,5 +1,5 @@
 //! The table of a path: it fits the window, and what it lists adds up to the sample.
-use noisefall::scene::RenderSettings;
+use noisefall_scene::scene::RenderSettings;
 
 use super::*;
 use crate::viewer::instruments::tabs::InstrumentTab;

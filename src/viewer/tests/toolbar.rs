@@ -1,5 +1,5 @@
 //! Keys, lists and buttons do what they say.
-use noisefall::render::{colour_map::ColourMap, view::View as Shown};
+use noisefall_render::render::{colour_map::ColourMap, view::View as Shown};
 
 use super::*;
 use crate::viewer::instruments::tabs::InstrumentTab;
@@ -92,7 +92,7 @@ fn buttons_of_the_toolbar_do_what_they_say() {
     click(&mut window, "Cancel");
     assert!(window.state().dialogs.open.is_none());
     // A target that is reached has nothing to step to.
-    window.state_mut().session.budget = noisefall::render::Budget { max_spp: Some(1), ..Default::default() };
+    window.state_mut().session.budget = noisefall_render::render::Budget { max_spp: Some(1), ..Default::default() };
     wait(&mut window, "the target", |app| {
         app.background.worker.latest().status.spp >= 1 && !matches!(app.results.status.state, State::Running)
     });

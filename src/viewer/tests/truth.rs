@@ -1,5 +1,6 @@
 //! The reference of an image: the truth of a scene is valid for the scene's own camera alone.
-use noisefall::{render::Budget, scene::Camera};
+use noisefall_render::render::Budget;
+use noisefall_scene::scene::Camera;
 
 use super::*;
 use crate::viewer::{background::given_reference::GivenReference, instruments::tabs::InstrumentTab};
@@ -56,7 +57,7 @@ fn a_given_reference_holds_for_the_camera_that_it_was_dropped_at() {
     let mut window = window("cornell_spheres");
     full(&mut window);
     let (camera, frame) = (window.state().session.camera, window.state().results.shown.clone().expect("it is shown"));
-    let reference = std::sync::Arc::new(noisefall::render::truth::Reference::Constant(frame.radiance[0]));
+    let reference = std::sync::Arc::new(noisefall_render::render::truth::Reference::Constant(frame.radiance[0]));
     window.state_mut().session.given_reference =
         Some(GivenReference { name: "mine.exr".to_owned(), reference, camera, scene: None });
     wait(&mut window, "the true error", |app| app.results.comparison.is_some());
@@ -80,7 +81,7 @@ fn curves_have_the_figures_of_their_own_settings() {
     app.session.budget = Budget { max_spp: Some(4), ..Budget::default() };
     // The curve of earlier settings is longer, and would stay.
     app.session.settings.seed = 7;
-    let other = noisefall::scene::RenderSettings { max_bounces: Some(0), ..app.session.settings };
+    let other = noisefall_scene::scene::RenderSettings { max_bounces: Some(0), ..app.session.settings };
     app.start_comparison(other);
     wait(&mut window, "both", |app| {
         let curves: Vec<_> = app.instruments.history.curves.iter().filter(|curve| curve.settings.seed == 7).collect();

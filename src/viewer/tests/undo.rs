@@ -1,10 +1,8 @@
 //! Undo and redo: a stray click or drag costs no work.
-use noisefall::{
-    declare::{OwnedValue, Path, Textured},
-    edit::Edit,
-    render::view::View as Shown,
-    scene::Camera,
-};
+use noisefall_base::declare::{OwnedValue, Path, Textured};
+use noisefall_edit::edit::Edit;
+use noisefall_render::render::view::View as Shown;
+use noisefall_scene::scene::Camera;
 
 use super::{edited::edits, *};
 
@@ -115,7 +113,7 @@ fn view_comparison_and_camera_are_undone_in_their_order_by_keys_and_buttons() {
     let start = window.state().session.controls();
     choose(&mut window, "View", "Depth");
     let depth = window.state().session.controls();
-    window.state_mut().start_comparison(noisefall::scene::RenderSettings { seed: 5, ..depth.settings });
+    window.state_mut().start_comparison(noisefall_scene::scene::RenderSettings { seed: 5, ..depth.settings });
     window.run_steps(3);
     let compared = window.state().session.controls();
     window.state_mut().session.camera.fov = 50.0;

@@ -1,5 +1,6 @@
 //! Nothing but an edit restarts a render: not the pointer, not a press without a move, not another tool, not saving.
-use noisefall::{render::Budget, scene::ShippedScene};
+use noisefall_render::render::Budget;
+use noisefall_scene::scene::ShippedScene;
 
 use super::*;
 

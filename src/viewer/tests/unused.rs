@@ -1,9 +1,7 @@
 //! Changes of names, and of parts that nothing in the scene uses, keep the samples of the image.
-use noisefall::{
-    declare::Path,
-    edit::{Edit, Tree},
-    texture::{TextureKind, image::Image as TextureImage},
-};
+use noisefall_base::declare::Path;
+use noisefall_edit::edit::{Edit, Tree};
+use noisefall_scene::texture::{TextureKind, image::Image as TextureImage};
 
 use super::{
     edited::{description, edits, select},

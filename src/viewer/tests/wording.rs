@@ -1,8 +1,6 @@
 //! Parts of the scene are called by their names, and not by their paths in the file.
-use noisefall::{
-    declare::{OwnedValue, Path},
-    edit::Edit,
-};
+use noisefall_base::declare::{OwnedValue, Path};
+use noisefall_edit::edit::Edit;
 
 use super::{
     edited::{description, select},

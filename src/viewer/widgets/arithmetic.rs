@@ -1,5 +1,5 @@
 //! Evaluates what is typed into a number field: `3/2`, `2*0.25`, `-(1 + 1e-3)`.
-use noisefall::quote;
+use noisefall_base::quote;
 
 /// Most parentheses within each other.
 const DEEPEST: usize = 32;

@@ -5,7 +5,7 @@ use egui::{
     color_picker::{Alpha, color_picker_color32},
     vec2,
 };
-use noisefall::math::{
+use noisefall_base::math::{
     colour::luminance,
     temperature::{COLDEST, HOTTEST, black_body, temperature},
 };

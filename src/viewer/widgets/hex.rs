@@ -1,5 +1,5 @@
 //! Colours as hexadecimal sRGB, and the brightness that these digits cannot express.
-use noisefall::math::colour::{linear_from_srgb, srgb_from_linear};
+use noisefall_base::math::colour::{linear_from_srgb, srgb_from_linear};
 
 /// The factor that brings the largest channel to 1: 1 if no channel is larger.
 pub fn brightness(rgb: [f64; 3]) -> f64 {
@@ -29,7 +29,9 @@ pub fn from_hex(text: &str) -> Result<[u8; 3], String> {
     match digits.as_deref() {
         Some(&[r, g, b]) => Ok([r, g, b].map(|digit| 17 * digit)),
         Some(&[a, b, c, d, e, f]) => Ok([16 * a + b, 16 * c + d, 16 * e + f]),
-        _ => Err(format!("expected six hexadecimal digits such as #ff8000, found “{}”", noisefall::quote::piece(text.trim()))),
+        _ => {
+            Err(format!("expected six hexadecimal digits such as #ff8000, found “{}”", noisefall_base::quote::piece(text.trim())))
+        }
     }
 }
 

@@ -2,7 +2,7 @@
 use std::collections::HashMap;
 
 use egui::{ComboBox, Id, Response, Ui};
-use noisefall::declare::{OneOf, Parameter, Parameters, SliderScale, Value, Words};
+use noisefall_base::declare::{OneOf, Parameter, Parameters, SliderScale, Value, Words};
 
 use super::{
     list::{explained, value_entry},

@@ -3,9 +3,11 @@ mod tally;
 
 use std::{f32::consts::PI, path::Path};
 
-use noisefall::{
-    integrator::{Batch, LightOutcome, Replay, SharedLight, TILE, Vertex, Work, pixel_samples, replay, thresholds, trace},
-    math::SimdLevel,
+use noisefall_base::math::SimdLevel;
+use noisefall_kernel::integrator::{
+    Batch, LightOutcome, Replay, SharedLight, TILE, Vertex, Work, pixel_samples, replay, thresholds, trace,
+};
+use noisefall_scene::{
     sampling::Sampler,
     scene::{Camera, CameraRays, Estimator, RenderSettings, Reuse, Roulette, Scene, load},
 };
@@ -286,7 +288,7 @@ fn the_samples_of_a_pixel_are_those_of_the_renderer() {
 
 #[test]
 fn taking_the_samples_of_a_pixel_can_be_interrupted() {
-    let scene = noisefall::scene::built_in();
+    let scene = noisefall_scene::scene::built_in();
     let taken = pixel_samples(&scene, &rays(&scene), &scene.settings, PIXELS[0], 0..100, &|| true);
     assert_eq!(taken, None);
 }

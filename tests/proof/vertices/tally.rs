@@ -1,5 +1,5 @@
 //! Counts of events on the replayed paths of a test, so that no kind of event goes untested.
-use noisefall::integrator::{LightOutcome, Vertex};
+use noisefall_kernel::integrator::{LightOutcome, Vertex};
 
 /// Number of times that each kind of event occurred.
 #[derive(Debug, Default)]

@@ -4,10 +4,8 @@ mod tests;
 
 use std::{collections::VecDeque, time::Duration};
 
-use noisefall::{
-    render::view::DisplaySettings,
-    scene::{Camera, RenderSettings},
-};
+use noisefall_render::render::view::DisplaySettings;
+use noisefall_scene::scene::{Camera, RenderSettings};
 
 use crate::viewer::instruments::compare::comparison::Comparison;
 

@@ -1,5 +1,5 @@
 //! Steps go back and forth.
-use noisefall::scene::built_in;
+use noisefall_scene::scene::built_in;
 
 use super::*;
 

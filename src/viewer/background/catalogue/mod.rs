@@ -5,7 +5,8 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use noisefall::{file::open_regular, scene::ShippedScene};
+use noisefall_base::file::open_regular;
+use noisefall_scene::scene::ShippedScene;
 
 /// Number of bytes that are read to find a title, which is at the beginning of a file.
 const LONGEST_HEAD: u64 = 16 << 10;

@@ -7,13 +7,11 @@ use std::{
     sync::Arc,
 };
 
-use noisefall::{
-    edit::{Recovery, Template},
-    import::ImportOptions,
-    progress::Progress,
-    render::truth::Reference,
-    scene::Camera,
-};
+use noisefall_base::progress::Progress;
+use noisefall_edit::edit::{Recovery, Template};
+use noisefall_formats::import::ImportOptions;
+use noisefall_render::render::truth::Reference;
+use noisefall_scene::scene::Camera;
 
 use super::{
     background_task::BackgroundTask,

@@ -1,7 +1,7 @@
 //! The latest request wins, and results of older requests are dropped.
 use std::time::{Duration, Instant};
 
-use noisefall::scene::built_in;
+use noisefall_scene::scene::built_in;
 
 use super::*;
 

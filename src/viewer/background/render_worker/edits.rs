@@ -1,11 +1,9 @@
 //! Edits of the scene: requests to the worker, and their results.
 use std::{path::PathBuf, sync::Arc};
 
-use noisefall::{
-    declare::Precision,
-    render::{EditResult, RenderRequest, SceneEdit},
-    scene::{Scene, SceneError, description::SceneDescription},
-};
+use noisefall_base::declare::Precision;
+use noisefall_render::render::{EditResult, RenderRequest, SceneEdit};
+use noisefall_scene::scene::{Scene, SceneError, description::SceneDescription};
 
 use super::{PendingEdit, RenderWorkerHandle};
 

@@ -1,11 +1,9 @@
 //! Handle to the render worker. It compares each request with the last one; a difference starts a new generation.
 mod edits;
 
-use noisefall::{
-    math::SimdLevel,
-    render::{
-        Budget, KeepHandle, Publish, Published, RenderRequest, RenderTask, Renderer, checkpoint::KeptRender, threads::Threads,
-    },
+use noisefall_base::math::SimdLevel;
+use noisefall_render::render::{
+    Budget, KeepHandle, Publish, Published, RenderRequest, RenderTask, Renderer, checkpoint::KeptRender, threads::Threads,
 };
 
 pub use self::edits::EditedDescription;
@@ -175,7 +173,7 @@ impl RenderWorkerHandle {
 mod tests {
     use std::sync::Arc;
 
-    use noisefall::scene::{Camera, RenderSettings, built_in};
+    use noisefall_scene::scene::{Camera, RenderSettings, built_in};
 
     use super::*;
 

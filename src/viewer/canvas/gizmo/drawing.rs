@@ -1,7 +1,7 @@
 //! Draws the handles of a gizmo and the status of an operation.
 use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, vec2};
 
-use noisefall::shape::Transform;
+use noisefall_scene::shape::Transform;
 
 use super::{
     handles::{Handle, HandleShape},
@@ -94,7 +94,7 @@ pub fn title(operation: &Operation, change: &Transform) -> String {
 #[cfg(test)]
 mod tests {
     use glam::DVec3;
-    use noisefall::shape::Rotation;
+    use noisefall_scene::shape::Rotation;
 
     use super::*;
 

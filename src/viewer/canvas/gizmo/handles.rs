@@ -3,7 +3,7 @@ use std::f64::consts::TAU;
 
 use egui::Pos2;
 use glam::DVec3;
-use noisefall::scene::Camera;
+use noisefall_scene::scene::Camera;
 
 use super::operation::{AXES, Lock, Mode};
 use crate::viewer::canvas::{

@@ -19,7 +19,7 @@ mod tests;
 
 use egui::{Context, Id, PointerButton, Pos2, Rect, Response, Sense, Ui, vec2};
 use glam::DVec3;
-use noisefall::{scene::Camera, shape::Transform};
+use noisefall_scene::{scene::Camera, shape::Transform};
 
 pub use self::operation::Mode;
 use self::{

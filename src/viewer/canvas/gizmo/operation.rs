@@ -1,6 +1,6 @@
 //! An active move, rotation or scaling, controlled by the pointer or a typed number.
 use glam::DVec3;
-use noisefall::{
+use noisefall_scene::{
     scene::Camera,
     shape::{Rotation, Transform},
 };

@@ -1,5 +1,5 @@
 //! Rounds the moves of the pointer to invisible steps, so that the numbers in a scene file stay short.
-use noisefall::shape::{Rotation, Transform};
+use noisefall_scene::shape::{Rotation, Transform};
 
 /// Decimals of an angle in degrees.
 const ANGLE: usize = 2;

@@ -1,7 +1,7 @@
 //! The gizmo, driven as a user would: without a window around it.
 use egui::{Event, Key, Modifiers, Vec2};
 use egui_kittest::Harness;
-use noisefall::{
+use noisefall_scene::{
     scene::{Projection, built_in},
     shape::Rotation,
 };

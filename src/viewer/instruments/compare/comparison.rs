@@ -1,5 +1,6 @@
 //! A comparison of two settings.
-use noisefall::{render::view::View, scene::RenderSettings};
+use noisefall_render::render::view::View;
+use noisefall_scene::scene::RenderSettings;
 
 use crate::viewer::canvas::drawing::Split;
 

@@ -1,10 +1,8 @@
 //! The figures of both sides, and which is more efficient.
 use egui::{Grid, RichText, Ui};
-use noisefall::{
-    measure::LogRatio,
-    render::{MODEL_ERROR, State, Status},
-    scene::RenderSettings,
-};
+use noisefall_kernel::measure::LogRatio;
+use noisefall_render::render::{MODEL_ERROR, State, Status};
+use noisefall_scene::scene::RenderSettings;
 
 use crate::viewer::background::display_image::ReferenceComparison;
 use crate::viewer::instruments::convergence::history::name;
@@ -192,7 +190,7 @@ fn times(ratio: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use noisefall::sampling::Sampler;
+    use noisefall_scene::sampling::Sampler;
 
     use super::*;
 

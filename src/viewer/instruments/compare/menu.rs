@@ -1,7 +1,7 @@
 //! The menu of settings to compare with.
 use egui::Ui;
-use noisefall::{
-    declare::{OneOf, capitalised},
+use noisefall_base::declare::{OneOf, capitalised};
+use noisefall_scene::{
     sampling::Sampler,
     scene::{Estimator, RenderSettings, Reuse, Roulette, Sharing},
 };

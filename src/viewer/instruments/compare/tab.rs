@@ -1,6 +1,7 @@
 //! The tab of the comparison: its layout, its two settings and their figures.
 use egui::{ScrollArea, Ui};
-use noisefall::{measure::LogRatio, scene::RenderSettings};
+use noisefall_kernel::measure::LogRatio;
+use noisefall_scene::scene::RenderSettings;
 
 use super::{comparison::CompareLayout, comparison::Comparison, figures, figures::SideStatus, menu};
 use crate::viewer::widgets::{

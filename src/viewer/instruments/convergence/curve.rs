@@ -1,11 +1,9 @@
 //! A curve of the error of one setting, run by run.
 use std::sync::{Arc, Weak};
 
-use noisefall::{
-    render::{Frame, truth::Reference},
-    scene::{RenderSettings, Sharing},
-    study::{Slope, slope},
-};
+use noisefall_lab::study::{Slope, slope};
+use noisefall_render::render::{Frame, truth::Reference};
+use noisefall_scene::scene::{RenderSettings, Sharing};
 
 use crate::viewer::background::display_image::ReferenceComparison;
 

@@ -1,8 +1,6 @@
 //! The curves as files: CSV of every figure, SVG of the plot.
-use noisefall::{
-    report::plot::{Axis, Style, curve, svg},
-    scene::RenderSettings,
-};
+use noisefall_lab::report::plot::{Axis, Style, curve, svg};
+use noisefall_scene::scene::RenderSettings;
 
 use super::{
     colours::COLOURS,
@@ -103,8 +101,8 @@ impl History {
 mod tests {
     use std::sync::Arc;
 
-    use noisefall::{
-        render::{Frame, Series},
+    use noisefall_render::render::{Frame, Series};
+    use noisefall_scene::{
         sampling::Sampler,
         scene::{Sharing, built_in},
     };

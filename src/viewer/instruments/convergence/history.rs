@@ -1,10 +1,8 @@
 //! Errors so far: a curve over samples and time for each setting of the same image.
 use std::sync::{Arc, Weak};
 
-use noisefall::{
-    render::{Frame, truth::Reference},
-    scene::{Camera, RenderSettings, Scene, Sharing},
-};
+use noisefall_render::render::{Frame, truth::Reference};
+use noisefall_scene::scene::{Camera, RenderSettings, Scene, Sharing};
 
 use super::{
     colours::COLOURS,
@@ -178,7 +176,7 @@ pub fn name(settings: &RenderSettings, of_scene: &RenderSettings, sharing: Shari
 
 #[cfg(test)]
 mod tests {
-    use noisefall::{
+    use noisefall_scene::{
         sampling::Sampler,
         scene::{Estimator, Reuse, built_in},
     };

@@ -164,7 +164,7 @@ pub fn slope_text(curve: &Curve, over: HorizontalAxis) -> Option<String> {
 
 #[cfg(test)]
 mod tests {
-    use noisefall::scene::{RenderSettings, Sharing};
+    use noisefall_scene::scene::{RenderSettings, Sharing};
 
     use super::*;
     use crate::viewer::instruments::convergence::curve::Moment;

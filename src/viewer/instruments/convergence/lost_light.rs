@@ -1,5 +1,5 @@
 //! The bias of a cap on the number of bounces: the light that it loses.
-use noisefall::render::Frame;
+use noisefall_render::render::Frame;
 
 /// Samples per pixel after which the shares are known well enough for a plot.
 const ENOUGH: u32 = 16;
@@ -35,7 +35,7 @@ impl LostLight {
 
 #[cfg(test)]
 mod tests {
-    use noisefall::render::Series;
+    use noisefall_render::render::Series;
 
     use super::*;
 

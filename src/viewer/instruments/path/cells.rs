@@ -1,6 +1,6 @@
 //! Cells of the tables of terms.
 use egui::{Response, RichText, Ui};
-use noisefall::scene::Object;
+use noisefall_scene::scene::Object;
 
 /// Size of text, points.
 pub const TEXT: f32 = 12.0;

@@ -1,6 +1,6 @@
 //! Copies a path or the samples of a pixel, and writes them for a file.
 use egui::Ui;
-use noisefall::render::{
+use noisefall_render::render::{
     RenderRequest,
     path_samples::SampleTable,
     path_text::{self, PathId},

@@ -1,10 +1,8 @@
 //! Draws a path over the image.
 use egui::{Align2, Color32, FontId, Painter, Pos2, Shape, Stroke, Ui, vec2};
 use glam::Vec3;
-use noisefall::{
-    integrator::{BothEnds, LightOutcome, PathPoint},
-    scene::Camera,
-};
+use noisefall_kernel::integrator::{BothEnds, LightOutcome, PathPoint};
+use noisefall_scene::scene::Camera;
 
 use super::{inspector::PathInspector, table::MOST_VERTICES};
 use crate::viewer::canvas::{picture_area::PictureArea, projection::clip, projection::project};
@@ -20,7 +18,7 @@ const FROM_LIGHT: Color32 = Color32::from_rgb(255, 140, 60);
 pub fn draw(ui: &Ui, area: &PictureArea, inspector: &PathInspector, camera: &Camera, size: f32) {
     let Some(pixel) = inspector.pixel else { return };
     let painter = ui.painter_at(area.clip);
-    let square = area.of_region(&noisefall::render::Region::between(pixel, pixel)).expand(1.0);
+    let square = area.of_region(&noisefall_render::render::Region::between(pixel, pixel)).expand(1.0);
     painter.rect_stroke(square, 0.0, Stroke::new(1.5, PATH), egui::StrokeKind::Outside);
     let Some((_, replay)) = inspector.replay() else { return };
     let screen = |p: [f32; 3]| -> Option<Pos2> {

@@ -1,9 +1,7 @@
 //! Traces the samples of a pixel and one of its paths again, off the UI thread.
-use noisefall::{
-    integrator::{Replay, pixel_samples, replay, seen_by_camera},
-    math::colour::luminance,
-    render::{RenderRequest, sharing::resolved},
-};
+use noisefall_base::math::colour::luminance;
+use noisefall_kernel::integrator::{Replay, pixel_samples, replay, seen_by_camera};
+use noisefall_render::render::{RenderRequest, sharing::resolved};
 
 use super::{cells::Channel, histogram::Histogram};
 use crate::viewer::background::background_task::BackgroundTask;

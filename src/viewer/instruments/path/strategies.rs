@@ -1,9 +1,7 @@
 //! The table of the strategies of paths from both ends: what each finds with s vertices from the light and t from the camera.
 use egui::{Grid, RichText, Ui};
-use noisefall::{
-    integrator::{BothEnds, PathPoint, StrategyTerm},
-    scene::Object,
-};
+use noisefall_kernel::integrator::{BothEnds, PathPoint, StrategyTerm};
+use noisefall_scene::scene::Object;
 
 use super::cells::{Channel, TEXT, VERTEX_WIDTH, cell, colour, name, short};
 use crate::viewer::widgets::style::elided;
@@ -110,7 +108,7 @@ fn at(point: Option<&PathPoint>, objects: &[Object]) -> String {
 #[cfg(test)]
 mod tests {
     use egui_kittest::{Harness, kittest::NodeT};
-    use noisefall::scene::built_in;
+    use noisefall_scene::scene::built_in;
 
     use super::*;
 

@@ -1,11 +1,9 @@
 //! The tab of the path inspector: a pixel, its samples, and the vertices of one path.
 use egui::{RichText, ScrollArea, Ui, scroll_area::ScrollBarVisibility};
-use noisefall::{
-    integrator::Replay,
-    math::colour::luminance,
-    render::{Frame, RenderRequest},
-    scene::Object,
-};
+use noisefall_base::math::colour::luminance;
+use noisefall_kernel::integrator::Replay;
+use noisefall_render::render::{Frame, RenderRequest};
+use noisefall_scene::scene::Object;
 
 use super::{cells::Channel, copying, histogram, inspector::PathInspector, strategies, table};
 use crate::viewer::{

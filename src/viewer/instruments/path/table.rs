@@ -1,9 +1,7 @@
 //! The terms of a path, one row each, summed as in the equation.
 use egui::{Grid, RichText, Ui};
-use noisefall::{
-    integrator::{LightOutcome, Reflection, Replay, Vertex},
-    scene::Object,
-};
+use noisefall_kernel::integrator::{LightOutcome, Reflection, Replay, Vertex};
+use noisefall_scene::scene::Object;
 
 use super::{
     cells::{Channel, TEXT, VERTEX_WIDTH, cell, colour, name, short},
@@ -171,11 +169,8 @@ fn vector(v: [f32; 3]) -> String {
 #[cfg(test)]
 mod tests {
     use egui_kittest::{Harness, kittest::NodeT};
-    use noisefall::{
-        integrator::{EmitterHit, SampledLight, SharedLight, Surface},
-        material::ChosenLobe,
-        scene::built_in,
-    };
+    use noisefall_kernel::integrator::{EmitterHit, SampledLight, SharedLight, Surface};
+    use noisefall_scene::{material::ChosenLobe, scene::built_in};
 
     use super::*;
 

@@ -1,5 +1,5 @@
 //! The rows of the path table: a term of the sum each, and the rows that close the sum.
-use noisefall::integrator::{EmitterHit, LightOutcome, Replay, SampledLight, Vertex};
+use noisefall_kernel::integrator::{EmitterHit, LightOutcome, Replay, SampledLight, Vertex};
 
 type Colour = [f32; 3];
 
@@ -136,10 +136,8 @@ pub fn totals(replay: &Replay, most_vertices: usize) -> Vec<Total> {
 
 #[cfg(test)]
 mod tests {
-    use noisefall::{
-        integrator::replay,
-        scene::{RenderSettings, Reuse, built_in},
-    };
+    use noisefall_kernel::integrator::replay;
+    use noisefall_scene::scene::{RenderSettings, Reuse, built_in};
 
     use super::*;
 

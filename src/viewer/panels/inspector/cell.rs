@@ -1,7 +1,7 @@
 //! Controls for values, by type.
 use egui::{ComboBox, Id, Ui};
 use glam::DVec3;
-use noisefall::declare::{OwnedValue, Parameter, Path, Range, Textured, Value, Word, check_value};
+use noisefall_base::declare::{OwnedValue, Parameter, Path, Range, Textured, Value, Word, check_value};
 
 use super::{Request, Surroundings, numbers::Numbers, references};
 use crate::viewer::widgets::{

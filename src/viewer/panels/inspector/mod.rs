@@ -22,7 +22,7 @@ mod surroundings;
 mod tests;
 
 use egui::Ui;
-use noisefall::declare::{Declare, Path};
+use noisefall_base::declare::{Declare, Path};
 
 use self::rows::Rows;
 pub use self::{

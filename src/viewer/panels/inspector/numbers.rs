@@ -3,7 +3,7 @@ use std::cell::Cell;
 
 use egui::{Id, Response, Slider, SliderClamping, Ui};
 use glam::DVec3;
-use noisefall::declare::{CountRange, Parameter, Problem, Range, SliderScale, Value, check_value, short};
+use noisefall_base::declare::{CountRange, Parameter, Problem, Range, SliderScale, Value, check_value, short};
 
 use crate::viewer::widgets::{
     number::tidy,

@@ -1,6 +1,6 @@
 //! Menus of names: textures instead of constants, and references.
 use egui::{Button, ComboBox, Id, Ui};
-use noisefall::declare::{Family, OwnedValue, Parameter, Path};
+use noisefall_base::declare::{Family, OwnedValue, Parameter, Path};
 
 use super::{Request, Surroundings};
 use crate::viewer::widgets::{

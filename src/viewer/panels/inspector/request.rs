@@ -1,5 +1,5 @@
 //! Changes that the inspector requests.
-use noisefall::declare::{Family, OwnedValue, Path};
+use noisefall_base::declare::{Family, OwnedValue, Path};
 
 /// The requests of one frame.
 #[derive(Debug, Default, PartialEq)]

@@ -1,6 +1,6 @@
 //! The layout of a row: label, tooltip, optional mark, control.
 use egui::{Align, Id, Label, Layout, Response, RichText, Ui, vec2};
-use noisefall::declare::Parameter;
+use noisefall_base::declare::Parameter;
 
 /// Width of the labels in points, while the panel is at its narrowest. They get half of what is added.
 const LABEL_WIDTH: f32 = 104.0;

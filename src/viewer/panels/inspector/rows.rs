@@ -1,6 +1,8 @@
 //! The visitor that makes rows of parameters.
 use egui::{ComboBox, Ui};
-use noisefall::declare::{Alternative, Choice, Form, Parameter, Parameters, Path, Textured, Value, capitalised, key_in_words};
+use noisefall_base::declare::{
+    Alternative, Choice, Form, Parameter, Parameters, Path, Textured, Value, capitalised, key_in_words,
+};
 
 use super::{
     Request, Surroundings,

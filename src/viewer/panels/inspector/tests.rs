@@ -1,8 +1,8 @@
 //! The inspector, driven as a user would: without a window around it.
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, accesskit::Role, vec2};
 use egui_kittest::{Harness, kittest::Queryable};
-use noisefall::{
-    declare::{Declare, Family, OneOf, OwnedValue, Parameter, Parameters, Path, Textured, Value},
+use noisefall_base::declare::{Declare, Family, OneOf, OwnedValue, Parameter, Parameters, Path, Textured, Value};
+use noisefall_scene::{
     material::{Conductor, Lambertian, Material},
     scene::description::{EmissionDescription, MaterialDescription, ObjectDescription},
     shape::{ShapeKind, Transform},

@@ -1,6 +1,6 @@
 //! The parts of a description as entries in groups.
 use egui::{TextFormat, Visuals, text::LayoutJob};
-use noisefall::scene::description::{LampDescription, MaterialDescription, ObjectDescription, SceneDescription};
+use noisefall_scene::scene::description::{LampDescription, MaterialDescription, ObjectDescription, SceneDescription};
 
 use crate::viewer::panels::subject::Subject;
 
@@ -91,7 +91,7 @@ impl Entry {
 
 #[cfg(test)]
 mod tests {
-    use noisefall::{material::Lambertian, scene::description::EmissionDescription, shape::Sphere, texture::TextureKind};
+    use noisefall_scene::{material::Lambertian, scene::description::EmissionDescription, shape::Sphere, texture::TextureKind};
 
     use super::*;
 

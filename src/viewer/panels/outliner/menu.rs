@@ -1,7 +1,7 @@
 //! The menu of a part of the scene.
 use egui::Ui;
-use noisefall::{
-    declare::OneOf,
+use noisefall_base::declare::OneOf;
+use noisefall_scene::{
     light::lamp::LampKind,
     material::Material,
     scene::description::{BackgroundDescription, SceneDescription},

@@ -14,7 +14,7 @@ mod tests;
 use std::ops::Range;
 
 use egui::{CollapsingHeader, Rect, RichText, ScrollArea, Sense, TextEdit, Ui, UiBuilder, pos2, vec2};
-use noisefall::scene::description::SceneDescription;
+use noisefall_scene::scene::description::SceneDescription;
 
 pub use self::menu::{Action, New, can_rename, part_menu};
 use self::{

@@ -1,7 +1,7 @@
 //! The outliner, driven as a user would: without a window around it.
 use egui::{Event, Key, Modifiers, accesskit::Role, vec2};
 use egui_kittest::{Harness, kittest::Queryable};
-use noisefall::{
+use noisefall_scene::{
     material::Lambertian,
     scene::description::{EmissionDescription, SceneDescription},
     shape::Sphere,

@@ -4,11 +4,9 @@ mod trouble;
 use std::time::Duration;
 
 use egui::{Color32, Label, RichText};
-use noisefall::{
-    declare::capitalised,
-    render::{Budget, RenderRequest, State, Status},
-    scene::{Camera, Estimator, EstimatorInForce, RenderSettings},
-};
+use noisefall_base::declare::capitalised;
+use noisefall_render::render::{Budget, RenderRequest, State, Status};
+use noisefall_scene::scene::{Camera, Estimator, EstimatorInForce, RenderSettings};
 
 use super::pixel_readout::Pixel;
 use crate::viewer::background::{display_image::ReferenceComparison, opened_scene::OpenedScene};

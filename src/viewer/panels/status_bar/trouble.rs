@@ -2,10 +2,8 @@
 use std::path::PathBuf;
 
 use egui::{Label, RichText};
-use noisefall::{
-    render::{State, Status, pass::SampleId, replay_command::replay_command},
-    scene::RenderSettings,
-};
+use noisefall_render::render::{State, Status, pass::SampleId, replay_command::replay_command};
+use noisefall_scene::scene::RenderSettings;
 
 use super::StatusBar;
 use crate::viewer::background::{

@@ -1,0 +1,3 @@
+//! Changes of scene files, undo and saving.
+
+pub mod edit;

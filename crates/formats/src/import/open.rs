@@ -1,0 +1,38 @@
+//! Opens a scene of any format.
+use std::{path::Path, sync::Arc};
+
+use super::{ImportOptions, Imported, Remarks, is_foreign, read};
+use noisefall_edit::edit::new_text;
+use noisefall_scene::scene::{self, Scene, SceneError, SceneText, description::SceneDescription};
+
+/// A scene that was read from a file of any format.
+pub struct Opened {
+    /// The scene. Its text is in the format of Noisefall, whatever the format of the file.
+    pub scene: Scene,
+    /// What was not imported exactly. Scenes of Noisefall have no remarks.
+    pub remarks: Remarks,
+    /// The description of the scene of another program; absent for others, whose text has it.
+    pub description: Option<Arc<SceneDescription>>,
+}
+
+/// Reads and compiles a scene file of Noisefall or of another program, a mesh file, or the scene in an image file.
+pub fn open(path: &Path, options: &ImportOptions) -> Result<Opened, SceneError> {
+    if !is_foreign(path) {
+        return Ok(Opened {
+            scene: scene::load_watched(path, &options.progress)?,
+            remarks: Remarks::default(),
+            description: None,
+        });
+    }
+    let Imported { description, assets, remarks } = read(path, options)?;
+    let description = Arc::new(description);
+    let mut scene = description.build_watched(path, assets, &options.progress)?;
+    let described = description.clone();
+    scene.source = SceneText::new(Box::new(move || new_text(&described)));
+    Ok(Opened { scene, remarks, description: Some(description) })
+}
+
+/// The scene of a file, as [`open`] reads it with default options.
+pub fn load(path: &Path) -> Result<Scene, SceneError> {
+    open(path, &ImportOptions::default()).map(|opened| opened.scene)
+}

@@ -1,0 +1,30 @@
+//! Quick checks of single parts of a description, without reading files or making procedural shapes.
+use super::{camera::camera, lamp::placed_lamp, object::placed_and_moved};
+use crate::{
+    scene::description::{CameraDescription, LampDescription, ObjectDescription},
+    shape::{ShapeBuilder, motion, product},
+};
+use noisefall_base::declare::{Path, Problem, Resources};
+
+/// Checks that a camera can be compiled.
+pub fn check_camera(described: &CameraDescription) -> Result<(), Problem> {
+    camera(described)?;
+    motion(&described.motion).map_err(|problem| problem.within(&Path::of("motion")))?;
+    Ok(())
+}
+
+/// Checks that a lamp without surface can be placed.
+pub fn check_lamp(described: &LampDescription) -> Result<(), Problem> {
+    placed_lamp(&described.without_files(), &Resources::new("")).map(drop)
+}
+
+/// Checks that the shape of an object can be placed. For meshes and for kinds that make many shapes, checks only the transforms.
+pub fn check_object(described: &ObjectDescription) -> Result<(), Problem> {
+    if !described.shape.kind().is_quick() {
+        product(&described.transform).map_err(|problem| problem.within(&Path::of("transform")))?;
+        motion(&described.motion).map_err(|problem| problem.within(&Path::of("motion")))?;
+        return Ok(());
+    }
+    let resources = Resources::new("");
+    placed_and_moved(described, &mut ShapeBuilder::new(&resources)).map(drop)
+}

@@ -1,0 +1,80 @@
+//! Emission and truths of scene files.
+
+use crate::light::{
+    emission::EmissionSource,
+    parameters::{IMAGE, RADIANCE},
+};
+use noisefall_base::declare::{Declare, OneOf, Parameter, Parameters, Range, Value};
+
+/// Emission of an object of a scene file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EmissionDescription {
+    /// The radiance, constant or textured.
+    pub source: EmissionSource,
+    /// Whether the back emits too.
+    pub two_sided: bool,
+    /// Factor of the radiance.
+    pub scale: f64,
+}
+
+impl Default for EmissionDescription {
+    fn default() -> Self {
+        EmissionDescription { source: EmissionSource::default(), two_sided: false, scale: 1.0 }
+    }
+}
+
+const TRUTH_IMAGE: Parameter = Parameter { doc: "Reference image, of the resolution of the camera.", ..IMAGE };
+
+impl Declare for EmissionDescription {
+    fn parameters(&mut self, p: &mut dyn Parameters) {
+        const TWO_SIDED: Parameter = Parameter::new("two_sided", "Whether the back emits too.").aliases("twosided double_sided");
+        const SCALE: Parameter = Parameter::new("scale", "Factor that multiplies the radiance.");
+        p.one_of(&mut self.source);
+        p.flag(&TWO_SIDED, &mut self.two_sided);
+        p.number(&SCALE, &mut self.scale, Range::log(0.0, 1e12));
+    }
+}
+
+/// What the image converges to.
+#[derive(Clone, Debug, PartialEq)]
+pub enum TruthDescription {
+    /// The same radiance at every pixel, W·sr⁻¹·m⁻².
+    Radiance([f64; 3]),
+    /// An image file of the resolution of the camera.
+    Image(String),
+}
+
+impl Default for TruthDescription {
+    fn default() -> Self {
+        TruthDescription::Radiance([1.0; 3])
+    }
+}
+
+impl Declare for TruthDescription {
+    fn parameters(&mut self, p: &mut dyn Parameters) {
+        p.one_of(self);
+    }
+}
+
+impl OneOf for TruthDescription {
+    const WHAT: &'static str = "truth";
+
+    fn alternatives() -> Vec<Self> {
+        vec![Self::default(), TruthDescription::Image(String::new())]
+    }
+
+    fn place(&self) -> usize {
+        usize::from(matches!(self, TruthDescription::Image(_)))
+    }
+
+    fn name(&self) -> &'static str {
+        if self.place() == 0 { RADIANCE.key } else { IMAGE.key }
+    }
+
+    fn chosen(&mut self, p: &mut dyn Parameters) {
+        match self {
+            TruthDescription::Radiance(radiance) => p.colour(&RADIANCE, radiance, Range::RADIANCE),
+            TruthDescription::Image(path) => p.value(&TRUTH_IMAGE, Value::File(path)),
+        }
+    }
+}

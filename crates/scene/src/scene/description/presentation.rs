@@ -1,0 +1,46 @@
+//! The parameters of a scene besides its camera and its contents.
+use super::{RenderDescription, SceneDescription, TruthDescription};
+use noisefall_base::declare::{Declare, Parameter, Parameters, Value};
+
+/// Title, notes, settings and truth of a scene. Their paths are those in the whole description.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Presentation {
+    /// Title in the window and in reports.
+    pub title: String,
+    /// Notes about the scene.
+    pub notes: String,
+    /// The settings that the scene opens with.
+    pub render: RenderDescription,
+    /// What the image must converge to, if it is known.
+    pub truth: Option<TruthDescription>,
+}
+
+impl Presentation {
+    /// Copies it from a description.
+    pub fn of(description: &SceneDescription) -> Presentation {
+        let SceneDescription { title, notes, render, truth, .. } = description;
+        Presentation { title: title.clone(), notes: notes.clone(), render: render.clone(), truth: truth.clone() }
+    }
+}
+
+impl Declare for Presentation {
+    fn parameters(&mut self, p: &mut dyn Parameters) {
+        texts(p, &mut self.title, &mut self.notes);
+        settings_and_truth(p, &mut self.render, &mut self.truth);
+    }
+}
+
+pub(super) fn texts(p: &mut dyn Parameters, title: &mut String, notes: &mut String) {
+    const TITLE: Parameter = Parameter::new("title", "Name of the scene in the window and in reports.").aliases("name");
+    const NOTES: Parameter = Parameter::new("notes", "Notes about the scene.").aliases("description comment");
+    p.value(&TITLE, Value::Text(title));
+    p.value(&NOTES, Value::Text(notes));
+}
+
+pub(super) fn settings_and_truth(p: &mut dyn Parameters, render: &mut RenderDescription, truth: &mut Option<TruthDescription>) {
+    const RENDER: Parameter = Parameter::new("render", "The settings that the scene opens with.").aliases("integrator settings");
+    const TRUTH: Parameter =
+        Parameter::new("truth", "What the image must converge to, if it is known.").title("Reference").aliases("reference");
+    p.optional_part(&RENDER, render);
+    p.optional_table(&TRUTH, truth);
+}

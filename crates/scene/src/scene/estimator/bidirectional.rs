@@ -1,0 +1,18 @@
+//! Bidirectional path tracing (E. Lafortune and Y. Willems 1993; E. Veach and L. Guibas 1994).
+use super::Weighting;
+use noisefall_base::declare::Word;
+
+/// Paths from the camera and from lights are joined at all of their vertices.
+pub(super) struct Bidirectional;
+
+impl Weighting for Bidirectional {
+    const WORD: Word = Word {
+        name: "bidirectional",
+        title: "Bidirectional",
+        doc: "Joins paths from the camera with paths from lights in all ways (s, t), weighted by the balance heuristic. Good for caustics and hidden lamps.",
+    };
+    const COMPARISON: &'static str = "Bidirectional";
+    const COMPARES: bool = true;
+    const TRACES_LIGHT_PATHS: bool = true;
+    const CONNECTS: bool = true;
+}

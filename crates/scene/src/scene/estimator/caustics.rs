@@ -1,0 +1,19 @@
+//! Path tracing with caustics by light tracing.
+use super::Weighting;
+use noisefall_base::declare::Word;
+
+/// Paths from lights go through mirrors and clear glass to the first other surface, and are joined with the camera there. All other light
+/// comes from paths from the camera.
+pub(super) struct Caustics;
+
+impl Weighting for Caustics {
+    const WORD: Word = Word {
+        name: "caustics",
+        title: "Caustics",
+        doc: "MIS, with paths from lights only for the caustics of mirrors and clear glass. Cheaper than Bidirectional.",
+    };
+    const COMPARISON: &'static str = "Caustics from lights";
+    const COMPARES: bool = true;
+    const TRACES_LIGHT_PATHS: bool = true;
+    const ONLY_CAUSTICS: bool = true;
+}

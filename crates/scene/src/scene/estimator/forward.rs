@@ -1,0 +1,20 @@
+//! Light tracing (J. Arvo, "Backward Ray Tracing", 1986; P. Dutré, E. Lafortune and Y. Willems, "Monte Carlo Light Tracing with Direct
+//! Computation of Pixel Intensities", 1993).
+use super::Weighting;
+use noisefall_base::declare::Word;
+
+/// Paths start at lights. Every surface point that they reach is joined with the camera.
+///
+/// What the camera sees of a mirror or of clear glass cannot be joined with it, and comes from camera paths as with `mis`.
+pub(super) struct Forward;
+
+impl Weighting for Forward {
+    const WORD: Word = Word {
+        name: "forward",
+        title: "Forward",
+        doc: "Paths start at lights, and every point that they reach is joined with the camera. Good for caustics, noisy for other light.",
+    };
+    const COMPARISON: &'static str = "Forward tracing";
+    const COMPARES: bool = true;
+    const TRACES_LIGHT_PATHS: bool = true;
+}

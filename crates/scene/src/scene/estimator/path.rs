@@ -1,0 +1,24 @@
+//! Plain path tracing (Kajiya, "The Rendering Equation", SIGGRAPH 1986).
+use super::Weighting;
+use noisefall_base::{
+    declare::Word,
+    math::{F, Lanes},
+};
+
+/// Only emitter hits of paths count, and light samples of lamps without surface, which no path can hit.
+pub(super) struct Path;
+
+impl Weighting for Path {
+    const WORD: Word = Word {
+        name: "path",
+        title: "Path",
+        doc: "Paths find light only by hitting an emitter; lamps without surface are sampled. The simplest estimator; very noisy for small lights.",
+    };
+    const COMPARISON: &'static str = "Path sampling";
+    const SAMPLES_LIGHTS: bool = false;
+
+    #[inline(always)]
+    fn hit_weight<L: Lanes>(l: L, _: F<L>, _: F<L>) -> F<L> {
+        l.f(1.0)
+    }
+}
