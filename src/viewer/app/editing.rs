@@ -1,11 +1,11 @@
-//! Edits of the open scene. The worker compiles and renders them. After a drag, the settler compiles the exact scene.
+//! Edits of the open scene. The worker compiles and renders them. After a drag, the exact_compile compiles the exact scene.
 use std::sync::Arc;
 
 use noisefall_render::render::RenderRequest;
 use noisefall_scene::scene::{Camera, Scene, description::SceneDescription};
 
 use super::state::App;
-use crate::viewer::background::{render_worker::EditedDescription, settler::EditedScene};
+use crate::viewer::background::{exact_compile::EditedScene, render_worker::EditedDescription};
 
 /// The beginning of the message that an edited scene cannot be compiled. It holds until one can.
 const BEFORE: &str = "The image shows the scene before this change";
@@ -29,7 +29,7 @@ impl App {
         self.background.worker.edit(request, EditedDescription { description, folder, differs_unseen, earlier }, now);
     }
 
-    /// Receives the edited scene from the worker, and the exact one from the settler.
+    /// Receives the edited scene from the worker, and the exact one from the exact_compile.
     pub fn receive_edited(&mut self) {
         match self.background.worker.take_edited() {
             Some(Ok(scene)) => self.take_edited(scene),
@@ -39,9 +39,9 @@ impl App {
         }
         // A drag goes on as long as a button is down.
         if !self.is_compiling() && !self.ctx.input(|input| input.pointer.any_down()) {
-            self.background.settler.start();
+            self.background.exact_compile.start();
         }
-        if let Some(settled) = self.background.settler.take()
+        if let Some(settled) = self.background.exact_compile.take()
             && let Some(opened) = &mut self.session.opened
         {
             opened.warnings = settled.warnings;
@@ -81,7 +81,7 @@ impl App {
         self.dialogs.notices.0.retain(|notice| !notice.text.starts_with(BEFORE));
         opened.description = description.clone();
         let folder = opened.folder();
-        self.background.settler.note(EditedScene { scene: scene.clone(), description: description.clone(), folder });
+        self.background.exact_compile.note(EditedScene { scene: scene.clone(), description: description.clone(), folder });
         opened.change(scene);
         (self.results.black_reason, self.results.misfit) = (None, None);
         if self.dialogs.file_error.is_some() {

@@ -134,7 +134,7 @@ impl App {
         (self.background.adviser, self.background.reference) = (None, None);
         self.background.loader.forget_reference();
         self.background.drops.forget();
-        self.background.settler.forget();
+        self.background.exact_compile.forget();
         (session.waiting_edit, session.submitted_edit) = (None, None);
         session.earlier = EarlierScenes::default();
         session.earlier.note(&opened.description, &opened.scene);

@@ -7,8 +7,8 @@ use super::state::App;
 use crate::viewer::background::{adviser::Adviser, catalogue::SceneRequest, recent};
 use crate::viewer::dialogs::{open::OpenDialog, unsaved::Leaving};
 use crate::viewer::panels::{
-    camera, display, panel_tabs, panel_tabs::PanelTab, pixel_readout::Pixel, reference, reference::ReferenceRow, sampling,
-    sampling::Findings, scene, status_bar::StatusBar, stop, views, window,
+    camera, panel_tabs, panel_tabs::PanelTab, pixel_readout::Pixel, reference, reference::ReferenceRow, sampling,
+    sampling::Findings, scene, status_bar::StatusBar, stop, tone, views, window,
 };
 use crate::viewer::widgets::style::{leave_room_for_bar, section};
 
@@ -103,7 +103,7 @@ impl App {
 
     pub fn display_panel(&mut self, ui: &mut Ui) {
         let default_exposure = self.session.opened.as_ref().map_or(0.0, |opened| opened.scene.exposure);
-        display::show(ui, &mut self.session.look.display, default_exposure);
+        tone::show(ui, &mut self.session.look.display, default_exposure);
         views::rows(ui, &mut self.session.look.map, self.results.shown.as_ref(), &mut self.session.pinned);
         let (mut noise, unusable) = (self.session.reference_noise, self.why_no_reference());
         let row = ReferenceRow {

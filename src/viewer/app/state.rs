@@ -9,10 +9,10 @@ use super::{
 };
 use crate::viewer::background::{
     adviser::Adviser, background_task::BackgroundTask, catalogue, catalogue::CatalogueEntry, denoiser::Denoiser,
-    display_pipeline::DisplayPipeline, dropped::DropReader, feature_finder::FeatureFinder, file_watcher::FileWatcher,
-    loader::Loader, opened_scene::GivenScene, preferences::Preferences, progress_keeper::ProgressKeeper,
-    recovery_keeper::RecoveryKeeper, reference_task::ReferenceTask, render_worker::RenderWorkerHandle, saver::Saver,
-    sequence_task::SequenceTask, settler::Settler, tev_link::TevLink,
+    display_pipeline::DisplayPipeline, dropped::DropReader, exact_compile::ExactCompile, feature_finder::FeatureFinder,
+    file_watcher::FileWatcher, loader::Loader, opened_scene::GivenScene, preferences::Preferences,
+    progress_keeper::ProgressKeeper, recovery_keeper::RecoveryKeeper, reference_task::ReferenceTask,
+    render_worker::RenderWorkerHandle, saver::Saver, sequence_task::SequenceTask, tev_link::TevLink,
 };
 use crate::viewer::instruments::{convergence::history::History as ErrorHistory, path::inspector::PathInspector};
 use crate::viewer::panels::frame_times::FrameTimes;
@@ -50,7 +50,7 @@ pub struct Background {
     pub display: DisplayPipeline,
     pub loader: Loader,
     pub drops: DropReader,
-    pub settler: Settler,
+    pub exact_compile: ExactCompile,
     pub saver: Saver,
     pub files: FileWatcher,
     pub recovery: RecoveryKeeper,
@@ -81,7 +81,7 @@ impl App {
             display: DisplayPipeline::new(ctx),
             loader: Loader::new(ctx),
             drops: DropReader::new(ctx),
-            settler: Settler::new(ctx),
+            exact_compile: ExactCompile::new(ctx),
             saver: Saver::new(ctx),
             files: FileWatcher::idle(),
             recovery: RecoveryKeeper::default(),

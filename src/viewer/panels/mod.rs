@@ -1,6 +1,5 @@
 //! Panels: each shows what it is given, and returns what was asked for.
 pub mod camera;
-pub mod display;
 pub mod exports;
 pub mod frame_times;
 pub mod inspector;
@@ -17,6 +16,7 @@ pub mod scene_commands;
 pub mod status_bar;
 pub mod stop;
 pub mod subject;
+pub mod tone;
 pub mod toolbar;
 pub mod users;
 pub mod views;

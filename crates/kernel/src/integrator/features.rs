@@ -12,11 +12,11 @@ use super::{
     batch::Batch,
     interaction::SurfaceInteraction,
     intersect::intersect,
-    passage::Decisions,
     queue::Register,
     records::Path,
     slots::BLOCK,
     spawn::spawn,
+    transparent_ray::Decisions,
     variation::{IncidentPaths, vary},
     work::Work,
 };

@@ -1,7 +1,7 @@
 //! Second stage: finds x_M, the first surface that every path meets. A separate instance is compiled for scenes of spheres alone.
 use fearless_simd_macros::simd;
 
-use super::{batch::Batch, meet::meet, passage::Decisions, queue::Register, records::Path, work::Work};
+use super::{batch::Batch, meet::meet, queue::Register, records::Path, transparent_ray::Decisions, work::Work};
 use noisefall_base::math::Lanes;
 
 #[inline(always)]

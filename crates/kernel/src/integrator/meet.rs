@@ -6,9 +6,9 @@ use fearless_simd_macros::simd;
 
 use super::{
     batch::Batch,
-    passage::{Decisions, MOST_CROSSINGS, Passage},
     queue::Register,
     records::Path,
+    transparent_ray::{Decisions, MOST_CROSSINGS, TransparentRay},
     work::Work,
 };
 use noisefall_base::math::{F, Lanes, Pick, U};
@@ -24,12 +24,12 @@ pub(super) fn meet<L: Lanes>(l: L, work: &Work, batch: &mut Batch, decisions: De
         let path = Path::read(l, &paths.paths, start);
         let first = first_hits.get(l, start, has_elements);
         let mut row = first.primitive;
-        let mut passage = Passage::new(l, [path.o, path.d], work.time(l, path.slot), first);
-        let mut open = passage.layered(l, scene, live);
+        let mut transparent_ray = TransparentRay::new(l, [path.o, path.d], work.time(l, path.slot), first);
+        let mut open = transparent_ray.layered(l, scene, live);
         let [opacity, part] = if open.any() { coordinates(l, work, path.slot, *bounce + 1, decisions) } else { [l.f(0.5); 2] };
         let (mut crossed, mut count) = (0, l.f(0.0));
         while open.any() {
-            let crossing = passage.crossing(l, scene, open);
+            let crossing = transparent_ray.crossing(l, scene, open);
             let (alpha, at_crossing) = crossing.opacity(l, scene, open, decisions.of_crossing(part, crossed), decisions);
             row = open.pick(at_crossing, row);
             let passes = open & (crossing.again | !decisions.of_crossing(opacity, crossed).lt(alpha));
@@ -37,13 +37,13 @@ pub(super) fn meet<L: Lanes>(l: L, work: &Work, batch: &mut Batch, decisions: De
                 break;
             }
             *rays += passes.count() as u64;
-            passage.cross(l, scene, passes, &crossing);
+            transparent_ray.cross(l, scene, passes, &crossing);
             count = (passes & !crossing.again).pick(count + 1.0, count);
-            row = passes.pick(passage.nearest().primitive, row);
-            open = passage.layered(l, scene, passes);
+            row = passes.pick(transparent_ray.nearest().primitive, row);
+            open = transparent_ray.layered(l, scene, passes);
             crossed += 1;
         }
-        first_hits.put(start, &passage.nearest(), has_elements);
+        first_hits.put(start, &transparent_ray.nearest(), has_elements);
         if work.counts_crossings() {
             crossings.add(live, path.slot, count);
         }

@@ -1,7 +1,10 @@
 //! Queues that are filled and read in lockstep: the records of paths at one stage. A scene fills only those that it needs.
 use super::{
     queue::{Queue, Register, Registers},
-    records::{Chart, Detail, Hit, Inside, NormalShadowing, Path, PreviousLobe, PreviousVertex, Relief, Shadow, Transmittance},
+    records::{
+        Detail, Hit, MappedNormals, MediumStack, NormalShadowing, Path, PreviousLobe, PreviousVertex, Shadow, SurfaceCoordinates,
+        Transmittance,
+    },
     slots::SLOTS,
 };
 use noisefall_base::math::{Lanes, One, Pick, U};
@@ -23,7 +26,7 @@ impl Default for PathQueues {
             paths: Path::<One>::queue(SLOTS),
             previous_vertices: PreviousVertex::<One>::queue(SLOTS),
             previous_lobes: PreviousLobe::<One>::queue(SLOTS),
-            media: Inside::<One>::queue(SLOTS),
+            media: MediumStack::<One>::queue(SLOTS),
         }
     }
 }
@@ -75,9 +78,9 @@ impl Default for HitQueues {
         HitQueues {
             hits: Hit::<One>::queue(SLOTS),
             details: Detail::<One>::queue(SLOTS),
-            charts: Chart::<One>::queue(SLOTS),
+            charts: SurfaceCoordinates::<One>::queue(SLOTS),
             normal_shadowing: NormalShadowing::<One>::queue(SLOTS),
-            relief: Relief::<One>::queue(SLOTS),
+            relief: MappedNormals::<One>::queue(SLOTS),
             transmittances: Transmittance::<One>::queue(SLOTS),
         }
     }
@@ -113,7 +116,7 @@ pub(super) struct ShadowQueues {
 
 impl Default for ShadowQueues {
     fn default() -> Self {
-        ShadowQueues { shadows: Shadow::<One>::queue(SLOTS), media: Inside::<One>::queue(SLOTS) }
+        ShadowQueues { shadows: Shadow::<One>::queue(SLOTS), media: MediumStack::<One>::queue(SLOTS) }
     }
 }
 
@@ -143,5 +146,5 @@ impl ShadowQueues {
 #[inline(always)]
 fn media<L: Lanes>(l: L, queue: &Queue, at: Register<L>) -> U<L> {
     // Lanes past the end may say anything, even media of an earlier scene.
-    at.live.pick(Inside::read(l, queue, at.start).media, l.u(0))
+    at.live.pick(MediumStack::read(l, queue, at.start).media, l.u(0))
 }

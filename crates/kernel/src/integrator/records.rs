@@ -39,7 +39,7 @@ pub(super) const TRANSMITS: u32 = 2;
 
 record! {
     /// The media around a path, innermost in the lowest byte. Stored beside paths and light samples in scenes with media.
-    Inside {
+    MediumStack {
         media: U,
     }
 }
@@ -78,7 +78,7 @@ record! {
 
 record! {
     /// Where a path is on a surface, in scenes with materials whose shading reads it. Stored beside [`Detail`].
-    Chart {
+    SurfaceCoordinates {
         /// Texture coordinates.
         u: F,
         v: F,
@@ -104,7 +104,7 @@ record! {
 
 record! {
     /// What bump and normal maps tilt, for viewers in any direction. Stored beside [`Detail`] for paths from both ends.
-    Relief {
+    MappedNormals {
         /// The smooth normal, on the side the path arrived from.
         smooth: V,
         /// The normal of the surface, tilted.

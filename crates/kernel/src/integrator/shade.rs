@@ -5,7 +5,7 @@ use fearless_simd_macros::simd;
 use super::{
     batch::Batch,
     queues::{PathQueues, ShadowQueues},
-    records::{DELTA, Inside, PreviousLobe, PreviousVertex, TRANSMITS},
+    records::{DELTA, MediumStack, PreviousLobe, PreviousVertex, TRANSMITS},
     shading::{LightEstimate, Reflected, Shading, shares_first},
     work::Work,
 };
@@ -39,7 +39,7 @@ fn queue_light_sample<L: Lanes, K: Shade>(l: L, work: &Work, shading: &Shading<L
     let keep = shading.live & may_contribute;
     shadow.push(keep, &mut queues.shadows);
     if K::DETAILED && work.has_media() {
-        Inside { media: shading.vertex.media_towards::<K>(wi.z) }.push(keep, &mut queues.media);
+        MediumStack { media: shading.vertex.media_towards::<K>(wi.z) }.push(keep, &mut queues.media);
     }
 }
 
@@ -53,12 +53,12 @@ fn queue_path<L: Lanes, K: Shade>(l: L, work: &Work, shading: &Shading<L, K>, re
         let unsampled = if K::TRANSMITS { sample.delta | vertex.self_lit } else { sample.delta };
         let flags = unsampled.pick(l.u(DELTA), l.u(0)) | if K::TRANSMITS { TRANSMITS } else { 0 };
         PreviousVertex { n: vertex.n, pdf: sample.pdf, flags }.push(keep, &mut queues.previous_vertices);
-        if work.heeds_lobes() {
+        if work.weights_lights_by_lobe() {
             let Lobe { wo, alpha } = shading.lobe(l);
             PreviousLobe { wo, alpha }.push(keep, &mut queues.previous_lobes);
         }
     }
     if K::DETAILED && work.has_media() {
-        Inside { media: vertex.media_towards::<K>(sample.wi.z) }.push(keep, &mut queues.media);
+        MediumStack { media: vertex.media_towards::<K>(sample.wi.z) }.push(keep, &mut queues.media);
     }
 }

@@ -6,7 +6,7 @@ use super::{
     media::beyond,
     queue::Register,
     queues::HitQueues,
-    records::{Chart, Detail, Hit, NormalShadowing, Path, Shadow, Transmittance},
+    records::{Detail, Hit, NormalShadowing, Path, Shadow, SurfaceCoordinates, Transmittance},
     roulette::{Survivors, survive},
     work::Work,
 };
@@ -79,7 +79,7 @@ impl<'a, L: Lanes, K: Shade> Shading<'a, L, K> {
     #[inline(always)]
     pub fn sample_light(&self, l: L, work: &Work) -> LightEstimate<L> {
         let Shading { hit, vertex, bsdf, coordinates, reflection, .. } = self;
-        let lobe = if K::GLOSSY && work.heeds_lobes() { Some(self.lobe(l)) } else { None };
+        let lobe = if K::GLOSSY && work.weights_lights_by_lobe() { Some(self.lobe(l)) } else { None };
         let at = ReferencePoint { p: hit.p, n: vertex.n, transmits: if K::TRANSMITS { l.first(L::N) } else { l.first(0) }, lobe };
         let sample_light = if K::DETAILED { call_sample_light } else { sample_light };
         let sample = sample_light(l, work, &at, &coordinates.stream, coordinates.direction, hit.slot, *reflection);
@@ -121,9 +121,9 @@ impl<'a, L: Lanes, K: Shade> Shading<'a, L, K> {
         }
         let (o, consistent) = vertex.leave::<K>(hit, d, sample.wi.z);
         let outside = K::compression_outside(l, &work.scene.surfaces.materials, &vertex.local);
-        let judged = K::roulette_scale(bsdf, vertex.local.front, sample.wi.z) * outside;
+        let roulette_scale = K::roulette_scale(bsdf, vertex.local.front, sample.wi.z) * outside;
         let throughput = if shares { hit.throughput } else { hit.throughput * sample.weight };
-        let survival = survive(l, work.settings.roulette, *reflection, coordinates.roulette, throughput, judged);
+        let survival = survive(l, work.settings.roulette, *reflection, coordinates.roulette, throughput, roulette_scale);
         let mut goes_on = survival.alive & consistent;
         if K::DETAILED {
             goes_on = goes_on & survival.throughput.max_component().above(0.0);
@@ -149,7 +149,7 @@ pub(super) fn read_vertex<L: Lanes, K: Shade>(
     queues: &HitQueues,
     Register { start, live }: Register<L>,
     hit: &Hit<L>,
-) -> (ShadingVertex<L>, Option<Chart<L>>) {
+) -> (ShadingVertex<L>, Option<SurfaceCoordinates<L>>) {
     if !K::DETAILED {
         return (ShadingVertex::plain(l, hit), None);
     }
@@ -160,7 +160,7 @@ pub(super) fn read_vertex<L: Lanes, K: Shade>(
     if !(K::CHARTED && work.scene.surfaces.charted) {
         return (vertex, None);
     }
-    let chart = Chart::read(l, &queues.charts, start);
+    let chart = SurfaceCoordinates::read(l, &queues.charts, start);
     vertex.align::<K>(l, work, &detail, &chart);
     (vertex, Some(chart))
 }
@@ -174,13 +174,13 @@ pub(super) fn read_bsdf<'a, L: Lanes, K: Shade>(
     start: usize,
     hit: &Hit<L>,
     local: &Local<L>,
-    chart: Option<&Chart<L>>,
+    chart: Option<&SurfaceCoordinates<L>>,
 ) -> K::Bsdf<'a, L> {
     let (materials, directions) = (&work.scene.surfaces.materials, work.settings.directions);
     let bsdf = if K::CHARTED {
-        let colour = chart.map(|Chart { vertex: V { x, y, z }, vertex_opacity, .. }| [*x, *y, *z, *vertex_opacity]);
+        let colour = chart.map(|SurfaceCoordinates { vertex: V { x, y, z }, vertex_opacity, .. }| [*x, *y, *z, *vertex_opacity]);
         let lookup = match chart {
-            Some(Chart { u, v, .. }) => {
+            Some(SurfaceCoordinates { u, v, .. }) => {
                 Some((&work.scene.textures, TextureCoordinates { u: *u, v: *v, p: hit.p, vertex: colour.as_ref() }))
             }
             None => None,
@@ -256,14 +256,14 @@ impl<L: Lanes> ShadingVertex<L> {
 
     /// Turns the frame to the tangent.
     #[inline(always)]
-    fn align<K: Shade>(&mut self, l: L, work: &Work, detail: &Detail<L>, chart: &Chart<L>) {
+    fn align<K: Shade>(&mut self, l: L, work: &Work, detail: &Detail<L>, chart: &SurfaceCoordinates<L>) {
         self.frame = self.frame_about::<K>(l, work, detail.n, Some(chart));
         self.wo = self.frame.local_from_world(detail.wo);
     }
 
     /// The frame about a normal, turned to the tangent if there is a chart.
     #[inline(always)]
-    pub fn frame_about<K: Shade>(&self, l: L, work: &Work, n: V<L>, chart: Option<&Chart<L>>) -> Frame<L> {
+    pub fn frame_about<K: Shade>(&self, l: L, work: &Work, n: V<L>, chart: Option<&SurfaceCoordinates<L>>) -> Frame<L> {
         let Some(chart) = chart else { return Frame::new(n) };
         let (cos, sin) = K::turn(l, &work.scene.surfaces.materials, &self.local);
         // The turn is from the tangent towards the bitangent.

@@ -2,7 +2,7 @@
 //!
 //! A sample counts if the first surface along its ray is the light that it was sampled from, or if the ray reaches its lamp without
 //! surface. There is no tolerance: no distance is compared with that of a surface of the light. Light that passes
-//! through surfaces on its way is multiplied by their transmittances (`passage.rs`).
+//! through surfaces on its way is multiplied by their transmittances (`transparent_ray.rs`).
 use fearless_simd_macros::simd;
 
 use super::{
@@ -11,8 +11,8 @@ use super::{
     interaction::emission_texture,
     media::transmittance,
     missed_light::passes_light,
-    passage::{Crossing, MOST_CROSSINGS, Passage},
     records::Shadow,
+    transparent_ray::{Crossing, MOST_CROSSINGS, TransparentRay},
     work::Work,
 };
 use noisefall_base::math::{F, Lanes, M, Pick, U, V};
@@ -155,20 +155,23 @@ fn through_surfaces<L: Lanes>(
     let part = work.shadow_part(l, shadow.slot, reflection);
     let first = scene.shapes.closest(l, live, shadow.o, shadow.d, time);
     let mut arriving = Arriving { seen: l.first(0), light: V::splat(l, [0.0; 3]), t: l.f(f32::INFINITY) };
-    let mut passage = Passage::new(l, [shadow.o, shadow.d], time, first);
+    let mut transparent_ray = TransparentRay::new(l, [shadow.o, shadow.d], time, first);
     // A light that is one crossing further away than allowed is hidden.
     let (mut open, mut passed, mut left) = (live & !left.below(0.0), l.f(1.0), left);
     for crossed in 0..=MOST_CROSSINGS {
         if scene.lights_are_missed {
-            let at_light = scene.lights.light_at(l, passage.nearest().primitive, passage.nearest().element).equals(shadow.target);
+            let at_light = scene
+                .lights
+                .light_at(l, transparent_ray.nearest().primitive, transparent_ray.nearest().element)
+                .equals(shadow.target);
             let missed = open & !arriving.seen & !at_light;
-            let (passes, light) = passes_light(l, work, missed, shadow, time, &passage.nearest());
-            passage.meet(passes, &light);
+            let (passes, light) = passes_light(l, work, missed, shadow, time, &transparent_ray.nearest());
+            transparent_ray.meet(passes, &light);
         }
-        let hit = passage.hits(open);
-        let (arrives, nearest) = scene.lights.arrives(l, shadow.target, shadow.o, passage.nearest());
+        let hit = transparent_ray.hits(open);
+        let (arrives, nearest) = scene.lights.arrives(l, shadow.target, shadow.o, transparent_ray.nearest());
         let reached = open & arrives & nearest.primitive.is(MISS);
-        let (crossing, alpha) = passage.crossing_and_opacity(l, scene, hit, part, crossed);
+        let (crossing, alpha) = transparent_ray.crossing_and_opacity(l, scene, hit, part, crossed);
         let PrimitiveRef { primitive, element, .. } = crossing.place;
         let at_light = hit & !crossing.again & scene.lights.light_at(l, primitive, element).equals(shadow.target);
         let t = nearest.t;
@@ -186,7 +189,7 @@ fn through_surfaces<L: Lanes>(
             break;
         }
         *rays += goes_on.count() as u64;
-        passage.cross(l, scene, goes_on, &crossing);
+        transparent_ray.cross(l, scene, goes_on, &crossing);
         open = goes_on;
     }
     arriving

@@ -3,7 +3,7 @@ use fearless_simd_macros::simd;
 
 use super::{
     batch::Batch,
-    records::{Inside, Path},
+    records::{MediumStack, Path},
     work::Work,
 };
 use noisefall_base::math::{Lanes, V};
@@ -36,7 +36,7 @@ pub(super) fn spawn<L: Lanes>(l: L, work: &Work, batch: &mut Batch) {
         let (o, d) = if work.rays.move_in_time() { work.rays.carried(l, (o, d), work.time(l, slot)) } else { (o, d) };
         Path { o, d, throughput: V::splat(l, [1.0; 3]), slot }.push(inside, &mut batch.paths[0].paths);
         if work.has_media() {
-            Inside { media: l.u(work.rays.media) }.push(inside, &mut batch.paths[0].media);
+            MediumStack { media: l.u(work.rays.media) }.push(inside, &mut batch.paths[0].media);
         }
     }
 }

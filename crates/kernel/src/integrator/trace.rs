@@ -5,7 +5,6 @@ use super::{
     batch::Batch,
     interrupted::Interrupted,
     intersect::intersect,
-    passage::Decisions,
     queues::HitQueues,
     records::Path,
     reuse::share,
@@ -14,6 +13,7 @@ use super::{
     slots::{BLOCK, BLOCKS, TILE},
     spawn::spawn,
     surface::surfaces,
+    transparent_ray::Decisions,
     work::Work,
 };
 use noisefall_base::math::{Lanes, One, SimdLevel, in_lanes};

@@ -2,7 +2,7 @@
 use super::{
     interaction::{SurfaceInteraction, vertex_colour},
     normal_mapping::{seen_from_behind, shading_normal, visible_normal, visible_smooth_normal},
-    records::{Chart, Detail, Relief},
+    records::{Detail, MappedNormals, SurfaceCoordinates},
 };
 use noisefall_base::math::{Lanes, M, Pick, U, V};
 use noisefall_scene::{
@@ -52,13 +52,13 @@ impl<L: Lanes> IncidentPaths<L> {
 
 /// Texture coordinates and tangents of the paths.
 #[inline(always)]
-pub(super) fn chart<L: Lanes>(l: L, scene: &Scene, incident: &IncidentPaths<L>) -> Chart<L> {
+pub(super) fn chart<L: Lanes>(l: L, scene: &Scene, incident: &IncidentPaths<L>) -> SurfaceCoordinates<L> {
     let SurfaceInteraction { place, point, .. } = &incident.interaction;
     let Coordinates { u, v } = scene.shapes.coordinates(l, place, point);
     let [along_u, up] = scene.shapes.axes(l, place, point, scene.shapes.tangents(l, place, point));
     let [x, y, z, vertex_opacity] = vertex_colour(l, scene, *place, *point).unwrap_or([l.f(1.0); 4]);
     let handedness = l.f(1.0).copysign(along_u.cross(up).dot(point.n_geometric));
-    Chart { u, v, along_u, handedness, vertex: V { x, y, z }, vertex_opacity }
+    SurfaceCoordinates { u, v, along_u, handedness, vertex: V { x, y, z }, vertex_opacity }
 }
 
 /// Evaluates textures in the lanes of `mask`, for surfaces of colour `colour` and normal `n` without them. Returns colour, details,
@@ -109,13 +109,20 @@ pub(super) fn vary<L: Lanes>(
 
 /// The relief of a surface with the normal `n`, whose smooth normal is `smooth`.
 #[inline(always)]
-pub(super) fn relief<L: Lanes>(l: L, scene: &Scene, incident: &IncidentPaths<L>, mask: M<L>, n: V<L>, smooth: V<L>) -> Relief<L> {
+pub(super) fn relief<L: Lanes>(
+    l: L,
+    scene: &Scene,
+    incident: &IncidentPaths<L>,
+    mask: M<L>,
+    n: V<L>,
+    smooth: V<L>,
+) -> MappedNormals<L> {
     let SurfaceInteraction { place, row, point, .. } = &incident.interaction;
     let Coordinates { u, v } = scene.shapes.coordinates(l, place, point);
     let vertex = vertex_colour(l, scene, *place, *point);
     let at = TextureCoordinates { u, v, p: point.p, vertex: vertex.as_ref() };
     let [.., flags] = l.rows(&scene.surfaces.relief, *row);
-    Relief { smooth, tilted_surface: incident.tilted(l, scene, mask, n, &at), flags: flags.bits() }
+    MappedNormals { smooth, tilted_surface: incident.tilted(l, scene, mask, n, &at), flags: flags.bits() }
 }
 
 /// Diffuse transmittance in the lanes of `mask`.

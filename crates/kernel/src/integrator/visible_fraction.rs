@@ -2,7 +2,7 @@
 use fearless_simd_macros::simd;
 
 use super::{
-    passage::{MOST_CROSSINGS, Passage},
+    transparent_ray::{MOST_CROSSINGS, TransparentRay},
     work::Work,
 };
 use noisefall_base::math::{F, Lanes, M, Pick, U, V};
@@ -69,20 +69,20 @@ fn fraction_through_surfaces<L: Lanes>(
 ) -> F<L> {
     let scene = work.scene;
     let part = work.shadow_part(l, segment.slot, reflection);
-    let mut passage = Passage::new(l, [segment.o, segment.d], work.time(l, segment.slot), nearest);
+    let mut transparent_ray = TransparentRay::new(l, [segment.o, segment.d], work.time(l, segment.slot), nearest);
     let (mut open, mut passed, mut arrives) = (live, l.f(1.0), l.first(0));
     for crossed in 0..=MOST_CROSSINGS {
-        arrives = arrives | (open & segment.is_open(&passage.nearest()));
-        let is_before = passage.nearest().t.lt(segment.distance);
-        let hit = passage.hits(open & is_before & !arrives);
-        let (crossing, alpha) = passage.crossing_and_opacity(l, scene, hit, part, crossed);
+        arrives = arrives | (open & segment.is_open(&transparent_ray.nearest()));
+        let is_before = transparent_ray.nearest().t.lt(segment.distance);
+        let hit = transparent_ray.hits(open & is_before & !arrives);
+        let (crossing, alpha) = transparent_ray.crossing_and_opacity(l, scene, hit, part, crossed);
         passed = (hit & !crossing.again).pick(passed * (1.0 - alpha), passed);
         open = hit & passed.above(0.0);
         if crossed == MOST_CROSSINGS || !open.any() {
             break;
         }
         *rays += open.count() as u64;
-        passage.cross(l, scene, open, &crossing);
+        transparent_ray.cross(l, scene, open, &crossing);
     }
     arrives.pick(passed, l.f(0.0))
 }

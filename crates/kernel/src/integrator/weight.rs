@@ -26,7 +26,7 @@ pub(super) fn weight_of_hit<L: Lanes>(
     target: PrimitiveRef<L>,
 ) -> F<L> {
     let previous = PreviousVertex::read(l, &queues.previous_vertices, start);
-    let lobe = if work.heeds_lobes() {
+    let lobe = if work.weights_lights_by_lobe() {
         let PreviousLobe { wo, alpha } = PreviousLobe::read(l, &queues.previous_lobes, start);
         Some(Lobe { wo, alpha })
     } else {

@@ -182,8 +182,8 @@ impl<'a> Work<'a> {
 
     /// Whether light samples depend on lobes; emitter hits then need them for their pdf.
     #[inline(always)]
-    pub(super) fn heeds_lobes(&self) -> bool {
-        self.settings.estimator.compares() && self.scene.heeds_lobes()
+    pub(super) fn weights_lights_by_lobe(&self) -> bool {
+        self.settings.estimator.compares() && self.scene.weights_lights_by_lobe()
     }
 
     /// Whether surfaces sample a light. Lamps without surface are sampled by all estimators, because no ray can hit them.

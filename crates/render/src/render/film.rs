@@ -12,7 +12,7 @@ pub struct Film {
     /// The tiles, row by row from the top left.
     pub tiles: Vec<Tile>,
     /// Whether all samples up to the next doubling are there, which must be recorded before there are more.
-    pub(super) is_noting: bool,
+    pub(super) awaits_error_record: bool,
     /// What pixels share. If they do, their noise is correlated.
     pub(super) sharing: Sharing,
     /// Whether a pilot has measured the noise.
@@ -27,7 +27,15 @@ impl Film {
     /// An empty film. The render threads allocate its memory with the first sample, tile by tile.
     pub fn new(resolution: [u32; 2]) -> Film {
         let tiles = Area::tiles(resolution).map(|Area { origin, size }| Tile::new(origin, size)).collect();
-        Film { resolution, tiles, is_noting: false, sharing: Sharing::Nothing, is_piloted: false, focus: None, splats: None }
+        Film {
+            resolution,
+            tiles,
+            awaits_error_record: false,
+            sharing: Sharing::Nothing,
+            is_piloted: false,
+            focus: None,
+            splats: None,
+        }
     }
 
     /// Reserves memory for an image of this size: the film, its frames, and saving one of them.
@@ -62,7 +70,8 @@ impl Film {
             return Film::new(resolution);
         }
         self.tiles.iter_mut().for_each(Tile::forget);
-        (self.is_noting, self.sharing, self.is_piloted, self.focus, self.splats) = (false, Sharing::Nothing, false, None, None);
+        (self.awaits_error_record, self.sharing, self.is_piloted, self.focus, self.splats) =
+            (false, Sharing::Nothing, false, None, None);
         self
     }
 

@@ -50,9 +50,9 @@ impl Threads {
         // All tiles meet where their samples have doubled, for how far they have moved is seen over the whole picture.
         let mut count = PassCount::default();
         loop {
-            if film.is_noting {
-                film.is_noting = !self.pool.install(|| error_estimator::note(film, interrupted));
-                if film.is_noting || film.tiles_in_focus().all(|tile| tile.spp >= spp) {
+            if film.awaits_error_record {
+                film.awaits_error_record = !self.pool.install(|| error_estimator::note(film, interrupted));
+                if film.awaits_error_record || film.tiles_in_focus().all(|tile| tile.spp >= spp) {
                     return count;
                 }
             }
@@ -60,8 +60,8 @@ impl Threads {
             // After an interruption some blocks may be ahead. What is recorded of them waits until all have doubled.
             let is_there = film.tiles_in_focus().all(|tile| tile.has_reached(spp));
             let is_done = film.tiles_in_focus().all(|tile| tile.distance_to(spp) == 0);
-            film.is_noting = is_there && !(is_done && film.tiles_in_focus().any(|tile| tile.is_ahead_of(spp)));
-            if !film.is_noting {
+            film.awaits_error_record = is_there && !(is_done && film.tiles_in_focus().any(|tile| tile.is_ahead_of(spp)));
+            if !film.awaits_error_record {
                 return count;
             }
         }

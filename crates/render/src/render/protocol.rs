@@ -62,8 +62,8 @@ const LEAST_SPP: u32 = 64;
 /// Whether the estimated noise of an image is reliably at most `goal`. It is looked at only at some sample counts, so that where a
 /// render stops does not depend on the length of its passes.
 pub(super) fn is_below(goal: f64, spp: u32, rel_mse_estimate: Option<f64>) -> bool {
-    let is_looked_at = spp >= LEAST_SPP && spp == next_look(spp - 1);
-    is_looked_at && rel_mse_estimate.is_some_and(|rel_mse| rel_mse.sqrt() <= goal)
+    let is_noise_check = spp >= LEAST_SPP && spp == next_look(spp - 1);
+    is_noise_check && rel_mse_estimate.is_some_and(|rel_mse| rel_mse.sqrt() <= goal)
 }
 
 /// The next sample count above `spp` at which a noise target looks at the noise: 16 between one power of two and the next.

@@ -217,7 +217,7 @@ impl Scene {
     }
 
     /// Whether light samples depend on what glossy surfaces reflect.
-    pub fn heeds_lobes(&self) -> bool {
+    pub fn weights_lights_by_lobe(&self) -> bool {
         self.lights.heed_lobes() && self.surfaces.glossy
     }
 

@@ -12,7 +12,7 @@ use crate::integrator::{
     batch::Batch,
     interrupted::Interrupted,
     light_paths::{
-        partial::{Others, cosine},
+        partial::{CompetingStrategies, cosine},
         path_state::PathVertex,
         paths::LightPaths,
         records::DirectSample,
@@ -20,7 +20,7 @@ use crate::integrator::{
     light_sample::call_sample_light,
     queue::{Queue, Register},
     queues::HitQueues,
-    records::{Inside, Path},
+    records::{MediumStack, Path},
     roulette::survive,
     work::Work,
 };
@@ -49,10 +49,10 @@ pub(super) fn shade_camera_paths<L: Lanes, O: Observer<L>>(
     // What paths from lights bring to the first surface is found by them alone.
     let is_joined = !connects && !only_caustics && *bounce == 0;
     let others = match *bounce {
-        _ if connects => Others::All,
-        0 if only_caustics => Others::All,
-        _ if only_caustics => Others::AfterDelta,
-        _ => Others::None,
+        _ if connects => CompetingStrategies::All,
+        0 if only_caustics => CompetingStrategies::All,
+        _ if only_caustics => CompetingStrategies::AfterDelta,
+        _ => CompetingStrategies::None,
     };
     let is_connected = connects && reflection < work.settings.last_bounce();
     let merged = merged_paths(work);
@@ -78,7 +78,8 @@ pub(super) fn shade_camera_paths<L: Lanes, O: Observer<L>>(
             }
             let scattered = scatter(l, work, *stage, hits, at, vertex.back, reflection);
             let throughput = vertex.hit.throughput * scattered.weight;
-            let survival = survive(l, work.settings.roulette, reflection, scattered.roulette, throughput, scattered.judged);
+            let survival =
+                survive(l, work.settings.roulette, reflection, scattered.roulette, throughput, scattered.roulette_scale);
             let mut keep = at.live & survival.alive & scattered.consistent & survival.throughput.max_component().above(0.0);
             if is_joined {
                 keep = keep & scattered.delta;
@@ -95,7 +96,7 @@ pub(super) fn shade_camera_paths<L: Lanes, O: Observer<L>>(
             end.put_before(keep, slot, vertex.hit.n, transmits(l, *stage), are_self_lit(l, *stage, hits, at));
             Path { o: scattered.o, d: scattered.d, throughput: survival.throughput, slot }.push(keep, &mut next.paths);
             if work.has_media() {
-                Inside { media: scattered.media }.push(keep, &mut next.media);
+                MediumStack { media: scattered.media }.push(keep, &mut next.media);
             }
         }
     }

@@ -6,7 +6,7 @@ use crate::integrator::{
     batch::Batch,
     interaction::emission_texture,
     light_paths::{partial::Partial, paths::LightPaths},
-    records::{Inside, Path},
+    records::{MediumStack, Path},
     shared::put,
     work::Work,
 };
@@ -54,7 +54,7 @@ pub(super) fn emit<L: Lanes, O: Observer<L>>(
         end.put_partial(starts, slot, Partial { v: l.f(0.0), c: l.f(0.0) });
         Path { o: ray.o, d: ray.d, throughput: V::splat(l, [1.0; 3]), slot }.push(starts, &mut batch.paths[0].paths);
         if work.has_media() {
-            Inside { media: ray.media }.push(starts, &mut batch.paths[0].media);
+            MediumStack { media: ray.media }.push(starts, &mut batch.paths[0].media);
         }
     }
 }

@@ -10,7 +10,7 @@ use super::{
 use crate::integrator::{
     batch::Batch,
     light_paths::{
-        partial::{Others, Partial, cosine},
+        partial::{CompetingStrategies, Partial, cosine},
         path_state::PathVertex,
         paths::LightPaths,
         records::CameraRay,
@@ -18,7 +18,7 @@ use crate::integrator::{
     media::transmittance,
     queue::{Queue, Register},
     queues::HitQueues,
-    records::{Inside, Path},
+    records::{MediumStack, Path},
     roulette::survive,
     work::Work,
 };
@@ -49,12 +49,12 @@ pub(super) fn shade_light_paths<L: Lanes, O: Observer<L>>(
     let is_kept = connects && (merged > 0.0 || *bounce + 2 <= work.settings.last_bounce());
     // Without a surface between, camera paths find the light by light samples.
     let is_joined = !only_caustics || *bounce > 0;
-    let others = if connects || only_caustics { Others::All } else { Others::None };
+    let others = if connects || only_caustics { CompetingStrategies::All } else { CompetingStrategies::None };
     for stage in &work.scene.surfaces.stages {
         let hits = &hits[*stage as usize];
         for at in hits.registers(l) {
             let mut vertex = state.ends[0].read(l, hits, at);
-            if *bounce == 0 && others == Others::All {
+            if *bounce == 0 && others == CompetingStrategies::All {
                 vertex.partial = at_first_surface(l, work, rays, state, *stage, are_self_lit(l, *stage, hits, at), &vertex);
             }
             let [r, g, b, _] = l.rows(&state.fluxes, vertex.hit.slot);
@@ -83,7 +83,7 @@ pub(super) fn shade_light_paths<L: Lanes, O: Observer<L>>(
             state.ends[0].put_partial(keep, slot, partial);
             Path { o: scattered.o, d: scattered.d, throughput: survival.throughput, slot }.push(keep, &mut next.paths);
             if work.has_media() {
-                Inside { media: scattered.media }.push(keep, &mut next.media);
+                MediumStack { media: scattered.media }.push(keep, &mut next.media);
             }
         }
     }

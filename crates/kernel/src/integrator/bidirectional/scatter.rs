@@ -7,7 +7,7 @@ use crate::integrator::{
     light_paths::partial::cosine,
     queue::Register,
     queues::HitQueues,
-    records::{Chart, Detail, Hit, Relief},
+    records::{Detail, Hit, MappedNormals, SurfaceCoordinates},
     shading::{ShadingVertex, read_bsdf, read_vertex},
     work::Work,
 };
@@ -47,7 +47,7 @@ pub(in crate::integrator) struct Scattered<L: Lanes> {
     /// Lanes where a path in the other direction would have the same shading normal.
     pub reversible: M<L>,
     /// Factor of the throughput before roulette evaluates it.
-    pub judged: F<L>,
+    pub roulette_scale: F<L>,
     pub roulette: F<L>,
 }
 
@@ -142,7 +142,7 @@ fn scatter_kind<L: Lanes, K: Shade>(
     let front = vertex.local.front;
     let scale = K::roulette_scale(&bsdf, front, sample.wi.z);
     let unscaled = scale / K::roulette_scale(&bsdf, front, l.f(1.0));
-    let judged = scale * K::compression_outside(l, &work.scene.surfaces.materials, &vertex.local);
+    let roulette_scale = scale * K::compression_outside(l, &work.scene.surfaces.materials, &vertex.local);
     // Mirrors and glass keep the angles to the shading normal, but flux is measured across the surface.
     let (mut weight, mut of_delta, mut reversible) = (sample.weight, sample.weight * unscaled, l.first(L::N));
     if let Some(normal) = &normal {
@@ -168,7 +168,7 @@ fn scatter_kind<L: Lanes, K: Shade>(
         consistent: consistent & exists,
         media: vertex.media_towards::<K>(sample.wi.z),
         reversible,
-        judged,
+        roulette_scale,
         roulette: coordinates.roulette,
     }
 }
@@ -187,7 +187,7 @@ struct SurfaceHits<'a, 'q, L: Lanes, K: Shade> {
     hit: Hit<L>,
     vertex: ShadingVertex<L>,
     normals: Normals<L>,
-    chart: Option<Chart<L>>,
+    chart: Option<SurfaceCoordinates<L>>,
     kind: std::marker::PhantomData<K>,
 }
 
@@ -197,7 +197,7 @@ impl<'a, 'q, L: Lanes, K: Shade> SurfaceHits<'a, 'q, L, K> {
         let hit = Hit::read(l, &hits.hits, at.start);
         let (vertex, chart) = read_vertex::<L, K>(l, work, hits, at, &hit);
         let has_relief = K::DETAILED && !work.scene.surfaces.relief.is_empty();
-        let relief = if has_relief { Some(Relief::read(l, &hits.relief, at.start)) } else { None };
+        let relief = if has_relief { Some(MappedNormals::read(l, &hits.relief, at.start)) } else { None };
         let normals = Normals { surface: hit.n, shading: vertex.n, relief };
         SurfaceHits { work, hits, start: at.start, hit, vertex, normals, chart, kind: std::marker::PhantomData }
     }

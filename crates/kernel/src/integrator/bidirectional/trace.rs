@@ -12,8 +12,8 @@ use super::{
     observer::Observer,
 };
 use crate::integrator::{
-    batch::Batch, interrupted::Interrupted, intersect::intersect, light_paths::paths::LightPaths, passage::Decisions,
-    queues::HitQueues, spawn::spawn, work::Work,
+    batch::Batch, interrupted::Interrupted, intersect::intersect, light_paths::paths::LightPaths, queues::HitQueues,
+    spawn::spawn, transparent_ray::Decisions, work::Work,
 };
 use noisefall_base::math::Lanes;
 use noisefall_scene::light::LightRays;

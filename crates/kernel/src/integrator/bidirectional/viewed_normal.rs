@@ -2,7 +2,7 @@
 use crate::integrator::{
     normal_mapping::{GRAZING, reflecting_normal, seen_from_behind, visible_normal},
     normal_shadowing::shadowing_of_normals,
-    records::Relief,
+    records::MappedNormals,
 };
 use noisefall_base::math::{Lanes, M, Pick, U, V};
 use noisefall_scene::scene::surface::{ON_BOTH_SIDES, is_set};
@@ -13,7 +13,7 @@ pub(super) struct Normals<L: Lanes> {
     /// The shading normal, whether or not a viewer sees its front.
     pub shading: V<L>,
     /// What bump and normal maps tilt, in scenes with any.
-    pub relief: Option<Relief<L>>,
+    pub relief: Option<MappedNormals<L>>,
 }
 
 /// The normal that a viewer sees.

@@ -27,7 +27,7 @@ pub fn finite<L: Lanes>(cos: F<L>) -> F<L> {
 
 /// Strategies with more vertices from the other end than a light sample has.
 #[derive(Clone, Copy, PartialEq)]
-pub enum Others {
+pub enum CompetingStrategies {
     /// There are all of them.
     All,
     /// Those of earlier vertices remain only behind surfaces with a single direction.
@@ -54,13 +54,13 @@ impl<L: Lanes> Partial<L> {
     /// After a direction with the pdf `pdf` has been sampled at an angle with the cosine `cos`; `reverse` is the pdf of the direction back
     /// to the vertex before.
     #[inline(always)]
-    pub fn scatter(self, delta: M<L>, [pdf, reverse]: [F<L>; 2], cos: F<L>, others: Others, merged: f32) -> Self {
+    pub fn scatter(self, delta: M<L>, [pdf, reverse]: [F<L>; 2], cos: F<L>, others: CompetingStrategies, merged: f32) -> Self {
         let zero = pdf.splat(0.0);
         let of_delta = self.c * cos;
         let c = match others {
-            Others::All => delta.pick(of_delta, (self.before(reverse) + merged) * (cos / pdf)),
-            Others::AfterDelta => delta.pick(of_delta, zero),
-            Others::None => zero,
+            CompetingStrategies::All => delta.pick(of_delta, (self.before(reverse) + merged) * (cos / pdf)),
+            CompetingStrategies::AfterDelta => delta.pick(of_delta, zero),
+            CompetingStrategies::None => zero,
         };
         Partial { v: delta.pick(zero, 1.0 / pdf), c }.bounded()
     }

@@ -6,7 +6,7 @@ use super::{
 use crate::integrator::{
     queue::Register,
     queues::HitQueues,
-    records::{Chart, Detail, Hit, Relief, Transmittance},
+    records::{Detail, Hit, MappedNormals, SurfaceCoordinates, Transmittance},
     slots::SLOTS,
     work::Work,
 };
@@ -94,7 +94,8 @@ impl LightVertices {
         }
         let (mut chart, mut handedness) = ([zero; 9], zero);
         if work.scene.surfaces.charted && stage.reads_chart() {
-            let Chart { u, v, along_u, handedness: side, vertex, vertex_opacity } = Chart::read(l, &hits.charts, at.start);
+            let SurfaceCoordinates { u, v, along_u, handedness: side, vertex, vertex_opacity } =
+                SurfaceCoordinates::read(l, &hits.charts, at.start);
             handedness = side;
             chart = [u, v, along_u.x, along_u.y, along_u.z, vertex.x, vertex.y, vertex.z, vertex_opacity];
         }
@@ -102,11 +103,11 @@ impl LightVertices {
         if stage.has_transmittance() {
             transmitted = Transmittance::read(l, &hits.transmittances, at.start).colour;
         }
-        let mut relief = Relief { smooth: hit.n, tilted_surface: hit.n, flags: l.u(0) };
+        let mut relief = MappedNormals { smooth: hit.n, tilted_surface: hit.n, flags: l.u(0) };
         if stage != Stage::Plain && !work.scene.surfaces.relief.is_empty() {
-            relief = Relief::read(l, &hits.relief, at.start);
+            relief = MappedNormals::read(l, &hits.relief, at.start);
         }
-        let Relief { smooth, tilted_surface: tilted, flags } = relief;
+        let MappedNormals { smooth, tilted_surface: tilted, flags } = relief;
         let bounce = l.u(bounce).as_real_bits();
         let [a, b, c, d, e, f, g, h, i] = chart;
         let row = |a: F<L>, b: F<L>, c: F<L>, d: F<L>| [a.to_array(), b.to_array(), c.to_array(), d.to_array()];
@@ -210,7 +211,7 @@ impl LightVertices {
         if !work.scene.surfaces.relief.is_empty() {
             let ([a, b, c, _], [d, e, f, _]) = (l.rows(&self.rows, row + 10), l.rows(&self.rows, row + 11));
             let (smooth, tilted_surface) = (V { x: a, y: b, z: c }, V { x: d, y: e, z: f });
-            Relief { smooth, tilted_surface, flags: flags.bits() }.push(keep, &mut queues.relief);
+            MappedNormals { smooth, tilted_surface, flags: flags.bits() }.push(keep, &mut queues.relief);
         }
         Detail { wo, n, alpha, error, surface: read.word, media: none, medium: none }.push(keep, &mut queues.details);
         let (of_chart, more, rest) = (l.rows(&self.rows, row + 6), l.rows(&self.rows, row + 7), l.rows(&self.rows, row + 8));
@@ -218,7 +219,7 @@ impl LightVertices {
             let ([u, v, x, y], [z, r, g, b], [vertex_opacity, ..]) = (of_chart, more, rest);
             let [.., handedness] = l.rows(&self.rows, row + 10);
             let (along_u, vertex) = (V { x, y, z }, V { x: r, y: g, z: b });
-            Chart { u, v, along_u, handedness, vertex, vertex_opacity }.push(keep, &mut queues.charts);
+            SurfaceCoordinates { u, v, along_u, handedness, vertex, vertex_opacity }.push(keep, &mut queues.charts);
         }
         if stage.has_transmittance() {
             let [_, x, y, z] = rest;

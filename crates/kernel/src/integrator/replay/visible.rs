@@ -2,7 +2,7 @@
 use glam::{DVec3, Vec3};
 
 use super::Replay;
-use crate::integrator::passage::{Decisions, MOST_CROSSINGS, Passage};
+use crate::integrator::transparent_ray::{Decisions, MOST_CROSSINGS, TransparentRay};
 use noisefall_base::math::{F, M, One, V};
 use noisefall_scene::scene::{Camera, Scene};
 
@@ -29,22 +29,22 @@ fn sees(scene: &Scene, camera: &Camera, point: DVec3) -> bool {
 /// Distance to the first surface along a ray that lets no light pass, or to any surface beyond `limit`.
 fn first_opaque(scene: &Scene, [o, d]: [V<One>; 2], time: F<One>, limit: f32) -> f32 {
     let all = M(true);
-    let mut passage = Passage::new(One, [o, d], time, scene.shapes.closest(One, all, o, d, time));
+    let mut transparent_ray = TransparentRay::new(One, [o, d], time, scene.shapes.closest(One, all, o, d, time));
     if scene.surfaces.are_opaque() {
-        return passage.nearest().t.0;
+        return transparent_ray.nearest().t.0;
     }
     for _ in 0..MOST_CROSSINGS {
-        if passage.nearest().t.0 >= limit || !passage.layered(One, scene, all).0 {
+        if transparent_ray.nearest().t.0 >= limit || !transparent_ray.layered(One, scene, all).0 {
             break;
         }
-        let crossing = passage.crossing(One, scene, all);
+        let crossing = transparent_ray.crossing(One, scene, all);
         let (alpha, _) = crossing.opacity(One, scene, all, F(0.5), Decisions::Middle);
         if alpha.0 >= 1.0 {
             break;
         }
-        passage.cross(One, scene, all, &crossing);
+        transparent_ray.cross(One, scene, all, &crossing);
     }
-    passage.nearest().t.0
+    transparent_ray.nearest().t.0
 }
 
 #[cfg(test)]

@@ -44,7 +44,8 @@ pub fn encode(film: &Film) -> Vec<Encoded> {
 fn encode_film(film: &Film) -> Encoded {
     Encoded::new(FILM, 64, |to| {
         film.resolution.encode(to);
-        [u8::from(film.is_noting), film.sharing as u8, u8::from(film.is_piloted), u8::from(film.focus.is_some())].encode(to);
+        [u8::from(film.awaits_error_record), film.sharing as u8, u8::from(film.is_piloted), u8::from(film.focus.is_some())]
+            .encode(to);
         let focus = film.focus.unwrap_or(Region { from: [0, 0], to: [0, 0] });
         [focus.from, focus.to].encode(to);
     })
@@ -154,9 +155,9 @@ fn read_film(mut fields: Fields, film: &mut Film) -> Result<(), RenderFileError>
         return Err(RenderFileError::contents("the film has another size than the image"));
     }
     let flags = fields.take::<[u8; 4]>()?;
-    let [is_noting, _, is_piloted, has_focus] = flags.map(|flag| flag != 0);
+    let [awaits_error_record, _, is_piloted, has_focus] = flags.map(|flag| flag != 0);
     let [from, to] = fields.take::<[[u32; 2]; 2]>()?;
-    (film.is_noting, film.sharing, film.is_piloted) = (is_noting, sharing_of(flags[1])?, is_piloted);
+    (film.awaits_error_record, film.sharing, film.is_piloted) = (awaits_error_record, sharing_of(flags[1])?, is_piloted);
     film.focus = has_focus.then_some(Region { from, to });
     fields.end()
 }

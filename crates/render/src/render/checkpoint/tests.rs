@@ -29,7 +29,7 @@ fn a_disk_that_fails_at_any_moment_leaves_the_checkpoint_before() {
     let resolution = [8, 4];
     let (header, threads) = small_render(resolution, folder.path());
     let (events, received) = unbounded();
-    let mut keeper = Keeper::new(KeepPlan { path: path.clone(), header, every: None, events }).expect("memory for it");
+    let mut keeper = CheckpointWriter::new(KeepPlan { path: path.clone(), header, every: None, events }).expect("memory for it");
     let mut keep = |rays| {
         keeper.keep(&Film::new(resolution), Counters { rays, ..Counters::default() }, &threads);
         keeper.report();

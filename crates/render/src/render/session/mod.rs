@@ -1,11 +1,11 @@
 //! The render of one image: its films, from coarse to full, and the size of the next pass.
+mod cache;
 mod keeping;
-mod kept;
 mod publishing;
 
 use std::time::{Duration, Instant};
 
-pub(super) use self::kept::KeptSessions;
+pub(super) use self::cache::SessionCache;
 use super::{
     block::UNIFORM,
     coarse::Coarse,
@@ -124,7 +124,7 @@ impl Session {
 
     /// Adds half images to frames, or leaves them out. Drops kept sessions until there is memory for them. If that is too little,
     /// frames do without.
-    pub fn keep_halves(&mut self, keeps: bool, kept: &mut KeptSessions) {
+    pub fn keep_halves(&mut self, keeps: bool, kept: &mut SessionCache) {
         if keeps != self.halves.is_some() {
             let resolution = self.request.camera.resolution;
             self.halves = if keeps { kept.reserve(|| Halves::reserve(resolution)) } else { None };

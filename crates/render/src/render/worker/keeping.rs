@@ -2,7 +2,7 @@
 use crossbeam_channel::Sender;
 
 use super::Worker;
-use crate::render::checkpoint::{KeepEvent, KeepPlan, Keeper};
+use crate::render::checkpoint::{CheckpointWriter, KeepEvent, KeepPlan};
 
 impl Worker {
     /// Keeps the first image by this plan from now on, or no longer. A checkpoint that is being written is finished first.
@@ -10,7 +10,7 @@ impl Worker {
         self.keeper = None;
         let Some(plan) = plan else { return };
         let events = plan.events.clone();
-        match Keeper::new(plan) {
+        match CheckpointWriter::new(plan) {
             Ok(keeper) => self.keeper = Some(keeper),
             Err(error) => _ = events.send(KeepEvent::Failed(error.to_string())),
         }
@@ -18,7 +18,7 @@ impl Worker {
 
     /// Writes a checkpoint if it is time for one.
     pub(super) fn keep_if_due(&mut self) {
-        if self.keeper.as_mut().is_some_and(Keeper::is_due) {
+        if self.keeper.as_mut().is_some_and(CheckpointWriter::is_due) {
             self.keep();
         }
     }
@@ -26,7 +26,7 @@ impl Worker {
     /// Writes a checkpoint, and waits until it is on the disk. `kept` hears of that; the events have the result.
     pub(super) fn keep_now(&mut self, kept: &Sender<()>) {
         self.keep();
-        self.keeper.iter_mut().for_each(Keeper::report);
+        self.keeper.iter_mut().for_each(CheckpointWriter::report);
         let _ = kept.send(());
     }
 
@@ -36,7 +36,7 @@ impl Worker {
         let first = self.sessions[0].as_ref().filter(|first| first.generation() == generation && first.can_be_kept());
         let kept = match first {
             None => Err("the image has changed, or has no samples yet".to_owned()),
-            Some(first) => Keeper::new(plan)
+            Some(first) => CheckpointWriter::new(plan)
                 .map(|mut keeper| first.checkpoint(&mut keeper, &self.threads))
                 .map_err(|error| error.to_string()),
         };

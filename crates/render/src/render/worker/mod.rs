@@ -24,10 +24,10 @@ use crossbeam_channel::{Receiver, Sender};
 
 pub use self::handle::{KeepHandle, Renderer};
 use super::{
-    checkpoint::{KeepPlan, Keeper, KeptRender},
+    checkpoint::{CheckpointWriter, KeepPlan, KeptRender},
     protocol::{Budget, Publish, Published, RenderRequest, RenderTask, State},
     scene_edit::{SceneEdit, SceneEdits},
-    session::{KeptSessions, Session},
+    session::{Session, SessionCache},
     threads::Threads,
 };
 
@@ -74,10 +74,10 @@ struct Worker {
     /// Render time of both sides when a series began beside an image, or else zero.
     leads: [Duration; 2],
     /// Images to go back to.
-    kept: KeptSessions,
+    kept: SessionCache,
     edits: SceneEdits,
     /// Writes checkpoints of the first image.
-    keeper: Option<Keeper>,
+    keeper: Option<CheckpointWriter>,
     /// Camera samples per second before an edit: a change of the scene rarely changes it much.
     rate: Option<f64>,
 }
@@ -93,7 +93,7 @@ impl Worker {
             budget: Budget::default(),
             sessions: [None, None],
             leads: [Duration::ZERO; 2],
-            kept: KeptSessions::default(),
+            kept: SessionCache::default(),
             edits: SceneEdits::default(),
             keeper: None,
             rate: None,

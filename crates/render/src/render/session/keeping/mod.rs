@@ -1,7 +1,7 @@
 //! Checkpoints of a session, and sessions that continue from one.
 use super::Session;
 use crate::render::{
-    checkpoint::{Keeper, KeptState, counters},
+    checkpoint::{CheckpointWriter, KeptState, counters},
     error_estimator::rel_mse_estimate,
     pass::PassCount,
     protocol::{Budget, Publish, RenderRequest},
@@ -28,7 +28,7 @@ impl Session {
     }
 
     /// Writes a checkpoint. The render stands still meanwhile.
-    pub fn checkpoint(&self, keeper: &mut Keeper, threads: &Threads) {
+    pub fn checkpoint(&self, keeper: &mut CheckpointWriter, threads: &Threads) {
         keeper.keep(&self.film, counters(&self.count, self.elapsed), threads);
     }
 }

@@ -57,7 +57,7 @@ fn header(request: &RenderRequest) -> Header {
 fn through_a_file(session: &Session, header: &Header, path: &Path) -> Session {
     let (events, received) = unbounded();
     let plan = KeepPlan { path: path.to_owned(), header: header.clone(), every: None, events };
-    let mut keeper = Keeper::new(plan).expect("there is memory");
+    let mut keeper = CheckpointWriter::new(plan).expect("there is memory");
     session.checkpoint(&mut keeper, &threads());
     keeper.report();
     assert_eq!(received.try_recv(), Ok(KeepEvent::Kept));

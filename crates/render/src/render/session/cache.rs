@@ -15,8 +15,8 @@ const MOST_SCENES: usize = 8;
 const LEAST_SPP: u32 = 4;
 
 /// Sessions to go back to, within a budget of memory.
-pub(in crate::render) struct KeptSessions {
-    kept: Vec<KeptSession>,
+pub(in crate::render) struct SessionCache {
+    kept: Vec<CachedSession>,
     most_bytes: u64,
     /// The number of sessions so far.
     count: u64,
@@ -24,22 +24,22 @@ pub(in crate::render) struct KeptSessions {
     current: Option<Arc<()>>,
 }
 
-struct KeptSession {
+struct CachedSession {
     session: Session,
     /// The number of sessions that were kept before it.
     number: u64,
     bytes: u64,
 }
 
-impl Default for KeptSessions {
-    fn default() -> KeptSessions {
-        KeptSessions::within(MOST_BYTES)
+impl Default for SessionCache {
+    fn default() -> SessionCache {
+        SessionCache::within(MOST_BYTES)
     }
 }
 
-impl KeptSessions {
-    pub fn within(most_bytes: u64) -> KeptSessions {
-        KeptSessions { kept: Vec::new(), most_bytes, count: 0, current: None }
+impl SessionCache {
+    pub fn within(most_bytes: u64) -> SessionCache {
+        SessionCache { kept: Vec::new(), most_bytes, count: 0, current: None }
     }
 
     /// Keeps a session, or returns its film for another one to use.
@@ -52,7 +52,7 @@ impl KeptSessions {
         }
         // Its frames, half images and saved images are not kept.
         (session.memory, session.halves) = ([None, None], None);
-        let is_full = |kept: &KeptSessions| {
+        let is_full = |kept: &SessionCache| {
             let scenes = kept.scenes(Some(&session)).len();
             kept.bytes() + bytes + kept.bytes_of_scenes(Some(&session)) > kept.most_bytes || scenes > MOST_SCENES
         };
@@ -62,7 +62,7 @@ impl KeptSessions {
         let memory = self.reserve(|| Film::reserve_kept(session.request.camera.resolution));
         session.memory[0] = Some(memory?);
         self.count += 1;
-        self.kept.push(KeptSession { session, number: self.count, bytes });
+        self.kept.push(CachedSession { session, number: self.count, bytes });
         None
     }
 
@@ -127,7 +127,7 @@ impl KeptSessions {
     /// Drops the session with the least render time per session kept since: a drag of the camera leaves many short renders, which
     /// must not push out a long one.
     fn drop_one(&mut self) {
-        let worth = |kept: &KeptSession| kept.session.elapsed.as_secs_f64() / (self.count - kept.number + 1) as f64;
+        let worth = |kept: &CachedSession| kept.session.elapsed.as_secs_f64() / (self.count - kept.number + 1) as f64;
         let least = (0..self.kept.len()).min_by(|a, b| worth(&self.kept[*a]).total_cmp(&worth(&self.kept[*b])));
         least.into_iter().for_each(|at| drop(self.kept.remove(at)));
     }
@@ -195,7 +195,7 @@ mod tests {
     #[test]
     fn a_session_that_is_kept_continues_with_its_samples_as_another_generation() {
         let scene = Arc::new(noisefall_scene::scene::built_in());
-        let mut kept = KeptSessions::default();
+        let mut kept = SessionCache::default();
         let first = rendered(&scene, 1, 5);
         let (of_first, samples) = (request(&first), first.film.samples());
         assert!(kept.keep(first).is_none() && kept.take(&of_first).is_some());
@@ -220,7 +220,7 @@ mod tests {
         session.memory = [None, Some(Reservation::none())];
         session.halves = Some(Reservation::none());
         let of_session = request(&session);
-        let mut kept = KeptSessions::default();
+        let mut kept = SessionCache::default();
         assert!(kept.keep(session).is_none());
         let of_kept = &kept.kept[0].session;
         assert!(of_kept.memory.each_ref().map(Option::is_some) == [true, false] && of_kept.halves.is_none());
@@ -233,7 +233,7 @@ mod tests {
     #[test]
     fn short_renders_never_push_out_a_long_one() {
         let scene = Arc::new(noisefall_scene::scene::built_in());
-        let mut kept = KeptSessions::within(3 * Film::kept_bytes([32, 32]));
+        let mut kept = SessionCache::within(3 * Film::kept_bytes([32, 32]));
         let long = rendered(&scene, 0, 600);
         let of_long = request(&long);
         assert!(kept.keep(long).is_none());
@@ -248,7 +248,7 @@ mod tests {
     fn what_has_no_samples_and_what_is_too_large_gives_its_film_back() {
         let scene = Arc::new(noisefall_scene::scene::built_in());
         let empty = session([32, 32], Publish::Sparse, None);
-        assert!(KeptSessions::default().keep(empty).is_some());
-        assert!(KeptSessions::within(1000).keep(rendered(&scene, 0, 1)).is_some());
+        assert!(SessionCache::default().keep(empty).is_some());
+        assert!(SessionCache::within(1000).keep(rendered(&scene, 0, 1)).is_some());
     }
 }

@@ -58,7 +58,7 @@ pub fn reserve([width, height]: [u32; 2]) -> Result<Reservation, TooMuch> {
 }
 
 /// Writes the checkpoints of one image.
-pub struct Keeper {
+pub struct CheckpointWriter {
     plan: KeepPlan,
     /// End of the last checkpoint, or the start.
     last: Instant,
@@ -70,11 +70,11 @@ pub struct Keeper {
     _memory: Reservation,
 }
 
-impl Keeper {
-    pub fn new(plan: KeepPlan) -> Result<Keeper, TooMuch> {
+impl CheckpointWriter {
+    pub fn new(plan: KeepPlan) -> Result<CheckpointWriter, TooMuch> {
         let memory = reserve(plan.header.camera.resolution)?;
         let pause = plan.every.unwrap_or(Duration::MAX);
-        Ok(Keeper { plan, last: Instant::now(), pause, writing: None, is_slower: false, _memory: memory })
+        Ok(CheckpointWriter { plan, last: Instant::now(), pause, writing: None, is_slower: false, _memory: memory })
     }
 
     /// Whether it is time for a checkpoint. Reports the one that was being written.
@@ -124,7 +124,7 @@ impl Keeper {
     }
 }
 
-impl Drop for Keeper {
+impl Drop for CheckpointWriter {
     fn drop(&mut self) {
         self.report();
     }

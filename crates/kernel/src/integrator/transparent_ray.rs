@@ -25,7 +25,7 @@ pub(super) const MOST_CROSSINGS: u32 = 1000;
 const SAME_PLACE: f32 = 16.0;
 
 /// Rays that cross surfaces. The lanes that have crossed none are at their origin.
-pub(super) struct Passage<L: Lanes> {
+pub(super) struct TransparentRay<L: Lanes> {
     /// The point behind the last surface, from which the ray is traced on.
     o: V<L>,
     d: V<L>,
@@ -51,12 +51,12 @@ pub(super) struct Crossing<L: Lanes> {
     pub again: M<L>,
 }
 
-impl<L: Lanes> Passage<L> {
+impl<L: Lanes> TransparentRay<L> {
     /// Rays from `o` in the directions `d`, with their first surfaces.
     #[inline(always)]
     pub fn new(l: L, [o, d]: [V<L>; 2], time: F<L>, next: Nearest<L>) -> Self {
         let (none, zero) = (l.u(MISS), l.f(0.0));
-        Passage { o, d, time, passed: zero, next, primitive: none, element: none, front: l.first(0), reach: zero }
+        TransparentRay { o, d, time, passed: zero, next, primitive: none, element: none, front: l.first(0), reach: zero }
     }
 
     /// The next surface at its distance from the origin.

@@ -21,16 +21,16 @@ pub struct SettledScene {
     pub warnings: Vec<String>,
 }
 
-pub struct Settler {
+pub struct ExactCompile {
     ctx: egui::Context,
     /// The last edit, until its work is started.
     edited: Option<EditedScene>,
     pending: Option<BackgroundTask<SettledScene>>,
 }
 
-impl Settler {
-    pub fn new(ctx: &egui::Context) -> Settler {
-        Settler { ctx: ctx.clone(), edited: None, pending: None }
+impl ExactCompile {
+    pub fn new(ctx: &egui::Context) -> ExactCompile {
+        ExactCompile { ctx: ctx.clone(), edited: None, pending: None }
     }
 
     /// The latest edit. Results for earlier ones are dropped.
@@ -75,10 +75,10 @@ mod tests {
 
     use super::*;
 
-    fn wait(settler: &mut Settler) -> SettledScene {
+    fn wait(exact_compile: &mut ExactCompile) -> SettledScene {
         let start = Instant::now();
         loop {
-            if let Some(settled) = settler.take() {
+            if let Some(settled) = exact_compile.take() {
                 return settled;
             }
             assert!(start.elapsed() < Duration::from_secs(60), "it never came");
@@ -96,15 +96,15 @@ mod tests {
         let moved = description.rebuild(Path::new(""), &before, Precision::Interactive).expect("it is a scene");
         assert!(!moved.is_exact());
         let edited = EditedScene { scene: Arc::new(moved), description, folder: PathBuf::new() };
-        let mut settler = Settler::new(&egui::Context::default());
-        settler.note(edited.clone());
-        assert!(settler.take().is_none(), "it waits for the end of the drag");
-        settler.start();
-        let settled = wait(&mut settler);
+        let mut exact_compile = ExactCompile::new(&egui::Context::default());
+        exact_compile.note(edited.clone());
+        assert!(exact_compile.take().is_none(), "it waits for the end of the drag");
+        exact_compile.start();
+        let settled = wait(&mut exact_compile);
         assert!(settled.scene.is_exact() && !settled.warnings.is_empty());
-        settler.note(edited);
-        settler.start();
-        settler.forget();
-        assert!(settler.take().is_none());
+        exact_compile.note(edited);
+        exact_compile.start();
+        exact_compile.forget();
+        assert!(exact_compile.take().is_none());
     }
 }
