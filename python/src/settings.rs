@@ -73,6 +73,7 @@ impl Settings {
             seed: self.seed.unwrap_or(of_scene.seed),
             roulette,
             strategy: of_scene.strategy,
+            fault: None,
             max_bounces,
             count_crossings: of_scene.count_crossings,
         })
