@@ -3,7 +3,7 @@ use std::{path::Path, process::Command};
 
 /// The top of the repository.
 const TOP: &str = "../..";
-/// What the renderer is compiled from, below the top.
+/// Files and folders below the top that the renderer is compiled from.
 const SOURCES: [&str; 8] = [
     "Cargo.lock",
     "Cargo.toml",

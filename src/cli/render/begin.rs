@@ -83,7 +83,9 @@ impl Arguments {
             reuse: self.reuse.unwrap_or(of_scene.reuse),
             adaptive: self.adaptive.unwrap_or(of_scene.adaptive),
             seed: self.seed.unwrap_or(of_scene.seed),
-            ..of_scene
+            count_crossings: of_scene.count_crossings,
+            strategy: of_scene.strategy,
+            fault: of_scene.fault,
         }
     }
 }

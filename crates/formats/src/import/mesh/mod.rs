@@ -67,7 +67,7 @@ pub fn read(path: &Path, options: &ImportOptions, folder: &Folder) -> Result<Imp
         is_flat: parts.is_flat,
         images: images_of(path),
         progress: options.progress.clone(),
-        library,
+        materials: library,
         textures: Textures::new(folder.clone()),
         names: Names::default(),
         meshes: Names::default(),
@@ -125,7 +125,7 @@ struct Objects<'a> {
     images: Vec<String>,
     /// Stops work on meshes.
     progress: Progress,
-    library: Library,
+    materials: Library,
     textures: Textures,
     names: Names,
     meshes: Names,
@@ -137,7 +137,7 @@ impl Objects<'_> {
     fn add(&mut self, part: Part, to: &mut Imported) -> Result<(), ModelFormatError> {
         let wanted = part.material.as_deref().unwrap_or_default();
         let name = self.names.unique(wanted, "material");
-        let Appearance { material, emission } = match self.library.find(wanted) {
+        let Appearance { material, emission } = match self.materials.find(wanted) {
             Some((place, material)) => material::appearance(material, place, self.size, &mut self.textures, to),
             None => Appearance { material: self.plain(&part, to), emission: None },
         };

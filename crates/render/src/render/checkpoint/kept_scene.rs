@@ -12,7 +12,7 @@ use crate::{
 use noisefall_base::declare::for_each_file;
 use noisefall_scene::scene::{Scene, SceneError, describe, description::SceneDescription};
 
-/// What is kept of a scene that was read from `path`, with `choices` if that is a file of another program: it is read again.
+/// The part of a scene that its render file keeps. `choices` are those of a scene of another program, whose file `path` is read again.
 pub fn keep_scene(scene: &Scene, path: &Path, choices: Option<SceneChoices>) -> KeptScene {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let folder = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
