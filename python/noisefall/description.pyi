@@ -722,27 +722,27 @@ class Render:
     """The settings that the scene opens with."""
 
     adaptive: bool | None = None
-    """Whether noisier pixels get more samples."""
+    """Whether noisier pixels get more samples. Not used if pixels share anything, or with paths from lights."""
     count_crossings: bool | None = None
     """Whether passing a surface that is not opaque counts as a bounce for `max_bounces`."""
     directions: Literal['uniform', 'cosine', 'bsdf'] | None = None
     """How directions are sampled at diffuse surfaces."""
     estimator: Literal['path', 'light', 'mis', 'caustics', 'forward', 'bidirectional', 'auto'] | None = None
-    """How light is estimated. All estimators converge to the same image."""
+    """How light is estimated. All estimators converge to the same image; they differ in noise."""
     exposure: float | None = None
     """Exposure of the displayed image. One stop doubles the brightness; samples do not change. (stops)"""
     max_bounces: int | None = None
-    """Highest number of bounces. A cap makes the image too dark. Default: no cap."""
+    """Highest number of bounces, reflections and refractions alike. A cap cuts the series L_e + T L_e + …, so the image is too dark. Default: no cap. (bounces)"""
     merging: bool | None = None
-    """Whether the estimator `bidirectional` merges vertices that are near each other (Georgiev et al. 2012). Biased, but consistent."""
+    """Whether the estimator `bidirectional` merges vertices that are near each other (Georgiev et al. 2012). Finds caustics in mirrors. Biased, but consistent."""
     reuse: Literal['auto', 'on', 'bright', 'both', 'off'] | None = None
-    """What neighbouring pixels share: path suffixes (Bekaert, Sbert and Halton 2002), bright samples, or both."""
+    """What neighbouring pixels share: path suffixes (Bekaert, Sbert and Halton 2002), bright samples, or both. Less noise, no bias."""
     roulette: Literal['off', 'throughput'] | Roulette | Mapping[str, Any] | None = None
     """Ends paths at random and weights the survivors, so that the mean does not change."""
     sampler: Literal['independent', 'stratified', 'sobol', 'bluenoise'] | None = None
-    """How the samples of a pixel are distributed."""
+    """How the samples of a pixel are distributed in the unit cube. This determines how fast the noise falls."""
     seed: int | None = None
-    """Random seed of the samples."""
+    """Seed of the random numbers. Another seed gives different noise with the same mean."""
     spp: int | None = None
     """Samples per pixel at which the render stops. Default: no limit."""
 

@@ -2,12 +2,13 @@
 use std::{path::PathBuf, sync::Arc};
 
 use noisefall::{Camera, Display, Frame, Reference, RenderSettings, Scene, ToneMap, image_file, to_srgb};
+use noisefall_base::declare::SettingValue;
 use noisefall_render::render::{Status, settings_text::settings_text};
 use numpy::{PyArray1, PyArray3, PyArrayMethods};
 use pyo3::{exceptions::PyValueError, prelude::*};
 use serde_json::json;
 
-use crate::{errors, pixels::Pixels, settings::word};
+use crate::{errors, pixels::Pixels, settings::wrong};
 
 /// A rendered image: its pixels, and everything that they depend on.
 #[pyclass(frozen, module = "noisefall._noisefall")]
@@ -37,7 +38,11 @@ impl Image {
         if exposure.is_nan() || exposure.abs() > 100.0 {
             return Err(PyValueError::new_err("exposure: expected stops, from -100 to 100, such as -1.5"));
         }
-        Ok(Display { exposure, tone_map: word("tone", tone, ToneMap::default())?, ..Display::default() })
+        let tone_map = match tone {
+            None => ToneMap::default(),
+            Some(name) => ToneMap::read(name).ok_or_else(|| wrong("tone", &ToneMap::accepted().to_string()))?,
+        };
+        Ok(Display { exposure, tone_map, ..Display::default() })
     }
 }
 

@@ -1,18 +1,17 @@
 //! Settings of a render, as the options of `noisefall render` state them.
 use std::time::Duration;
 
-use noisefall::{Budget, Camera, Estimator, RenderSettings, Reuse, Roulette, Sampler, Scene};
-use noisefall_base::declare::Words;
-use noisefall_scene::sampling::Directions;
+use noisefall::{Budget, Camera, RenderSettings, Scene};
 use pyo3::{PyErr, PyResult, exceptions::PyValueError};
 use serde::Deserialize;
+use serde_json::{Map, Value};
 
 /// Samples per pixel if neither the settings nor the scene state a number: those of `noisefall render`.
 const DEFAULT_SPP: u32 = 256;
 
 /// Settings that differ from those of the scene.
 #[derive(Default, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[serde(default)]
 pub struct Settings {
     spp: Option<u32>,
     time: Option<f64>,
@@ -22,23 +21,9 @@ pub struct Settings {
     /// Sample counts at which the render is looked at.
     pub stops: Vec<u32>,
     pub bounces: bool,
-    estimator: Option<String>,
-    sampler: Option<String>,
-    directions: Option<String>,
-    roulette: Option<String>,
-    max_bounces: Option<Cap>,
-    reuse: Option<String>,
-    adaptive: Option<bool>,
-    merging: Option<bool>,
-    seed: Option<u32>,
-}
-
-/// A cap on bounces, or `"none"`.
-#[derive(Deserialize)]
-#[serde(untagged)]
-enum Cap {
-    Bounces(u32),
-    Word(String),
+    /// Settings of the estimate, by their keys.
+    #[serde(flatten)]
+    of_estimate: Map<String, Value>,
 }
 
 impl Settings {
@@ -52,31 +37,12 @@ impl Settings {
     }
 
     pub fn settings(&self, scene: &Scene) -> PyResult<RenderSettings> {
-        let of_scene = scene.settings;
-        let max_bounces = match &self.max_bounces {
-            None => of_scene.max_bounces,
-            Some(Cap::Bounces(cap)) => Some(*cap),
-            Some(Cap::Word(word)) if word == "none" => None,
-            Some(Cap::Word(_)) => return Err(wrong("max_bounces", "a whole number, 0 or more, or `none`")),
-        };
-        let roulette = match &self.roulette {
-            None => of_scene.roulette,
-            Some(text) => Roulette::named(text).ok_or_else(|| wrong("roulette", &Roulette::options().join(", ")))?,
-        };
-        Ok(RenderSettings {
-            estimator: word::<Estimator>("estimator", self.estimator.as_deref(), of_scene.estimator)?,
-            sampler: word::<Sampler>("sampler", self.sampler.as_deref(), of_scene.sampler)?,
-            directions: word::<Directions>("directions", self.directions.as_deref(), of_scene.directions)?,
-            reuse: word::<Reuse>("reuse", self.reuse.as_deref(), of_scene.reuse)?,
-            adaptive: self.adaptive.unwrap_or(of_scene.adaptive),
-            merging: self.merging.unwrap_or(of_scene.merging),
-            seed: self.seed.unwrap_or(of_scene.seed),
-            roulette,
-            strategy: of_scene.strategy,
-            fault: None,
-            max_bounces,
-            count_crossings: of_scene.count_crossings,
-        })
+        let mut settings = scene.settings;
+        for (key, value) in &self.of_estimate {
+            let setting = RenderSettings::setting(key).ok_or_else(|| PyValueError::new_err(format!("unknown setting: {key}")))?;
+            setting.read(&mut settings, &word(value)).map_err(|expected| PyValueError::new_err(format!("{key}: {expected}")))?;
+        }
+        Ok(settings)
     }
 
     /// How far to render.
@@ -98,14 +64,16 @@ impl Settings {
     }
 }
 
-/// The value of a word, or that of the scene without one.
-pub fn word<T: Words>(name: &str, text: Option<&str>, of_scene: T) -> PyResult<T> {
-    let Some(text) = text else { return Ok(of_scene) };
-    let found = T::words().iter().find(|(word, _)| word.name == text);
-    let names = || T::words().iter().map(|(word, _)| word.name).collect::<Vec<_>>().join(", ");
-    found.map(|(_, value)| *value).ok_or_else(|| wrong(name, &names()))
+/// A value as a word of the command line.
+fn word(value: &Value) -> String {
+    match value {
+        Value::Bool(true) => "on".to_owned(),
+        Value::Bool(false) => "off".to_owned(),
+        Value::String(word) => word.clone(),
+        value => value.to_string(),
+    }
 }
 
-fn wrong(name: &str, expected: &str) -> PyErr {
+pub fn wrong(name: &str, expected: &str) -> PyErr {
     PyValueError::new_err(format!("{name}: expected {expected}"))
 }

@@ -1,8 +1,8 @@
 //! Figures under the names that `render --json`, `compare --json` and `study.csv` share. `docs/figures.schema.json` describes
 //! them.
+use noisefall_base::declare::Datum;
 use noisefall_kernel::measure::{Bias, Comparison};
-use noisefall_render::render::settings_text::on_or_off;
-use noisefall_scene::scene::RenderSettings;
+use noisefall_scene::scene::{RenderSettings, Setting};
 use serde_json::{Map, Value, json};
 
 pub type Figures = Map<String, Value>;
@@ -14,17 +14,14 @@ pub fn named<const N: usize>(pairs: [(&str, Value); N]) -> Figures {
 
 /// The settings, which samples depend on besides scene and camera, in the words of the command line.
 pub fn settings(settings: &RenderSettings) -> Figures {
-    named([
-        ("estimator", json!(settings.estimator.name())),
-        ("directions", json!(settings.directions.name())),
-        ("sampler", json!(settings.sampler.name())),
-        ("roulette", json!(settings.roulette.name())),
-        ("roulette_start", json!(settings.roulette.first_bounce())),
-        ("max_bounces", json!(settings.max_bounces)),
-        ("reuse", json!(settings.reuse.name())),
-        ("adaptive", json!(on_or_off(settings.adaptive))),
-        ("seed", json!(settings.seed)),
-    ])
+    let figure = |setting: Setting| match setting.datum(settings) {
+        Datum::Count(count) => json!(count),
+        datum => json!(datum.to_string()),
+    };
+    let mut figures: Figures =
+        RenderSettings::TABLE.map(|setting| (setting.key().to_owned(), figure(setting))).into_iter().collect();
+    figures.insert("roulette_start".to_owned(), json!(settings.roulette.first_bounce()));
+    figures
 }
 
 /// The errors of an image against its reference; all null without one.

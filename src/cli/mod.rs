@@ -32,6 +32,7 @@ mod samples;
 mod scene_file;
 mod scenes;
 mod sequence;
+mod settings;
 #[cfg(feature = "reports")]
 mod sheet;
 mod shot;

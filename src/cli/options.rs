@@ -1,10 +1,9 @@
 //! Parsers of option values.
 use std::{ops::Range, time::Duration};
 
-use noisefall_base::declare::Words;
+use noisefall_base::{declare::Words, quote::either};
 use noisefall_kernel::measure::Floor;
 use noisefall_render::render::{Display, ToneMap, WhiteBalance, image_file::Format};
-use noisefall_scene::scene::Roulette;
 
 use super::replay::Which;
 
@@ -61,42 +60,8 @@ pub fn one_of<T: Words>() -> String {
     either(&names::<T>())
 }
 
-/// All words of a type, as a help text lists them: `a, b, c`.
-#[cfg(feature = "reports")]
-pub fn list_of<T: Words>() -> String {
-    names::<T>().join(", ")
-}
-
 fn names<T: Words>() -> Vec<String> {
     T::words().iter().map(|(word, _)| word.name.to_owned()).collect()
-}
-
-/// `a, b or c`.
-pub fn either(words: &[String]) -> String {
-    words.split_last().map_or_else(String::new, |(last, others)| format!("{} or {last}", others.join(", ")))
-}
-
-pub fn on_or_off(text: &str) -> Result<bool, String> {
-    match text {
-        "on" => Ok(true),
-        "off" => Ok(false),
-        _ => Err("expected on or off".to_owned()),
-    }
-}
-
-/// `None` is no cap.
-#[derive(Clone, Copy)]
-pub struct BounceCap(pub Option<u32>);
-
-pub fn bounce_cap(text: &str) -> Result<BounceCap, String> {
-    match text {
-        "none" => Ok(BounceCap(None)),
-        _ => text.parse().map(|n| BounceCap(Some(n))).map_err(|_| "expected a whole number, 0 or more, or `none`".to_owned()),
-    }
-}
-
-pub fn roulette(text: &str) -> Result<Roulette, String> {
-    Roulette::named(text).ok_or_else(|| format!("expected {}", either(&Roulette::options())))
 }
 
 pub fn resolution(text: &str) -> Result<[u32; 2], String> {
@@ -230,7 +195,6 @@ mod tests {
 
     #[test]
     fn values_out_of_range_are_refused() {
-        assert!(roulette("0").is_err() && roulette("1.5").is_err() && roulette("nan").is_err() && roulette("x").is_err());
         assert!(
             seconds("-1").is_err()
                 && seconds("inf").is_err()
@@ -248,16 +212,14 @@ mod tests {
 
     #[test]
     fn values_at_the_ends_of_their_ranges_are_taken_and_those_beyond_are_not() {
-        assert_eq!((roulette("0.01"), roulette("1")), (Ok(Roulette::fixed(0.01)), Ok(Roulette::fixed(1.0))));
-        assert!(roulette("0.0099").is_err() && roulette("1.0001").is_err());
         assert_eq!((threads("0"), threads("1024")), (Ok(0), Ok(1024)));
         assert_eq!((samples("1"), samples("4294967295")), (Ok(1), Ok(u32::MAX)));
         assert_eq!((whole("0"), whole("4294967295")), (Ok(0), Ok(u32::MAX)));
         assert!(samples("4294967296").is_err() && whole("4294967296").is_err());
         assert!(seconds("0").is_err() && seconds("nan").is_err() && seconds("1e300").is_err());
-        assert!(noise("inf").is_err() && noise("-0.1").is_err() && bounce_cap("-1").is_err() && bounce_cap("1.5").is_err());
+        assert!(noise("inf").is_err() && noise("-0.1").is_err());
         assert!(exposure("nan").is_err() && exposure("101").is_err() && tone("filmic").is_err());
-        assert!(on_or_off("yes").is_err() && word::<Reuse>("yes").is_err() && format("jpg").is_err() && format(".png").is_err());
+        assert!(word::<Reuse>("yes").is_err() && format("jpg").is_err() && format(".png").is_err());
     }
 
     #[test]
@@ -295,7 +257,6 @@ mod tests {
         let kinds = [Directions::Uniform, Directions::Cosine, Directions::Bsdf];
         assert_eq!(["uniform", "cosine", "bsdf"].map(word::<Directions>), kinds.map(Ok));
         assert_eq!(["auto", "on", "off"].map(word::<Reuse>), [Reuse::Auto, Reuse::On, Reuse::Off].map(Ok));
-        assert_eq!(["on", "off"].map(on_or_off), [true, false].map(Ok));
         assert_eq!(["png", "EXR"].map(format), [Format::Png, Format::Exr].map(Ok));
         let samplers = [Sampler::Independent, Sampler::Stratified, Sampler::Sobol, Sampler::BlueNoise];
         assert_eq!(["independent", "stratified", "sobol", "bluenoise"].map(word::<Sampler>), samplers.map(Ok));
@@ -303,17 +264,13 @@ mod tests {
             [ToneMap::None, ToneMap::Reinhard, ToneMap::Aces, ToneMap::Agx, ToneMap::Neutral, ToneMap::FalseColour].map(Ok);
         assert_eq!(["none", "reinhard", "aces", "agx", "neutral", "false-colour"].map(tone), maps);
         assert_eq!(["-1.5", "2"].map(exposure), [Ok(-1.5), Ok(2.0)]);
-        assert_eq!(["off", "throughput"].map(roulette), [Roulette::Off, Roulette::BY_THROUGHPUT].map(Ok));
     }
 
     #[test]
     fn values_in_range_are_what_they_say() {
-        assert_eq!(roulette("0.5"), Ok(Roulette::fixed(0.5)));
         assert_eq!(["640x480", "640X480", " 640 × 480 "].map(resolution), [Ok([640, 480]), Ok([640, 480]), Ok([640, 480])]);
         assert_eq!(pixel("12, 34"), Ok([12, 34]));
         assert_eq!((seconds("1.5"), noise("0.01")), (Ok(Duration::from_millis(1500)), Ok(0.01)));
-        assert_eq!(bounce_cap("none").map(|cap| cap.0), Ok(None));
-        assert_eq!(bounce_cap("0").map(|cap| cap.0), Ok(Some(0)));
         assert_eq!(floor("0.02"), Ok(Floor::Absolute(0.02)));
         assert_eq!(word::<Sampler>("stratified"), Ok(Sampler::Stratified));
         let sizes = ["4G", "500M", "1.5gb", "64 kB", "1000000", " 2T "].map(memory);

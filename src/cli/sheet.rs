@@ -50,7 +50,7 @@ pub struct Arguments {
     lists: ListOptions,
     /// Show each strategy (s, t) of bidirectional paths of up to N bounces, in place of the lists
     #[arg(long, value_name = "N", value_parser = triangle::strategy_bounces,
-          conflicts_with_all = ["estimators", "directions", "samplers", "roulette", "max_bounces", "reuse", "adaptive", "columns"])]
+          conflicts_with_all = ListOptions::names().chain(["columns"]))]
     strategies: Option<u32>,
     /// With --strategies: show all light that each strategy finds, without its weight among the others
     #[arg(long, requires = "strategies")]

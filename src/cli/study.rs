@@ -15,7 +15,7 @@ use noisefall_lab::study::{
 use noisefall_render::render::threads::Threads;
 use noisefall_scene::{
     sampling::{Directions, Sampler},
-    scene::{Estimator, Roulette},
+    scene::{Estimator, RenderSettings, Roulette},
 };
 
 use super::{
@@ -114,14 +114,18 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
 
 impl Arguments {
     fn plan(&self) -> Plan {
-        let usual = Lists {
-            estimators: vec![Estimator::Path, Estimator::Light, Estimator::Mis],
-            directions: Directions::ALL.to_vec(),
-            samplers: vec![Sampler::Independent, Sampler::Stratified, Sampler::Sobol],
-            roulettes: vec![Roulette::Off, Roulette::fixed(0.8), Roulette::BY_THROUGHPUT],
-            caps: vec![None],
-            ..Lists::default()
-        };
+        let any = RenderSettings::default();
+        let estimators = [Estimator::Path, Estimator::Light, Estimator::Mis].map(|estimator| RenderSettings { estimator, ..any });
+        let directions = Directions::ALL.map(|directions| RenderSettings { directions, ..any });
+        let samplers =
+            [Sampler::Independent, Sampler::Stratified, Sampler::Sobol].map(|sampler| RenderSettings { sampler, ..any });
+        let roulettes = [Roulette::Off, Roulette::fixed(0.8), Roulette::BY_THROUGHPUT];
+        let usual = Lists::default()
+            .with(RenderSettings::ESTIMATOR, estimators)
+            .with(RenderSettings::DIRECTIONS, directions)
+            .with(RenderSettings::SAMPLER, samplers)
+            .with(RenderSettings::ROULETTE, roulettes.map(|roulette| RenderSettings { roulette, ..any }))
+            .with(RenderSettings::MAX_BOUNCES, [any]);
         let lists = self.lists.lists(usual);
         Plan { lists, spp: self.spp, time: self.seconds, repeats: self.repeats, floor: self.floor.unwrap_or(Floor::DEFAULT) }
     }

@@ -150,24 +150,10 @@ fn the_columns_of_studies_in_one_folder_are_described_in_their_order() {
     }
 }
 
-/// Changes one setting at a time. Its word is that of the command line.
 #[test]
-fn settings_stand_under_the_names_of_their_options() {
+fn a_capped_furnace_has_the_partial_sum_and_its_bias() {
     let shell = Shell::new();
     let furnace = scene("furnace");
-    for (name, word) in [
-        ("estimator", "light"),
-        ("directions", "cosine"),
-        ("sampler", "stratified"),
-        ("roulette", "0.5"),
-        ("reuse", "off"),
-        ("adaptive", "on"),
-    ] {
-        let option = format!("--{name}");
-        let line =
-            last_line(&shell.run(&["render", &furnace, "-o", "a.png", "--spp", "1", "--size", "4x4", "--json", &option, word]));
-        assert_eq!(line[name], word, "{line}");
-    }
     let exact = ["--directions", "cosine", "--estimator", "path", "--max-bounces", "1"];
     let line = last_line(
         &shell.run(&[&["render", &furnace, "-o", "a.png", "--spp", "2", "--size", "4x4", "--json"], &exact[..]].concat()),

@@ -19,9 +19,10 @@ fn a_path_is_printed_with_settings_nested_sum_and_end() {
     let said = replay(&shell, "furnace", &exact);
     for part in [
         "pixel 20,30, sample 5: radiance 1.75",
-        "estimator path, directions cosine, sampler sobol, seed 0",
-        "roulette off, max_bounces 2",
-        "reuse off, adaptive on, 64 × 48 pixels",
+        "settings        estimator path, merging off, directions cosine, sampler sobol,",
+        "max_bounces 2, count_crossings off, roulette off, reuse off,",
+        "adaptive on, seed 0",
+        "64 × 48 pixels",
         "L = L_e(x₀) + f₀ cos θ₀/p₀ (L_e(x₁) + f₁ cos θ₁/p₁ (…))",
         "  = 1.75",
         "throughput      0.25000 0.25000 0.25000",

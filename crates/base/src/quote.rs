@@ -13,6 +13,14 @@ pub fn piece(text: &str) -> String {
     cut(text, LONGEST_PIECE)
 }
 
+/// `a, b or c`.
+pub fn either(words: &[String]) -> String {
+    match words.split_last() {
+        Some((last, others)) if !others.is_empty() => format!("{} or {last}", others.join(", ")),
+        _ => words.concat(),
+    }
+}
+
 /// The beginning of bytes that should be text, between backquotes.
 pub fn bytes(piece: &[u8]) -> String {
     let start = &piece[..piece.len().min(4 * LONGEST_PIECE)];

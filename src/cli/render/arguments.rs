@@ -3,19 +3,16 @@ use std::{ops::Range, path::PathBuf, time::Duration};
 
 use clap::ArgGroup;
 use noisefall_render::render::{image_file::Format, layers::Layer, tev::DEFAULT_ADDRESS};
-use noisefall_scene::{
-    sampling::{Directions, Sampler},
-    scene::{Estimator, Reuse, Roulette},
-};
 
 use crate::cli::{
     keeping::KeepOptions,
     layers::{Layers, parse as layers_of},
     live,
-    options::{self as parse, BounceCap, DisplayOptions},
+    options::{self as parse, DisplayOptions},
     replay::Which,
     scene_file::SceneOptions,
     sequence::SequenceOptions,
+    settings::SettingOptions,
 };
 
 #[derive(clap::Args)]
@@ -50,32 +47,8 @@ pub struct Arguments {
     /// Such a stop depends on the samples. It biased the mean by less than a fortieth of the target in the worst case tested
     #[arg(long, value_name = "RELATIVE", value_parser = parse::noise, overrides_with_all = ["spp", "time"])]
     pub noise: Option<f64>,
-    #[arg(long, help = format!("How light is estimated: {}", parse::one_of::<Estimator>()),
-          value_parser = parse::word::<Estimator>)]
-    pub estimator: Option<Estimator>,
-    #[arg(long, help = format!("How directions are sampled at diffuse surfaces: {}", parse::one_of::<Directions>()),
-          value_parser = parse::word::<Directions>)]
-    pub directions: Option<Directions>,
-    #[arg(long, help = format!("Sampler: {}", parse::one_of::<Sampler>()),
-          value_parser = parse::word::<Sampler>)]
-    pub sampler: Option<Sampler>,
-    /// Highest number of bounces (reflections and refractions), or none for no cap
-    #[arg(long, value_name = "N|none", value_parser = parse::bounce_cap)]
-    pub max_bounces: Option<BounceCap>,
-    #[arg(long, help = format!("Russian roulette: {}", parse::either(&Roulette::options())), value_parser = parse::roulette)]
-    pub roulette: Option<Roulette>,
-    #[arg(long, help = format!("What neighbouring pixels share: {}", parse::one_of::<Reuse>()),
-          value_parser = parse::word::<Reuse>)]
-    pub reuse: Option<Reuse>,
-    /// Adaptive sampling, with more samples where there is more noise: on or off; --spp is then the average
-    #[arg(long, value_parser = parse::on_or_off)]
-    pub adaptive: Option<bool>,
-    /// Vertex merging of the estimator `bidirectional` (Georgiev et al. 2012): on or off. Biased, but consistent
-    #[arg(long, value_parser = parse::on_or_off)]
-    pub merging: Option<bool>,
-    /// Seed of the random numbers
-    #[arg(long, value_name = "N", value_parser = parse::whole)]
-    pub seed: Option<u32>,
+    #[command(flatten)]
+    pub settings: SettingOptions,
     /// Number of threads; 0 for one per core
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = parse::threads)]
     pub threads: u16,

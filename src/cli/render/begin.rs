@@ -41,7 +41,7 @@ impl Arguments {
         }
         let Opened { scene, remarks, description } = self.options.open_for(&path, self.size)?;
         let camera = Camera { resolution: self.size.unwrap_or(scene.camera.resolution), ..scene.camera };
-        let settings = self.settings(scene.settings);
+        let settings = self.settings.settings(scene.settings);
         Ok(Begun { scene: Arc::new(scene), path, description, remarks, camera, settings, resumed: None })
     }
 
@@ -61,7 +61,7 @@ impl Arguments {
         if !of_scene.is_empty() {
             return Err(resumed.has_scene(&of_scene));
         }
-        let given = self.settings(*settings);
+        let given = self.settings.settings(*settings);
         if given != *settings {
             return Err(resumed.changes_image(&options(&given, settings), &options(settings, &given)));
         }
@@ -69,23 +69,6 @@ impl Arguments {
         match self.size.filter(|given| *given != camera.resolution) {
             Some(given) => Err(resumed.changes_image(&size(given), &size(camera.resolution))),
             None => Ok(()),
-        }
-    }
-
-    pub(super) fn settings(&self, of_scene: RenderSettings) -> RenderSettings {
-        RenderSettings {
-            sampler: self.sampler.unwrap_or(of_scene.sampler),
-            estimator: self.estimator.unwrap_or(of_scene.estimator),
-            merging: self.merging.unwrap_or(of_scene.merging),
-            directions: self.directions.unwrap_or(of_scene.directions),
-            roulette: self.roulette.unwrap_or(of_scene.roulette),
-            max_bounces: self.max_bounces.map_or(of_scene.max_bounces, |cap| cap.0),
-            reuse: self.reuse.unwrap_or(of_scene.reuse),
-            adaptive: self.adaptive.unwrap_or(of_scene.adaptive),
-            seed: self.seed.unwrap_or(of_scene.seed),
-            count_crossings: of_scene.count_crossings,
-            strategy: of_scene.strategy,
-            fault: of_scene.fault,
         }
     }
 }

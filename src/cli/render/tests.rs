@@ -22,7 +22,7 @@ fn arguments(options: &str) -> Arguments {
 fn every_option_takes_the_place_of_the_scenes_setting_and_of_no_other() {
     let scene = built_in();
     let of_scene = scene.settings;
-    assert_eq!(arguments("").settings(scene.settings), of_scene);
+    assert_eq!(arguments("").settings.settings(scene.settings), of_scene);
     for (option, expected) in [
         ("--estimator path", RenderSettings { estimator: Estimator::Path, ..of_scene }),
         ("--directions uniform", RenderSettings { directions: Directions::Uniform, ..of_scene }),
@@ -31,15 +31,17 @@ fn every_option_takes_the_place_of_the_scenes_setting_and_of_no_other() {
         ("--roulette 0.5", RenderSettings { roulette: Roulette::fixed(0.5), ..of_scene }),
         ("--reuse on", RenderSettings { reuse: Reuse::On, ..of_scene }),
         ("--adaptive on", RenderSettings { adaptive: true, ..of_scene }),
+        ("--merging on", RenderSettings { merging: true, ..of_scene }),
+        ("--count-crossings on", RenderSettings { count_crossings: true, ..of_scene }),
         ("--seed 7", RenderSettings { seed: 7, ..of_scene }),
     ] {
         assert_ne!(expected, of_scene, "{option} changes nothing");
-        assert_eq!(arguments(option).settings(scene.settings), expected, "{option}");
+        assert_eq!(arguments(option).settings.settings(scene.settings), expected, "{option}");
     }
     let mut capped = built_in();
     capped.settings.max_bounces = Some(2);
-    assert_eq!(arguments("--max-bounces none").settings(capped.settings).max_bounces, None);
-    assert_eq!(arguments("").settings(capped.settings).max_bounces, Some(2));
+    assert_eq!(arguments("--max-bounces none").settings.settings(capped.settings).max_bounces, None);
+    assert_eq!(arguments("").settings.settings(capped.settings).max_bounces, Some(2));
 }
 
 #[test]

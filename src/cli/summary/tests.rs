@@ -82,6 +82,7 @@ fn every_figure_stands_under_its_name() {
         "exact_samples": false, "heavy_tails": false, "replay": "noisefall render a.toml --pixel 1,0",
     });
     (expected["render_seconds"], expected["sharing"]) = (json!(0.5), json!("shared paths"));
+    (expected["merging"], expected["count_crossings"]) = (json!("off"), json!("off"));
     expected["remarks"] = json!(["a.xml:1:1: `hair` → plastic: it looks smooth"]);
     assert_eq!(line, expected);
     let other = Status { sharing: Sharing::Nothing, adapts: true, cut_paths: 0, ..status(State::Paused) };

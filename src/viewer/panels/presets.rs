@@ -1,6 +1,6 @@
 //! Presets of the estimator: the textbook one for experiments, and the fastest one.
 use egui::Ui;
-use noisefall_scene::scene::{Estimator, RenderSettings, Reuse};
+use noisefall_scene::scene::{Changes, Estimator, RenderSettings, Reuse, Setting};
 
 use crate::viewer::widgets::style::row;
 
@@ -35,13 +35,14 @@ impl Preset {
                 let estimator = if is_chosen { Estimator::default() } else { settings.estimator };
                 RenderSettings { estimator, reuse: Reuse::Off, adaptive: false, merging: false, ..*settings }
             }
-            Preset::Fastest => RenderSettings {
-                estimator: Estimator::Auto,
-                max_bounces: settings.max_bounces,
-                count_crossings: settings.count_crossings,
-                seed: settings.seed,
-                ..RenderSettings::default()
-            },
+            Preset::Fastest => {
+                let fastest = RenderSettings { estimator: Estimator::Auto, ..RenderSettings::default() };
+                let is_kept = |setting: &Setting| setting.changes != Changes::Estimate;
+                RenderSettings::TABLE
+                    .into_iter()
+                    .filter(is_kept)
+                    .fold(fastest, |fastest, setting| setting.with(&fastest, settings))
+            }
         }
     }
 

@@ -1,4 +1,8 @@
 //! Settings: the changes that start a new image, and those that do not.
+use noisefall_base::declare::{Declare, Dice};
+use noisefall_scene::scene::{RenderSettings, Sharing};
+use rand::{SeedableRng, rngs::SmallRng};
+
 use super::*;
 
 #[test]
@@ -40,6 +44,28 @@ fn every_setting_of_the_estimate_starts_a_new_picture() {
         w.run_steps(2);
     });
     assert_eq!(window.state().session.settings.seed, 42);
+}
+
+#[test]
+fn every_setting_has_a_row_an_undo_step_and_words_in_the_legend() {
+    let mut window = window("cornell_spheres");
+    let mut random = SmallRng::seed_from_u64(56);
+    let mut other = window.state().session.settings;
+    while RenderSettings::TABLE.iter().any(|setting| !setting.differs(&other, &window.state().session.settings)) {
+        other.parameters(&mut Dice::new(&mut random));
+    }
+    for setting in RenderSettings::TABLE {
+        assert!(window.query_by_label(&setting.label()).is_some(), "{setting:?} has no row");
+        let before = window.state().session.settings;
+        window.state_mut().session.settings = setting.with(&before, &other);
+        window.run_steps(2);
+        let app = window.state();
+        let [undo, _] = app.history.names();
+        assert_eq!(undo, Some(format!("change of {}", setting.name())));
+        let legend = crate::viewer::instruments::convergence::history::name(&app.session.settings, &before, Sharing::Nothing);
+        let is_told = legend.contains(&setting.words(&other));
+        assert!(is_told || setting == RenderSettings::REUSE, "{setting:?}: {legend}");
+    }
 }
 
 #[test]

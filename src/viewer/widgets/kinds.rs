@@ -2,28 +2,22 @@
 use std::collections::HashMap;
 
 use egui::{ComboBox, Id, Response, Ui};
-use noisefall_base::declare::{OneOf, Parameter, Parameters, SliderScale, Value, Words};
+use noisefall_base::declare::{OneOf, Parameter, Parameters, SliderScale, Value};
 
 use super::{
     list::{explained, value_entry},
     number,
     slider::{self, Scale},
-    style::{choices, row},
+    style::row,
 };
 
-/// Buttons in a row for all words of a type.
-pub fn words<T: Words>(ui: &mut Ui, chosen: &mut T) {
-    let all: Vec<_> = T::words().iter().map(|(word, value)| (*value, word.title, word.doc)).collect();
-    choices(ui, chosen, &all);
-}
-
-/// A drop-down list of all words of a type, for more of them than a row has room for.
-pub fn word_list<T: Words>(ui: &mut Ui, label: Id, chosen: &mut T) {
-    let title = |value: T| T::words().iter().find(|(_, other)| *other == value).map_or("", |(word, _)| word.title);
+/// A drop-down list to choose one of several values, with their names and tooltips.
+pub fn choice_list<T: Copy + PartialEq>(ui: &mut Ui, label: Id, chosen: &mut T, all: &[(T, &str, &str)]) {
+    let title = all.iter().find(|(value, ..)| value == chosen).map_or("", |(_, title, _)| title);
     // The label tells lists apart: each has one of its own.
-    let combo = ComboBox::from_id_salt(label).selected_text(title(*chosen)).show_ui(ui, |ui| {
-        for (word, value) in T::words() {
-            explained(value_entry(ui, chosen, *value, word.title), word.doc);
+    let combo = ComboBox::from_id_salt(label).selected_text(title).show_ui(ui, |ui| {
+        for (value, title, doc) in all {
+            explained(value_entry(ui, chosen, *value, *title), doc);
         }
     });
     combo.response.labelled_by(label);

@@ -14,6 +14,7 @@ pub mod palette;
 pub mod path_field;
 pub mod quotation;
 pub mod refusal;
+pub mod setting;
 pub mod slider;
 pub mod split;
 pub mod style;

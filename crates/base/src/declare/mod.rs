@@ -10,6 +10,7 @@
 //! | `visit.rs` | visits of values, tables, choices and lists |
 //! | `parameter.rs` | description of a parameter: words, ranges |
 //! | `value.rs` | the types of values |
+//! | `setting_value.rs` | values of settings, as one word each |
 //! | `catalogue.rs` | families of kinds with parameters: the macro that makes an enum of them |
 //! | `choices.rs` | the same for families of kinds that may have none |
 //! | `words.rs` | the same for families of kinds that are a word and code |
@@ -46,6 +47,7 @@ mod precision;
 mod problem;
 mod resources;
 mod schema;
+mod setting_value;
 mod value;
 mod visit;
 mod visitor;
@@ -70,6 +72,7 @@ pub use self::{
     problem::{Problem, nearest, short},
     resources::{Leftovers, Resources},
     schema::schema,
+    setting_value::{Accepted, Datum, SettingValue},
     value::{Family, Textured, Value, Word, Words},
     visitor::{Form, Parameters, Rearrangement},
     write::write,

@@ -2,10 +2,9 @@
 use super::{
     outcome::{Outcome, Point, ROUNDING},
     ranking::Findings,
-    setting::Setting,
 };
 use crate::report::plot::{Axis, BESIDE, Curve, Plot, Style, curve};
-use noisefall_base::declare::capitalised;
+use noisefall_scene::scene::Setting;
 
 /// Number of best combinations in the overview.
 const FIRST_PLACES: usize = 3;
@@ -52,7 +51,7 @@ pub fn by_setting(findings: &Findings, setting: Setting) -> Option<Pair> {
         }
     }
     let caption = format!("All other settings as in the best combination: {}.", best.label());
-    if shown.len() > 1 { pair(capitalised(setting.name()), caption, &shown) } else { None }
+    if shown.len() > 1 { pair(setting.label(), caption, &shown) } else { None }
 }
 
 fn pair(title: String, mut caption: String, shown: &[(String, &Outcome)]) -> Option<Pair> {

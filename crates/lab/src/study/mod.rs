@@ -13,6 +13,7 @@ mod evidence;
 mod figures;
 mod fit;
 mod key;
+mod labels;
 mod machine;
 mod measure;
 mod outcome;
@@ -21,7 +22,6 @@ mod ranking;
 mod reference;
 mod report;
 mod row;
-mod setting;
 mod store;
 mod study_scene;
 #[cfg(test)]
@@ -36,13 +36,13 @@ pub use self::{
     driver::{Progress, Study},
     evidence::{Chapter, EvidencePlan, collect, reserve_chapter},
     fit::{Slope, slope},
+    labels::{differing_labels, label},
     machine::Machine,
     measure::{Bench, Checkpoint, Run},
     outcome::{Eligibility, Outcome},
     plan::{Lists, Plan, checkpoints, study_size},
     ranking::Findings,
     report::html,
-    setting::{differing_labels, label},
     store::{CSV, Store},
     study_scene::{StudyScene, reserve},
     wording::{table, verdict},

@@ -1,8 +1,8 @@
 //! The outcome of one combination: errors, slope and efficiency from its runs.
 use super::{
     fit::{Slope, slope},
+    labels::label,
     measure::{Checkpoint, Run},
-    setting::label,
     trial::Group,
 };
 use noisefall_kernel::measure::{LEAST_EFFECTIVE_SAMPLES, Moments};

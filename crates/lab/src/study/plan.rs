@@ -2,32 +2,14 @@
 use std::time::Duration;
 
 use noisefall_kernel::measure::Floor;
-use noisefall_scene::{
-    sampling::{Directions, Sampler},
-    scene::{Estimator, RenderSettings, Reuse, Roulette},
-};
+use noisefall_scene::scene::{RenderSettings, Setting};
 
 /// Default length of the longer side of an image, pixels.
 const LONGER_SIDE: u32 = 256;
 
-/// The values of each setting, which are all combined. An empty list stands for the scene's value.
+/// The values of each setting, which are all combined. A setting without a list has the scene's value.
 #[derive(Clone, Debug, Default)]
-pub struct Lists {
-    /// Estimators.
-    pub estimators: Vec<Estimator>,
-    /// Direction samplings.
-    pub directions: Vec<Directions>,
-    /// Samplers.
-    pub samplers: Vec<Sampler>,
-    /// Russian roulettes.
-    pub roulettes: Vec<Roulette>,
-    /// Bounce caps; `None` is no cap.
-    pub caps: Vec<Option<u32>>,
-    /// Path reuse.
-    pub reuses: Vec<Reuse>,
-    /// Adaptive sampling.
-    pub adaptive: Vec<bool>,
-}
+pub struct Lists(Vec<(Setting, Vec<RenderSettings>)>);
 
 /// Settings and limits of the runs.
 #[derive(Clone, Debug)]
@@ -45,35 +27,37 @@ pub struct Plan {
 }
 
 impl Lists {
-    /// All different combinations.
+    /// The same with the values that a setting has in these, in place of its other values. An empty list is
+    /// the scene's value.
+    pub fn with(mut self, setting: Setting, values: impl IntoIterator<Item = RenderSettings>) -> Lists {
+        self.0.retain(|(known, _)| *known != setting);
+        self.0.push((setting, values.into_iter().collect()));
+        self
+    }
+
+    /// The same with the lists that `others` has in place of its own.
+    pub fn replaced_by(self, others: Lists) -> Lists {
+        others.0.into_iter().fold(self, |lists, (setting, values)| lists.with(setting, values))
+    }
+
+    /// All different combinations, in the order of the table of settings.
     pub fn combinations(&self, base: RenderSettings) -> Vec<RenderSettings> {
-        let mut all = vec![base];
-        combine(&mut all, &self.estimators, |estimator, of| RenderSettings { estimator, ..of });
-        combine(&mut all, &self.directions, |directions, of| RenderSettings { directions, ..of });
-        combine(&mut all, &self.samplers, |sampler, of| RenderSettings { sampler, ..of });
-        combine(&mut all, &self.roulettes, |roulette, of| RenderSettings { roulette, ..of });
-        combine(&mut all, &self.caps, |max_bounces, of| RenderSettings { max_bounces, ..of });
-        combine(&mut all, &self.reuses, |reuse, of| RenderSettings { reuse, ..of });
-        combine(&mut all, &self.adaptive, |adaptive, of| RenderSettings { adaptive, ..of });
-        all
+        RenderSettings::axes().fold(vec![base], |all, setting| match self.0.iter().find(|(of, _)| *of == setting) {
+            Some((_, values)) if !values.is_empty() => combined(&all, setting, values),
+            _ => all,
+        })
     }
 }
 
 /// Combines all settings with all values, without duplicates.
-fn combine<V: Copy>(all: &mut Vec<RenderSettings>, values: &[V], with: impl Fn(V, RenderSettings) -> RenderSettings) {
-    if values.is_empty() {
-        return;
-    }
+fn combined(all: &[RenderSettings], setting: Setting, values: &[RenderSettings]) -> Vec<RenderSettings> {
     let mut combined = Vec::new();
-    for settings in std::mem::take(all) {
-        for value in values {
-            let settings = with(*value, settings);
-            if !combined.contains(&settings) {
-                combined.push(settings);
-            }
+    for settings in all.iter().flat_map(|settings| values.iter().map(|value| setting.with(settings, value))) {
+        if !combined.contains(&settings) {
+            combined.push(settings);
         }
     }
-    *all = combined;
+    combined
 }
 
 /// Sample counts at which the error is measured: powers of two, and `spp` itself.

@@ -1,12 +1,9 @@
 //! Ranking of the combinations for a scene, with its uncertainty.
 use std::path::PathBuf;
 
-use super::{
-    outcome::{Eligibility, Limits, Outcome},
-    setting::Setting,
-};
+use super::outcome::{Eligibility, Limits, Outcome};
 use noisefall_kernel::measure::student_95;
-use noisefall_scene::scene::RenderSettings;
+use noisefall_scene::scene::{RenderSettings, Setting};
 
 /// Combinations with less than this fraction of the best efficiency do not count for the uncertainty of the first places.
 const NEAR: f64 = 0.1;

@@ -5,11 +5,10 @@ use super::{
     Eligibility, Findings, Machine, Outcome, Plan,
     figures::{Pair, by_setting, overview},
     ranking::SettingGain,
-    setting::Setting,
     wording::{certainty, command, error, mean_error, percent, significant, slope, verdict},
 };
 use crate::report;
-use noisefall_scene::scene::Reuse;
+use noisefall_scene::scene::{RenderSettings, Reuse, Setting};
 
 const STYLE: &str = "
 :root { --width: 72rem; }
@@ -91,7 +90,7 @@ fn section(number: usize, findings: &Findings) -> Markup {
             @if invalid > 0 { p.fails { (invalid) " samples were negative or not finite and count as black." } }
             @if let Some(pair) = overview(findings) { (figure(&pair)) }
             (gains(findings))
-            @for pair in Setting::ALL.into_iter().filter_map(|setting| by_setting(findings, setting)) { (figure(&pair)) }
+            @for pair in RenderSettings::axes().filter_map(|setting| by_setting(findings, setting)) { (figure(&pair)) }
             (ranking(findings))
         }
     }
@@ -109,7 +108,7 @@ fn figure(pair: &Pair) -> Markup {
 
 fn gains(findings: &Findings) -> Markup {
     let settings: Vec<(Setting, Vec<SettingGain>)> =
-        Setting::ALL.into_iter().map(|setting| (setting, findings.gains(setting))).collect();
+        RenderSettings::axes().map(|setting| (setting, findings.gains(setting))).collect();
     let row = |setting: &str, gain: &SettingGain| {
         markup! {
             tr {
@@ -124,7 +123,7 @@ fn gains(findings: &Findings) -> Markup {
             table.short {
                 thead { tr { th { "setting" } th { "value" } th.n { "others as in the best" } th.n { "others at their best" } } }
                 tbody { @for (setting, values) in &settings { @for (i, gain) in values.iter().enumerate() {
-                    (row(if i == 0 { setting.name() } else { "" }, gain))
+                    (row(&if i == 0 { setting.name() } else { String::new() }, gain))
                 } } }
             }
             p.source { "Efficiency relative to the best: with this value and all other settings as in the best combination, and with this value and the other settings that are best with it. A dash marks combinations that are not ranked, or that have noise although the best has none." }
@@ -134,7 +133,9 @@ fn gains(findings: &Findings) -> Markup {
 
 fn ranking(findings: &Findings) -> Markup {
     let outcomes = &findings.outcomes;
-    let shown = Setting::ALL;
+    let is_told = |setting: &Setting| outcomes.iter().flat_map(Outcome::alike).any(|settings| setting.is_told(settings));
+    let shown: Vec<Setting> =
+        RenderSettings::axes().filter(|setting| *setting == RenderSettings::REUSE || is_told(setting)).collect();
     let twins: usize = outcomes.iter().map(|outcome| outcome.twins.len()).sum();
     let table = |rows: &[Outcome], first: usize| {
         markup! {
@@ -198,12 +199,13 @@ pub fn values(setting: Setting, outcome: &Outcome) -> String {
     let only_this_differs = |twin: &&_| setting.with(twin, &outcome.settings) == outcome.settings;
     let same = outcome.twins.iter().filter(only_this_differs).map(|twin| setting.value(twin));
     let values = std::iter::once(setting.value(&outcome.settings)).chain(same).collect::<Vec<_>>().join(" = ");
-    let became = match setting {
-        Setting::Reuse if outcome.settings.reuse == Reuse::Auto => outcome.sharing.reuse().name(),
-        Setting::Adaptive if outcome.settings.adaptive && !outcome.adapts => "without effect",
-        _ => return values,
-    };
-    format!("{values}: {became}")
+    if setting == RenderSettings::REUSE && outcome.settings.reuse == Reuse::Auto {
+        format!("{values}: {}", outcome.sharing.reuse().name())
+    } else if setting == RenderSettings::ADAPTIVE && outcome.settings.adaptive && !outcome.adapts {
+        format!("{values}: without effect")
+    } else {
+        values
+    }
 }
 
 /// Why a combination is not ranked; empty if it is.

@@ -1,29 +1,38 @@
 //! A line of `study.csv`: one checkpoint of one run, with everything that it depends on.
 use serde::{Deserialize, Serialize};
 
-use super::{Checkpoint, Machine, Run, StudyScene, key::is_key, reference::Reference, setting::Setting};
+use super::{Checkpoint, Machine, Run, StudyScene, key::is_key, reference::Reference};
 use noisefall_kernel::measure::Floor;
 use noisefall_scene::scene::{RenderSettings, Sharing};
 
+/// Number of settings, which have a column each.
+const SETTINGS: usize = RenderSettings::TABLE.len();
+
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Row {
+    pub subject: Subject,
+    /// The settings in the words of the command line.
+    pub settings: [String; SETTINGS],
+    pub measured: Measured,
+}
+
+/// The image.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Subject {
     pub scene: String,
     pub width: u32,
     pub height: u32,
-    pub estimator: String,
-    pub directions: String,
-    pub sampler: String,
-    pub roulette: String,
-    pub max_bounces: String,
-    pub reuse: String,
+}
+
+/// A checkpoint of its run, and the circumstances.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Measured {
     /// What pixels shared.
     pub shares: Sharing,
-    pub adaptive: String,
     /// Whether sampling was adaptive.
     pub adapts: bool,
     /// Number of the repeat, from 1.
     pub repeat: u32,
-    pub seed: u32,
     /// Number of the checkpoint, from 1 to `checkpoints`, the number of lines of the run.
     pub checkpoint: usize,
     pub checkpoints: usize,
@@ -68,13 +77,30 @@ pub struct Header<'a> {
 
 impl Row {
     pub fn is_whole(&self) -> bool {
-        is_key(&self.key) && (1..=self.checkpoints).contains(&self.checkpoint)
+        let Measured { key, checkpoint, checkpoints, .. } = &self.measured;
+        is_key(key) && (1..=*checkpoints).contains(checkpoint)
     }
 
     fn point(&self) -> Checkpoint {
-        let Row { spp, seconds, rmse, rel_mse, bias, bias_standard_error, effective_samples, .. } = *self;
+        let Measured { spp, seconds, rmse, rel_mse, bias, bias_standard_error, effective_samples, .. } = self.measured;
         Checkpoint { spp, seconds, rmse, rel_mse, bias, bias_standard_error, effective_samples }
     }
+
+    /// The names of the columns.
+    pub fn columns() -> csv::Result<csv::ByteRecord> {
+        let mut columns = names::<Subject>()?;
+        RenderSettings::TABLE.iter().for_each(|setting| columns.push_field(setting.key().as_bytes()));
+        columns.extend(&names::<Measured>()?);
+        Ok(columns)
+    }
+}
+
+/// The names of the fields of a struct.
+fn names<T: Serialize + Default>() -> csv::Result<csv::ByteRecord> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    writer.serialize(T::default())?;
+    let bytes = writer.into_inner().map_err(csv::IntoInnerError::into_error)?;
+    csv::Reader::from_reader(&bytes[..]).byte_headers().cloned()
 }
 
 /// The lines of a run.
@@ -82,21 +108,12 @@ pub fn rows(header: &Header, run: &Run) -> Vec<Row> {
     let Header { study_scene, settings, repeat, reference, machine, floor, key } = *header;
     let [width, height] = study_scene.camera.resolution;
     let pixels = f64::from(width) * f64::from(height);
-    let row = |(i, point): (usize, &Checkpoint)| Row {
-        scene: study_scene.path.display().to_string(),
-        width,
-        height,
-        estimator: Setting::Estimator.value(settings),
-        directions: Setting::Directions.value(settings),
-        sampler: Setting::Sampler.value(settings),
-        roulette: Setting::Roulette.value(settings),
-        max_bounces: Setting::Cap.value(settings),
-        reuse: Setting::Reuse.value(settings),
+    let subject = Subject { scene: study_scene.path.display().to_string(), width, height };
+    let words = RenderSettings::TABLE.map(|setting| setting.value(settings));
+    let measured = |(i, point): (usize, &Checkpoint)| Measured {
         shares: run.sharing,
-        adaptive: Setting::Adaptive.value(settings),
         adapts: run.adapts,
         repeat,
-        seed: settings.seed,
         checkpoint: i + 1,
         checkpoints: run.checkpoints.len(),
         spp: point.spp,
@@ -119,14 +136,15 @@ pub fn rows(header: &Header, run: &Run) -> Vec<Row> {
         commit: machine.commit.clone(),
         key: key.to_owned(),
     };
-    run.checkpoints.iter().enumerate().map(row).collect()
+    let row = |measured| Row { subject: subject.clone(), settings: words.clone(), measured };
+    run.checkpoints.iter().enumerate().map(measured).map(row).collect()
 }
 
 /// The run of these lines; `None` if one is missing.
 pub fn run(rows: &[Row]) -> Option<Run> {
-    let first = rows.first()?;
-    let complete = rows.len() == first.checkpoints && (1..).zip(rows).all(|(place, row)| row.checkpoint == place);
+    let first = &rows.first()?.measured;
+    let complete = rows.len() == first.checkpoints && (1..).zip(rows).all(|(place, row)| row.measured.checkpoint == place);
     let checkpoints = rows.iter().map(Row::point).collect();
-    let Row { invalid_samples, shares, adapts, .. } = *first;
+    let Measured { invalid_samples, shares, adapts, .. } = *first;
     complete.then(|| Run { checkpoints, invalid_samples, bias: first.biased.clone(), sharing: shares, adapts })
 }

@@ -9,7 +9,11 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use super::{StudyError, measure::Run, row};
+use super::{
+    StudyError,
+    measure::Run,
+    row::{self, Row},
+};
 use noisefall_base::file::{open_regular, replace};
 
 /// Name of the file.
@@ -22,7 +26,7 @@ const LOCK: &str = ".study.lock";
 pub struct Store {
     folder: PathBuf,
     /// The lines of each run, in file order.
-    runs: Vec<Vec<row::Row>>,
+    runs: Vec<Vec<Row>>,
     places: HashMap<String, usize>,
     /// Number of lines that were ignored because they or their runs were truncated.
     pub dropped: usize,
@@ -52,13 +56,13 @@ impl Store {
         let mut store = Store::empty(folder);
         let mut reader = csv::Reader::from_reader(bytes);
         let header = reader.byte_headers().map_err(|error| error.to_string())?;
-        if !bytes.is_empty() && header != &columns()? {
+        if !bytes.is_empty() && *header != Row::columns().map_err(|error| error.to_string())? {
             let advice = "move it away, or give another folder";
             return Err(format!("was not written by `noisefall study` of this version: {advice}"));
         }
         let header = header.clone();
         for line in reader.byte_records() {
-            match line.map(|line| (line == header, line.deserialize::<row::Row>(Some(&header)))) {
+            match line.map(|line| (line == header, line.deserialize::<Row>(None))) {
                 Ok((_, Ok(row))) if row.is_whole() => store.push(row),
                 // It begins a store that was appended.
                 Ok((true, _)) => {}
@@ -69,17 +73,17 @@ impl Store {
         Ok(store)
     }
 
-    fn push(&mut self, row: row::Row) {
-        let place = *self.places.entry(row.key.clone()).or_insert(self.runs.len());
+    fn push(&mut self, row: Row) {
+        let place = *self.places.entry(row.measured.key.clone()).or_insert(self.runs.len());
         if place == self.runs.len() {
             self.runs.push(Vec::new());
         }
         let rows = &mut self.runs[place];
         // A run that is there twice was measured by two processes at the same time, or is in two stores that were joined.
-        if rows.len() == row.checkpoints {
+        if rows.len() == row.measured.checkpoints {
             return;
         }
-        if row.checkpoint == 1 {
+        if row.measured.checkpoint == 1 {
             self.dropped += std::mem::take(rows).len();
         }
         rows.push(row);
@@ -112,7 +116,7 @@ impl Store {
     }
 
     /// Adds the lines of a run, and writes them to the file before it returns. Keeps what other processes have written.
-    pub fn add(&mut self, rows: Vec<row::Row>) -> Result<(), StudyError> {
+    pub fn add(&mut self, rows: Vec<Row>) -> Result<(), StudyError> {
         let _lock = self.lock()?;
         self.refresh()?;
         rows.into_iter().for_each(|row| self.push(row));
@@ -141,19 +145,14 @@ impl Store {
     }
 
     fn bytes(&self) -> Result<Vec<u8>, String> {
-        let mut writer = csv::Writer::from_writer(Vec::new());
-        for row in self.runs.iter().flatten() {
-            writer.serialize(row).map_err(|error| error.to_string())?;
-        }
-        writer.into_inner().map_err(|error| error.to_string())
+        let written = || {
+            let mut writer = csv::WriterBuilder::new().has_headers(false).from_writer(Vec::new());
+            if !self.is_empty() {
+                writer.write_byte_record(&Row::columns()?)?;
+            }
+            self.runs.iter().flatten().try_for_each(|row| writer.serialize(row))?;
+            writer.into_inner().map_err(csv::IntoInnerError::into_error).map_err(csv::Error::from)
+        };
+        written().map_err(|error| error.to_string())
     }
-}
-
-/// The names of the columns.
-fn columns() -> Result<csv::ByteRecord, String> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    writer.serialize(row::Row::default()).map_err(|error| error.to_string())?;
-    let bytes = writer.into_inner().map_err(|error| error.to_string())?;
-    let mut reader = csv::Reader::from_reader(&bytes[..]);
-    reader.byte_headers().cloned().map_err(|error| error.to_string())
 }

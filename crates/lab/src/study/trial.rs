@@ -5,7 +5,8 @@
 use std::collections::HashMap;
 
 use super::{StudyError, key::hash_of_picture, measure::Bench};
-use noisefall_scene::scene::RenderSettings;
+use noisefall_base::declare::Datum;
+use noisefall_scene::scene::{Changes, RenderSettings, Setting};
 
 /// Samples per pixel of a trial. One is too few, because the first points of different samplers may coincide.
 const TRIAL_SPP: u32 = 2;
@@ -25,7 +26,9 @@ pub fn groups(bench: Bench, combinations: &[RenderSettings]) -> Result<Vec<Group
     for settings in combinations {
         // A trial is too short to show the effects of a cap or of adaptive sampling, so combinations that differ in these are
         // never grouped.
-        pictures.push((trial(bench, settings)?, settings.max_bounces, settings.adaptive));
+        let is_slow = |setting: &Setting| setting.changes == Changes::Limit || *setting == RenderSettings::ADAPTIVE;
+        let slow: Vec<Datum> = RenderSettings::axes().filter(is_slow).map(|setting| setting.datum(settings)).collect();
+        pictures.push((trial(bench, settings)?, slow));
     }
     Ok(group(&pictures, combinations, &bench.scene.settings))
 }
@@ -53,15 +56,10 @@ pub fn group<N: Eq + std::hash::Hash>(pictures: &[N], combinations: &[RenderSett
     }
     for group in &mut groups {
         for twin in &mut group.twins {
-            if distance(twin, of_scene) < distance(&group.settings, of_scene) {
+            if twin.differing(of_scene).count() < group.settings.differing(of_scene).count() {
                 std::mem::swap(twin, &mut group.settings);
             }
         }
     }
     groups
-}
-
-/// The number of settings that differ.
-fn distance(a: &RenderSettings, b: &RenderSettings) -> usize {
-    super::setting::Setting::ALL.into_iter().filter(|setting| setting.value(a) != setting.value(b)).count()
 }

@@ -1,7 +1,7 @@
 //! Findings as sentences and numbers, for the report and the terminal.
 use std::fmt;
 
-use super::{Eligibility, Findings, Outcome, Slope, outcome::MeanError, setting::label};
+use super::{Eligibility, Findings, Outcome, Slope, labels::label, outcome::MeanError};
 use noisefall_render::render::settings_text::options;
 
 /// Formats a number with three significant digits.

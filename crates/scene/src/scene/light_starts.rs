@@ -2,12 +2,12 @@
 use glam::DVec3;
 
 use super::{
-    BY_SIDE, BlendParts, Estimator, MaterialInstance, Object, Properties, Scene,
+    BY_SIDE, BlendParts, Estimator, MaterialInstance, Object, Obstacle, Properties, Scene,
     surface::{ONE_SIDED, transmits},
 };
 use crate::{
     geometry::{Bounds, Shape},
-    light::{LightRays, LightStart},
+    light::LightRays,
     texture::NumberSource,
 };
 use noisefall_base::math::{F, One, U};
@@ -15,41 +15,43 @@ use noisefall_base::math::{F, One, U};
 /// Space around the scene, relative to its size.
 const MARGIN: f64 = 1e-4;
 
+/// The media around a light at which paths start, as they carry them, or why none starts there.
+type LightStart = Result<u32, Obstacle>;
+
 /// The rays with which paths start at the lights of a scene.
 pub struct LightStarts {
     rays: LightRays,
-    /// What paths from lights alone do not find.
-    unfound: Option<&'static str>,
+    /// What stops only some estimators.
+    obstacle: Option<Obstacle>,
 }
 
 impl LightStarts {
     /// The rays for an estimator, or what it cannot have in the scene.
-    pub fn rays_for(&self, estimator: Estimator) -> Result<&LightRays, &'static str> {
-        let is_alone = !estimator.connects() && !estimator.traces_only_caustics();
-        self.unfound.filter(|_| is_alone).map_or(Ok(&self.rays), Err)
+    pub fn rays_for(&self, estimator: Estimator) -> Result<&LightRays, Obstacle> {
+        self.obstacle.filter(|obstacle| obstacle.stops(estimator)).map_or(Ok(&self.rays), Err)
     }
 }
 
 impl Scene {
     /// The lights at which paths start, or why they cannot.
-    pub(super) fn light_starts(&self) -> Result<LightStarts, &'static str> {
+    pub(super) fn light_starts(&self) -> Result<LightStarts, Obstacle> {
         if self.transmits_from_one_side() {
-            return Err("materials that let light pass differently from their two sides");
+            return Err(Obstacle::OneSided);
         }
         if self.objects.iter().enumerate().any(|(id, object)| self.hides_its_medium(id, object)) {
-            return Err("tinted glass with opacity or in a blend");
+            return Err(Obstacle::HiddenMedium);
         }
         let starts = self.starts();
         let (center, radius) = self.bounding_sphere();
         let unknown = starts.iter().find_map(|start| start.err());
-        let rays = LightRays::new(&self.lights, &starts, center, radius);
-        let rays = rays.ok_or(unknown.unwrap_or("no light at which paths can start, or too many of them"))?;
+        let rays = LightRays::new(&self.lights, &starts.iter().map(|start| start.ok()).collect::<Vec<_>>(), center, radius);
+        let rays = rays.ok_or(unknown.unwrap_or(Obstacle::NoStart))?;
         if !self.surfaces.media.is_empty() && !self.has_reversible_media(&rays, center + DVec3::X * radius) {
-            return Err("tinted glass that is open, or that overlaps with other glass");
+            return Err(Obstacle::OpenMedium);
         }
         // From some sides a shading normal is another one than from the light.
-        let relief = self.has_shading_normals().then_some("smooth meshes, bump or normal maps");
-        Ok(LightStarts { rays, unfound: unknown.or(relief) })
+        let relief = self.has_shading_normals().then_some(Obstacle::ShadingNormals);
+        Ok(LightStarts { rays, obstacle: unknown.or(relief) })
     }
 
     /// How paths start at each light.
@@ -71,8 +73,8 @@ impl Scene {
             return Ok(0);
         }
         match object.shape {
-            Shape::Isosurface { .. } => Err("isosurfaces that emit light"),
-            _ if self.lets_pass(object) => Err("lamps that let light pass"),
+            Shape::Isosurface { .. } => Err(Obstacle::Isosurface),
+            _ if self.lets_pass(object) => Err(Obstacle::ClearLamp),
             _ => self.media_around_all(&object.shape.bounds(&object.motion)),
         }
     }
@@ -81,7 +83,7 @@ impl Scene {
     fn start_far_away(&self) -> LightStart {
         let fills_space = |object: &Object| object.flip && self.has_inside(object);
         let is_within = !self.surfaces.media.is_empty() && self.objects.iter().any(fills_space);
-        if is_within { Err("light from far away within a medium") } else { Ok(0) }
+        if is_within { Err(Obstacle::FarWithinMedium) } else { Ok(0) }
     }
 
     /// The media around a box, as paths carry them, if they are the same at all of its points.
@@ -93,7 +95,7 @@ impl Scene {
         for (id, object) in self.objects.iter().enumerate().filter(|(_, object)| self.has_inside(object)) {
             let is_apart = !object.shape.bounds(&object.motion).overlaps(bounds);
             let holds = if is_apart { Some(false) } else { object.shape.holds(bounds).filter(|_| object.motion.0.is_empty()) };
-            if holds.ok_or("lamps that may touch or cross the surface of a dielectric")? != object.flip {
+            if holds.ok_or(Obstacle::LampAtGlass)? != object.flip {
                 around.push((id, object));
             }
         }

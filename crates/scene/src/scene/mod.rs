@@ -28,6 +28,7 @@ mod parse;
 pub mod projection;
 mod rays;
 mod read;
+mod reuse;
 pub mod roulette;
 mod same_image;
 mod settings;
@@ -61,7 +62,7 @@ pub use self::{
     compile::{check_blend, check_camera, check_lamp, check_object},
     compile_report::CompileReport,
     diagnostic::{SceneError, SourceText},
-    estimator::{Estimator, power_heuristic},
+    estimator::{Estimator, Obstacle, power_heuristic},
     lamp::LampInstance,
     legend::Legend,
     light_paths::EstimatorInForce,
@@ -72,9 +73,9 @@ pub use self::{
     parse::{BUILT_IN, built_in, describe, parse, parse_watched},
     projection::Projection,
     rays::{CameraJoin, CameraRays},
+    reuse::{Reuse, Sharing},
     roulette::Roulette,
-    settings::{RenderSettings, Reuse},
-    sharing::Sharing,
+    settings::{Changes, RenderSettings, Setting},
     shipped::ShippedScene,
     shutter::{Moments, Shutter},
     strategy::Strategy,
@@ -136,7 +137,7 @@ pub struct Scene {
     /// What it pays to share between pixels, once it has been tried.
     pub sharing_by_trial: OnceLock<Sharing>,
     /// The rays with which paths from lights start, or what keeps them from it: see [`Scene::light_rays`].
-    pub light_paths: OnceLock<Result<LightStarts, &'static str>>,
+    pub light_paths: OnceLock<Result<LightStarts, Obstacle>>,
     /// The estimator that [`Estimator::Auto`] stands for, once it has been tried.
     pub estimator_by_trial: OnceLock<Estimator>,
     /// Samples per pixel to stop at.

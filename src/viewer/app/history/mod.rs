@@ -5,7 +5,7 @@ mod tests;
 use std::{collections::VecDeque, time::Duration};
 
 use noisefall_render::render::view::DisplaySettings;
-use noisefall_scene::scene::{Camera, RenderSettings};
+use noisefall_scene::scene::{Camera, RenderSettings, Setting};
 
 use crate::viewer::instruments::compare::comparison::Comparison;
 
@@ -212,19 +212,9 @@ impl History {
 
 /// The setting that differs, as the panel calls it, or "the settings" if several differ.
 fn changed_settings(before: &RenderSettings, after: &RenderSettings) -> String {
-    let differs = [
-        (before.estimator != after.estimator, RenderSettings::ESTIMATOR),
-        (before.sampler != after.sampler, RenderSettings::SAMPLER),
-        (before.directions != after.directions, RenderSettings::DIRECTIONS),
-        (before.reuse != after.reuse, RenderSettings::REUSE),
-        (before.adaptive != after.adaptive, RenderSettings::ADAPTIVE),
-        (before.roulette != after.roulette, RenderSettings::ROULETTE),
-        (before.max_bounces != after.max_bounces, RenderSettings::MAX_BOUNCES),
-        (before.seed != after.seed, RenderSettings::SEED),
-    ];
-    let names: Vec<String> = differs.iter().filter(|(differs, _)| *differs).map(|(_, of)| of.label()).collect();
-    match &names[..] {
-        [name] => name.to_lowercase(),
+    let differing: Vec<Setting> = after.differing(before).collect();
+    match &differing[..] {
+        [setting] => setting.name(),
         _ => "the settings".to_owned(),
     }
 }

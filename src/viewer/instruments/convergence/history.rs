@@ -9,7 +9,6 @@ use super::{
     curve::{Curve, HorizontalAxis, Moment},
     lost_light::LostLight,
 };
-use crate::viewer::widgets::counted::counted;
 
 /// The vertical axis of the curves.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -151,26 +150,21 @@ impl History {
 /// share.
 /// The words are those of the panel.
 pub fn name(settings: &RenderSettings, of_scene: &RenderSettings, sharing: Sharing) -> String {
-    let RenderSettings { estimator, directions, sampler, roulette, max_bounces, reuse, adaptive, seed, .. } = *settings;
-    let cap = max_bounces.map_or_else(|| "no cap".to_owned(), |cap| format!("cap of {}", counted(cap, "bounce")));
-    let parts = [
-        (estimator != of_scene.estimator, estimator.word().title.to_owned()),
-        (directions != of_scene.directions, format!("{} directions", directions.word().title)),
-        (sampler != of_scene.sampler, sampler.word().title.to_owned()),
-        (roulette != of_scene.roulette, roulette.words()),
-        (max_bounces != of_scene.max_bounces, cap),
-        (adaptive != of_scene.adaptive, if adaptive { "adaptive" } else { "not adaptive" }.to_owned()),
-        (seed != of_scene.seed, format!("seed {seed}")),
-    ];
-    let mut parts: Vec<String> = parts.into_iter().filter(|(differs, _)| *differs).map(|(_, words)| words).collect();
-    if parts.is_empty() && reuse == of_scene.reuse {
-        parts.extend([estimator.word().title, sampler.word().title].map(str::to_owned));
+    // What pixels share is told by what they did share, whatever was asked for.
+    let told = settings.differing(of_scene).filter(|setting| *setting != RenderSettings::REUSE);
+    let mut parts: Vec<String> = told.map(|setting| setting.words(settings)).collect();
+    if settings == of_scene {
+        parts.extend([RenderSettings::ESTIMATOR, RenderSettings::SAMPLER].map(|setting| setting.words(settings)));
     }
     // An image with a cap has another limit, whichever is that of the scene.
-    if let Some(cap) = max_bounces.filter(|_| max_bounces == of_scene.max_bounces) {
-        parts.push(format!("cap of {}", counted(cap, "bounce")));
+    let cap = RenderSettings::MAX_BOUNCES;
+    if settings.max_bounces.is_some() && !cap.differs(settings, of_scene) {
+        parts.push(cap.words(settings));
     }
-    parts.push(sharing.name().to_owned());
+    let shared = sharing.name().to_owned();
+    if !parts.contains(&shared) {
+        parts.push(shared);
+    }
     parts.join(", ")
 }
 

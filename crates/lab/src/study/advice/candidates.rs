@@ -1,6 +1,5 @@
 //! The candidate settings, in two stages. Trying all combinations would take too long.
 use super::Advice;
-use crate::study::setting::Setting;
 use noisefall_scene::{
     sampling::Sampler,
     scene::{Estimator, RenderSettings, Reuse, Roulette},
@@ -43,7 +42,7 @@ fn each_once(first: &RenderSettings, others: impl IntoIterator<Item = RenderSett
 /// The settings in use with the best roulette, estimator and sharing of the first stage. They change only what is clearly better.
 pub fn adopted(advice: &Advice) -> RenderSettings {
     let in_use = advice.candidates[advice.current].settings;
-    [Setting::Roulette, Setting::Estimator, Setting::Reuse].into_iter().fold(in_use, |base, setting| {
+    [RenderSettings::ROULETTE, RenderSettings::ESTIMATOR, RenderSettings::REUSE].into_iter().fold(in_use, |base, setting| {
         let differs_in_it_alone = |settings: &RenderSettings| setting.with(&in_use, settings) == *settings;
         let mut better = advice.candidates.iter().filter(|candidate| candidate.is_clearly_better());
         let best = better.find(|candidate| differs_in_it_alone(&candidate.settings));

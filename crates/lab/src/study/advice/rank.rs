@@ -2,7 +2,7 @@
 use super::{
     candidate::{Advice, Candidate, LEAST_GAIN},
     measured::Measured,
-    wording::{difference, differing},
+    wording::difference,
 };
 use noisefall_kernel::measure::Moments;
 
@@ -16,7 +16,7 @@ pub fn rank(measured: &[Measured], spp: u32) -> Advice {
     let better = || (0..candidates.len()).filter(|place| candidates[*place].is_clearly_better());
     let most = better().next().map_or(0.0, |place| candidates[place].efficiency);
     let about_as_good = better().filter(|place| candidates[*place].efficiency * LEAST_GAIN >= most);
-    let best = about_as_good.min_by_key(|place| differing(&candidates[*place].settings, &in_use.settings).len());
+    let best = about_as_good.min_by_key(|place| candidates[*place].settings.differing(&in_use.settings).count());
     Advice { best: best.unwrap_or(current), current, candidates }
 }
 

@@ -1,25 +1,10 @@
 //! Advice in words.
 use super::{Advice, Candidate};
-use crate::study::setting::Setting;
-use noisefall_scene::scene::{RenderSettings, Reuse, Sharing};
-
-/// The settings that differ from those in use.
-pub fn differing(settings: &RenderSettings, in_use: &RenderSettings) -> Vec<Setting> {
-    Setting::ALL.into_iter().filter(|setting| setting.with(in_use, settings) != *in_use).collect()
-}
+use noisefall_scene::scene::RenderSettings;
 
 /// The differences from the settings in use, in the words of the window.
 pub fn difference(settings: &RenderSettings, in_use: &RenderSettings) -> String {
-    let word = |setting| match setting {
-        Setting::Estimator => settings.estimator.word().title.to_owned(),
-        Setting::Sampler => settings.sampler.word().title.to_owned(),
-        Setting::Roulette => settings.roulette.words(),
-        Setting::Reuse if settings.reuse != Reuse::Auto => Sharing::asked(settings.reuse).name().to_owned(),
-        Setting::Directions | Setting::Cap | Setting::Reuse | Setting::Adaptive => {
-            format!("{} {}", setting.name(), setting.value(settings))
-        }
-    };
-    let words: Vec<String> = differing(settings, in_use).into_iter().map(word).collect();
+    let words: Vec<String> = settings.differing(in_use).map(|setting| setting.words(settings)).collect();
     if words.is_empty() { "your settings".to_owned() } else { words.join(", ") }
 }
 

@@ -2,14 +2,11 @@
 use crate::{
     report::sheet::{Cell, sheet},
     study::{
-        Eligibility, Findings, Machine, Outcome, StudyError, StudyScene, differing_labels,
-        measure::Bench,
-        report,
-        setting::{Setting, label},
+        Eligibility, Findings, Machine, Outcome, StudyError, StudyScene, differing_labels, labels::label, measure::Bench, report,
     },
 };
 use noisefall_render::render::{Display, tone::to_srgb};
-use noisefall_scene::scene::RenderSettings;
+use noisefall_scene::scene::{RenderSettings, Setting};
 
 /// Bounce caps that are shown and measured.
 pub const CAPS: [Option<u32>; 5] = [Some(0), Some(1), Some(2), Some(5), None];

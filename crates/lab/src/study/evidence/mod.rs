@@ -16,15 +16,14 @@ use std::{
 pub use self::chapter::Chapter;
 use self::exhibits::{CAPS, Exhibits, pictures};
 use super::{
-    Findings, Lists, Machine, Plan, Progress, Store, Study, StudyError, StudyScene, measure::Bench, setting::Setting,
-    study_scene::reserve,
+    Findings, Lists, Machine, Plan, Progress, Store, Study, StudyError, StudyScene, measure::Bench, study_scene::reserve,
 };
 use noisefall_base::memory::{self, Reservation, TooMuch};
 use noisefall_kernel::measure::Floor;
 use noisefall_render::render::{Display, film::Film, threads::Threads};
 use noisefall_scene::{
     sampling::{Directions, Sampler},
-    scene::{Estimator, RenderSettings, Reuse, Roulette},
+    scene::{Estimator, RenderSettings, Reuse, Roulette, Setting},
 };
 
 const REPEATS: u32 = 3;
@@ -51,18 +50,21 @@ struct Topic {
 /// The questions. Path reuse and adaptive sampling are off except where they are the question. Otherwise a setting for which
 /// `Reuse::Auto` decides differently would be compared with reuse against others without it.
 fn topics() -> [Topic; 6] {
-    let alone = || Lists { reuses: vec![Reuse::Off], adaptive: vec![false], ..Lists::default() };
-    let uncapped = || Lists { caps: vec![None], ..alone() };
-    let roulettes = vec![Roulette::Off, Roulette::fixed(0.5), Roulette::fixed(0.8), Roulette::BY_THROUGHPUT];
-    let samplers = vec![Sampler::Independent, Sampler::Stratified, Sampler::Sobol];
-    let directions = vec![Directions::Uniform, Directions::Cosine, Directions::Bsdf];
+    let any = RenderSettings::default();
+    let off = RenderSettings { reuse: Reuse::Off, adaptive: false, max_bounces: None, ..any };
+    let fixed = [RenderSettings::REUSE, RenderSettings::ADAPTIVE, RenderSettings::MAX_BOUNCES];
+    let alone = fixed.into_iter().fold(Lists::default(), |lists, setting| lists.with(setting, [off]));
+    let topic = |setting, values: Vec<RenderSettings>| Topic { setting, lists: alone.clone().with(setting, values) };
+    let roulettes = [Roulette::Off, Roulette::fixed(0.5), Roulette::fixed(0.8), Roulette::BY_THROUGHPUT];
+    let samplers = [Sampler::Independent, Sampler::Stratified, Sampler::Sobol];
+    let directions = [Directions::Uniform, Directions::Cosine, Directions::Bsdf];
     [
-        Topic { setting: Setting::Cap, lists: Lists { caps: CAPS.to_vec(), ..alone() } },
-        Topic { setting: Setting::Roulette, lists: Lists { roulettes, ..uncapped() } },
-        Topic { setting: Setting::Directions, lists: Lists { directions, ..uncapped() } },
-        Topic { setting: Setting::Estimator, lists: Lists { estimators: Estimator::ALL.to_vec(), ..uncapped() } },
-        Topic { setting: Setting::Sampler, lists: Lists { samplers, ..uncapped() } },
-        Topic { setting: Setting::Reuse, lists: Lists { reuses: vec![Reuse::Off, Reuse::On], ..uncapped() } },
+        topic(RenderSettings::MAX_BOUNCES, CAPS.map(|max_bounces| RenderSettings { max_bounces, ..any }).into()),
+        topic(RenderSettings::ROULETTE, roulettes.map(|roulette| RenderSettings { roulette, ..any }).into()),
+        topic(RenderSettings::DIRECTIONS, directions.map(|directions| RenderSettings { directions, ..any }).into()),
+        topic(RenderSettings::ESTIMATOR, Estimator::ALL.map(|estimator| RenderSettings { estimator, ..any }).into()),
+        topic(RenderSettings::SAMPLER, samplers.map(|sampler| RenderSettings { sampler, ..any }).into()),
+        topic(RenderSettings::REUSE, [Reuse::Off, Reuse::On].map(|reuse| RenderSettings { reuse, ..any }).into()),
     ]
 }
 

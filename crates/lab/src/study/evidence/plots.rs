@@ -2,14 +2,16 @@
 use super::exhibits::Exhibits;
 use crate::{
     report::plot::{Axis, BESIDE, Plot, Style, curve},
-    study::{Findings, Outcome, figures::by_setting, setting::Setting},
+    study::{Findings, Outcome, figures::by_setting},
 };
+use noisefall_scene::scene::RenderSettings;
 
 impl Exhibits<'_> {
     /// All plots with their file names and captions.
     pub fn plots(&self) -> Vec<(String, String, Plot)> {
         let mut plots = Vec::new();
-        for setting in [Setting::Sampler, Setting::Directions, Setting::Estimator, Setting::Roulette] {
+        for setting in [RenderSettings::SAMPLER, RenderSettings::DIRECTIONS, RenderSettings::ESTIMATOR, RenderSettings::ROULETTE]
+        {
             let pair = self.of(setting).and_then(|findings| Some((findings, by_setting(findings, setting)?)));
             if let Some((findings, pair)) = pair {
                 let rendering = self.rendering(findings);
@@ -20,7 +22,7 @@ impl Exhibits<'_> {
                 }
             }
         }
-        plots.extend(self.of(Setting::Sampler).map(|findings| self.variance(findings)));
+        plots.extend(self.of(RenderSettings::SAMPLER).map(|findings| self.variance(findings)));
         plots
     }
 
@@ -33,7 +35,7 @@ impl Exhibits<'_> {
         };
         let mut curves = Vec::new();
         for outcome in &findings.outcomes {
-            let (name, points) = (Setting::Sampler.value(&outcome.settings), mean_of_runs(outcome));
+            let (name, points) = (RenderSettings::SAMPLER.value(&outcome.settings), mean_of_runs(outcome));
             curves.push(curve(name.clone(), Style::Line, points.clone()));
             curves.push(curve(name, Style::Points, points));
         }

@@ -7,11 +7,10 @@ use crate::{
         fit::slope,
         outcome::ROUNDING,
         report::values,
-        setting::Setting,
         wording::{exponent, mean_and_error, significant},
     },
 };
-use noisefall_base::declare::capitalised;
+use noisefall_scene::scene::{RenderSettings, Setting};
 
 /// Two-sided 95 % quantile of the normal distribution.
 const NORMAL_95: f64 = 1.96;
@@ -24,10 +23,16 @@ const UNTRUSTED: &str =
 impl Exhibits<'_> {
     /// All tables, in the order of the chapter.
     pub fn tables(&self) -> Vec<Table> {
-        let convergence = self.of(Setting::Sampler).map(|findings| self.convergence(findings));
-        let bias = [(Setting::Cap, "bias_of_caps"), (Setting::Roulette, "bias_of_roulette")];
+        let convergence = self.of(RenderSettings::SAMPLER).map(|findings| self.convergence(findings));
+        let bias = [(RenderSettings::MAX_BOUNCES, "bias_of_caps"), (RenderSettings::ROULETTE, "bias_of_roulette")];
         let bias = bias.into_iter().filter_map(|(setting, name)| Some(self.bias(setting, name, self.of(setting)?)));
-        let equal_time = [Setting::Directions, Setting::Estimator, Setting::Sampler, Setting::Roulette, Setting::Reuse];
+        let equal_time = [
+            RenderSettings::DIRECTIONS,
+            RenderSettings::ESTIMATOR,
+            RenderSettings::SAMPLER,
+            RenderSettings::ROULETTE,
+            RenderSettings::REUSE,
+        ];
         let equal_time = equal_time.into_iter().filter_map(|setting| Some(self.equal_time(setting, self.of(setting)?)));
         convergence.into_iter().chain(bias).chain(equal_time).collect()
     }
@@ -39,7 +44,7 @@ impl Exhibits<'_> {
             let is_bounded = self.trusts_variance(outcome);
             let [of_error, error_width] = exponents(outcome.slope, is_bounded);
             let [of_variance, variance_width] = exponents(slope(&outcome.variances), is_bounded);
-            let (name, remark) = (values(Setting::Sampler, outcome), self.remark(outcome));
+            let (name, remark) = (values(RenderSettings::SAMPLER, outcome), self.remark(outcome));
             let error = if outcome.is_exact() { UNKNOWN.to_owned() } else { error_in_percent(last.rel_mse) };
             vec![name, last.spp.to_string(), error, of_error, error_width, of_variance, variance_width, remark]
         };
@@ -53,7 +58,7 @@ impl Exhibits<'_> {
                  can fall faster. {UNTRUSTED} ({}).",
                 self.circumstances(findings)
             ),
-            columns: columns(Setting::Sampler, &numbers),
+            columns: columns(RenderSettings::SAMPLER, &numbers),
             rows: findings.outcomes.iter().map(row).collect(),
         }
     }
@@ -119,7 +124,7 @@ impl Exhibits<'_> {
     }
 
     fn caption_of_equal_time(&self, setting: Setting, findings: &Findings, time: Option<f64>) -> String {
-        let name = capitalised(setting.name());
+        let name = setting.label();
         let time = time.map_or_else(
             || format!("{name}: no setting has noise without bias, so there is no time T at which to compare."),
             |seconds| {
@@ -143,7 +148,7 @@ impl Exhibits<'_> {
 /// Columns for the value of a setting, numbers and a remark.
 fn columns(setting: Setting, numbers: &[&str]) -> Vec<Column> {
     let numbers = numbers.iter().copied().map(Column::number);
-    std::iter::once(Column::text(setting.name())).chain(numbers).chain([Column::text("remark")]).collect()
+    std::iter::once(Column::text(&setting.name())).chain(numbers).chain([Column::text("remark")]).collect()
 }
 
 /// Formats a number with three significant digits.

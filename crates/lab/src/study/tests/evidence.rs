@@ -8,14 +8,13 @@ use super::{
 use crate::study::{
     Bench, Findings, Lists, Plan, Run, Store, Study, StudyScene,
     evidence::exhibits::{Exhibits, SheetPicture, pictures},
-    setting::Setting,
 };
 use noisefall_base::math::{SimdLevel, colour::srgb_from_linear};
 use noisefall_kernel::measure::Floor;
 use noisefall_render::render::{Display, threads::Threads, truth};
 use noisefall_scene::{
     sampling::{Directions, Sampler},
-    scene::{Camera, Estimator, RenderSettings, Roulette, parse},
+    scene::{Camera, Estimator, RenderSettings, Roulette, Setting, parse},
 };
 
 /// A furnace of albedo 0.5 and its exact values.
@@ -60,7 +59,7 @@ fn with_exhibits<T>(findings: Findings, setting: Setting, use_them: impl FnOnce(
 
 #[test]
 fn equal_time_is_the_same_time_for_all_and_intervals_are_of_those_near_the_best() {
-    with_exhibits(roulettes(), Setting::Roulette, |exhibits| {
+    with_exhibits(roulettes(), RenderSettings::ROULETTE, |exhibits| {
         let table = exhibits.tables().into_iter().find(|table| table.name == "equal_time_roulette").expect("a table");
         let names: Vec<&str> = table.columns.iter().map(|column| column.name.as_str()).collect();
         assert_eq!(names, ["roulette", "samples after T", "error after T, %", "efficiency", "from", "to", "remark"]);
@@ -85,7 +84,7 @@ fn equal_time_is_the_same_time_for_all_and_intervals_are_of_those_near_the_best(
 
 #[test]
 fn a_bias_has_standard_errors_and_is_bounded_if_the_variance_is_finite() {
-    with_exhibits(roulettes(), Setting::Roulette, |exhibits| {
+    with_exhibits(roulettes(), RenderSettings::ROULETTE, |exhibits| {
         let table = exhibits.tables().into_iter().find(|table| table.name == "bias_of_roulette").expect("a table");
         let names: Vec<&str> = table.columns.iter().map(|column| column.name.as_str()).collect();
         let numbers = ["bias", "standard error", "z", "of the mean, %", "excluded beyond, %"];
@@ -113,7 +112,7 @@ fn estimators() -> Findings {
 
 #[test]
 fn noisy_settings_are_compared_too_and_heavy_tails_have_no_interval() {
-    with_exhibits(estimators(), Setting::Estimator, |exhibits| {
+    with_exhibits(estimators(), RenderSettings::ESTIMATOR, |exhibits| {
         let table = exhibits.tables().into_iter().find(|table| table.name == "equal_time_estimator").expect("a table");
         assert!(table.caption.contains("T = 0.500 s"), "{}", table.caption);
         let row = |name: &str| table.rows.iter().find(|row| row[0] == name).expect("a row").clone();
@@ -151,7 +150,7 @@ fn exponents_and_their_widths_are_cells_of_their_own() {
         outcome(RenderSettings::default(), &[run(0.01, 1.0), run(0.01, 1.0)]),
         outcome(independent, &[run(1e-16, 1.0), run(1e-16, 1.0)]),
     ]);
-    with_exhibits(found, Setting::Sampler, |exhibits| {
+    with_exhibits(found, RenderSettings::SAMPLER, |exhibits| {
         let table = &exhibits.tables()[0];
         assert_eq!(table.name, "convergence");
         assert_eq!(table.rows[0], ["independent", "1", "–", "–", "–", "–", "–", "no noise"]);

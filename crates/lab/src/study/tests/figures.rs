@@ -6,7 +6,6 @@ use crate::{
         figures::{by_setting, overview},
         outcome::Limits,
         ranking::rank,
-        setting::Setting,
         trial::Group,
     },
 };
@@ -100,7 +99,7 @@ fn a_setting_has_a_curve_for_each_value_and_twins_share_one() {
         ],
         best,
     );
-    let pair = by_setting(&found, Setting::Sampler).expect("curves");
+    let pair = by_setting(&found, RenderSettings::SAMPLER).expect("curves");
     assert_eq!(pair.title, "Sampler");
     assert!(pair.caption.contains("All other settings as in the best combination: mis, bsdf, sobol"), "{}", pair.caption);
     // Stratified was measured with another estimator only.
@@ -115,7 +114,7 @@ fn a_setting_has_a_curve_for_each_value_and_twins_share_one() {
             assert!(found.len() == exact.len() && found.iter().zip(exact).all(near), "{found:?} {exact:?}");
         }
     }
-    assert!(by_setting(&found, Setting::Roulette).is_none() && by_setting(&found, Setting::Estimator).is_none());
+    assert!(by_setting(&found, RenderSettings::ROULETTE).is_none() && by_setting(&found, RenderSettings::ESTIMATOR).is_none());
 }
 
 #[test]

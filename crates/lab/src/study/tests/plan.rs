@@ -33,19 +33,26 @@ fn large_pictures_are_made_smaller_in_shape() {
 
 #[test]
 fn lists_are_combined_each_value_once() {
-    let lists = Lists {
-        estimators: vec![Estimator::Mis, Estimator::Path, Estimator::Mis],
-        directions: vec![Directions::Bsdf],
-        samplers: vec![Sampler::Sobol, Sampler::Independent],
-        roulettes: vec![Roulette::Off, Roulette::fixed(0.8), Roulette::fixed(0.8)],
-        caps: vec![None],
-        reuses: vec![Reuse::On, Reuse::Off],
-        ..Lists::default()
-    };
-    let all = lists.combinations(RenderSettings { seed: 3, ..RenderSettings::default() });
+    let any = RenderSettings::default();
+    let lists = Lists::default()
+        .with(
+            RenderSettings::ESTIMATOR,
+            [Estimator::Mis, Estimator::Path, Estimator::Mis].map(|estimator| RenderSettings { estimator, ..any }),
+        )
+        .with(RenderSettings::DIRECTIONS, [RenderSettings { directions: Directions::Bsdf, ..any }])
+        .with(RenderSettings::SAMPLER, [Sampler::Sobol, Sampler::Independent].map(|sampler| RenderSettings { sampler, ..any }))
+        .with(
+            RenderSettings::ROULETTE,
+            [Roulette::Off, Roulette::fixed(0.8), Roulette::fixed(0.8)].map(|roulette| RenderSettings { roulette, ..any }),
+        )
+        .with(RenderSettings::MAX_BOUNCES, [any])
+        .with(RenderSettings::REUSE, [Reuse::On, Reuse::Off].map(|reuse| RenderSettings { reuse, ..any }));
+    let all = lists.combinations(RenderSettings { seed: 3, ..any });
     assert_eq!(all.len(), 2 * 2 * 2 * 2);
     assert!(all.iter().all(|settings| settings.seed == 3 && !settings.adaptive));
-    assert_eq!(Lists { adaptive: vec![false, true], ..Lists::default() }.combinations(all[0]).len(), 2);
+    let adaptive = [false, true].map(|adaptive| RenderSettings { adaptive, ..any });
+    assert_eq!(Lists::default().with(RenderSettings::ADAPTIVE, adaptive).combinations(all[0]).len(), 2);
+    assert_eq!(lists.clone().replaced_by(Lists::default().with(RenderSettings::ESTIMATOR, [any])).combinations(any).len(), 8);
     assert_eq!(Lists::default().combinations(all[5]), [all[5]]);
     let all: Vec<RenderSettings> = all.into_iter().filter(|settings| settings.reuse == Reuse::On).collect();
     // Combinations with equal images are one group, which measures the settings of the scene.

@@ -5,7 +5,6 @@ use crate::study::{
     Checkpoint, Eligibility, Findings, Outcome, Run, checkpoints,
     outcome::Limits,
     ranking::rank,
-    setting::Setting,
     table,
     trial::Group,
     verdict,
@@ -92,9 +91,9 @@ fn equal_repeats_leave_no_doubt() {
         findings(vec![outcome(estimator(Estimator::Path), &clear(0.02)), outcome(estimator(Estimator::Mis), &clear(0.01))]);
     assert!((found.uncertainty().expect("repeats") - 1.0).abs() < 1e-9);
     assert_eq!(found.rivals().count(), 0);
-    let gains = found.gains(Setting::Estimator);
+    let gains = found.gains(RenderSettings::ESTIMATOR);
     assert_eq!(gains.iter().map(|gain| gain.value.as_str()).collect::<Vec<_>>(), ["mis", "path"]);
-    assert!(found.gains(Setting::Sampler).is_empty());
+    assert!(found.gains(RenderSettings::SAMPLER).is_empty());
 }
 
 #[test]
@@ -199,9 +198,9 @@ fn the_gain_of_a_setting_is_with_the_best_and_at_its_best() {
             |(a, b): (&(String, f64, f64), &(&str, f64, f64))| a.0 == b.0 && (a.1 - b.1).abs() < 1e-9 && (a.2 - b.2).abs() < 1e-9;
         assert!(found.len() == exact.len() && found.iter().zip(exact).all(same), "{found:?} {exact:?}");
     };
-    near(&gains(Setting::Estimator), &[("mis", 1.0, 1.0), ("path", 0.1, 0.2)]);
-    near(&gains(Setting::Sampler), &[("sobol", 1.0, 1.0), ("independent", 0.5, 0.5)]);
-    near(&gains(Setting::Roulette), &[("throughput", 1.0, 1.0), ("off", 1.0, 1.0)]);
+    near(&gains(RenderSettings::ESTIMATOR), &[("mis", 1.0, 1.0), ("path", 0.1, 0.2)]);
+    near(&gains(RenderSettings::SAMPLER), &[("sobol", 1.0, 1.0), ("independent", 0.5, 0.5)]);
+    near(&gains(RenderSettings::ROULETTE), &[("throughput", 1.0, 1.0), ("off", 1.0, 1.0)]);
     assert!(
         found.find(&RenderSettings { roulette: Roulette::Off, ..RenderSettings::default() }).is_some_and(|o| o.twins.len() == 1)
     );

@@ -1,11 +1,16 @@
 //! Files of measurements, complete and truncated.
-use crate::study::{CSV, Store, key, row};
+use crate::study::{
+    CSV, Store, key,
+    row::{self, Measured, Row, Subject},
+};
 use noisefall_base::file::faults::lose_nothing;
+use noisefall_scene::scene::RenderSettings;
 
 /// The lines of a run of `checkpoints`, as the store keeps them.
-fn rows(key: &str, checkpoints: usize) -> Vec<row::Row> {
-    let row = |checkpoint| row::Row {
-        scene: "a scene, with \"quotes\" – ρ.toml".to_owned(),
+fn rows(key: &str, checkpoints: usize) -> Vec<Row> {
+    let subject = Subject { scene: "a scene, with \"quotes\" – ρ.toml".to_owned(), width: 3, height: 4 };
+    let settings = RenderSettings::TABLE.map(|setting| setting.value(&RenderSettings::default()));
+    let measured = |checkpoint| Measured {
         checkpoint,
         checkpoints,
         spp: 1 << checkpoint,
@@ -13,8 +18,9 @@ fn rows(key: &str, checkpoints: usize) -> Vec<row::Row> {
         rel_mse: f64::MIN_POSITIVE,
         biased: "cap at 3".to_owned(),
         key: key.to_owned(),
-        ..row::Row::default()
+        ..Measured::default()
     };
+    let row = |checkpoint| Row { subject: subject.clone(), settings: settings.clone(), measured: measured(checkpoint) };
     (1..=checkpoints).map(row).collect()
 }
 

@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
-pub use self::rays::{LightRays, LightStart, RayCoordinates, RaySample};
+pub use self::rays::{LightRays, RayCoordinates, RaySample};
 use super::{
     background::Background,
     bound::Bound,

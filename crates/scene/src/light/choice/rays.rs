@@ -18,9 +18,6 @@ use crate::{
 };
 use noisefall_base::math::{F, Frame, Lanes, M, One, Pick, U, V};
 
-/// The media around a light at which paths start, as they carry them, or why none starts there.
-pub type LightStart = Result<u32, &'static str>;
-
 /// The choice among the lights of a scene, and the disk of light from far away.
 pub struct LightRays {
     choice: AliasTable,
@@ -75,9 +72,9 @@ impl LightRays {
     /// Most lights among which the table can choose.
     const MOST: usize = 1 << 23;
 
-    /// Builds the table for a scene with this bounding sphere. `starts` are those of all lights with a surface, all lamps without one and
-    /// the background. `None` if no path starts at any light, or if there are too many.
-    pub fn new(lights: &Lights, starts: &[LightStart], center: DVec3, radius: f64) -> Option<LightRays> {
+    /// Builds the table for a scene with this bounding sphere. `starts` are the media around all lights with a surface, all lamps without
+    /// one and the background, as paths carry them; `None` where no path starts. `None` if no path starts at any light, or if there are too many.
+    pub fn new(lights: &Lights, starts: &[Option<u32>], center: DVec3, radius: f64) -> Option<LightRays> {
         let disk = std::f64::consts::PI * radius * radius;
         let lamp = |number: usize| {
             let (pdf, far) = lights.lamps.direction_pdf(One, U(number as u32));
@@ -87,7 +84,7 @@ impl LightRays {
         let sky = lights.background.as_ref().map(|sky| (4.0 * std::f64::consts::PI * disk * f64::from(sky.luminance()), true));
         let surfaces = lights.fluxes.iter().map(|flux| (f64::from(*flux), false));
         let all = surfaces.chain((0..lights.lamps.len()).map(lamp)).chain(sky);
-        let begun = |((flux, far), start): ((f64, bool), &LightStart)| (if start.is_ok() { flux } else { 0.0 }, far);
+        let begun = |((flux, far), start): ((f64, bool), &Option<u32>)| (if start.is_some() { flux } else { 0.0 }, far);
         let fluxes: Vec<(f64, bool)> = all.zip(starts).map(begun).collect();
         let sum = |of: bool| fluxes.iter().filter(|(_, far)| *far == of).map(|(flux, _)| flux).sum::<f64>();
         let (near, far) = (sum(false), sum(true));
@@ -98,8 +95,8 @@ impl LightRays {
         let scale = if near > 0.0 { (near / far).min(1.0) } else { 1.0 };
         let mut weights: Vec<f64> = fluxes.iter().map(|(flux, far)| if *far { flux * scale } else { *flux }).collect();
         weights.resize(fluxes.len().next_power_of_two(), 0.0);
-        let has_media = starts.iter().any(|start| start.is_ok_and(|media| media != 0));
-        let row = |start: &LightStart| [f32::from_bits(start.unwrap_or(0)), 0.0, 0.0, 0.0];
+        let has_media = starts.iter().any(|start| start.is_some_and(|media| media != 0));
+        let row = |start: &Option<u32>| [f32::from_bits(start.unwrap_or(0)), 0.0, 0.0, 0.0];
         let media = if has_media { starts.iter().map(row).collect() } else { Vec::new() };
         let choice = AliasTable::new(&weights);
         Some(LightRays { choice, media, center: center.as_vec3().to_array(), radius: radius as f32 })

@@ -11,6 +11,8 @@ impl Weighting for Bidirectional {
         title: "Bidirectional",
         doc: "Joins paths from the camera with paths from lights in all ways (s, t), weighted by the balance heuristic. Good for caustics and hidden lamps.",
     };
+    const STRATEGIES: &'static str =
+        "(s, t): s vertices from a light joined with t from the camera, in all ways; balance heuristic";
     const COMPARISON: &'static str = "Bidirectional";
     const COMPARES: bool = true;
     const TRACES_LIGHT_PATHS: bool = true;

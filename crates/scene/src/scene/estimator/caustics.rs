@@ -12,6 +12,8 @@ impl Weighting for Caustics {
         title: "Caustics",
         doc: "MIS, with paths from lights only for the caustics of mirrors and clear glass. Cheaper than Bidirectional.",
     };
+    const STRATEGIES: &'static str =
+        "those of `mis`, and light paths through mirrors and clear glass, joined with the camera; balance heuristic";
     const COMPARISON: &'static str = "Caustics from lights";
     const COMPARES: bool = true;
     const TRACES_LIGHT_PATHS: bool = true;

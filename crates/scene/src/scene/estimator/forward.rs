@@ -14,6 +14,7 @@ impl Weighting for Forward {
         title: "Forward",
         doc: "Paths start at lights, and every point that they reach is joined with the camera. Good for caustics, noisy for other light.",
     };
+    const STRATEGIES: &'static str = "light paths, joined with the camera at each vertex; those of `mis` at mirrors and clear glass that the camera sees; balance heuristic";
     const COMPARISON: &'static str = "Forward tracing";
     const COMPARES: bool = true;
     const TRACES_LIGHT_PATHS: bool = true;

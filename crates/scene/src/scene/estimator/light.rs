@@ -14,6 +14,7 @@ impl Weighting for Light {
         title: "Light",
         doc: "Every surface point samples a light (next-event estimation). Noisy for glossy surfaces and large lights.",
     };
+    const STRATEGIES: &'static str = "samples of lights; camera paths that hit a light directly or after mirrors and clear glass";
     const COMPARISON: &'static str = "Light sampling";
 
     #[inline(always)]

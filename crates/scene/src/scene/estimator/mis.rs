@@ -14,6 +14,7 @@ impl Weighting for Mis {
         title: "MIS",
         doc: "Combines path and light sampling, weighted by their pdfs (multiple importance sampling).",
     };
+    const STRATEGIES: &'static str = "camera paths that hit a light and samples of lights, weighted by the power heuristic";
     const COMPARES: bool = true;
 }
 

@@ -7,9 +7,10 @@ mod caustics;
 mod forward;
 mod light;
 mod mis;
+mod obstacle;
 mod path;
 
-pub use self::mis::power_heuristic;
+pub use self::{mis::power_heuristic, obstacle::Obstacle};
 use noisefall_base::{
     declare::Word,
     math::{F, Lanes},
@@ -72,6 +73,11 @@ impl Estimator {
         in_estimator!(self, E => E::light_weight(l, pdf, of_bsdf))
     }
 
+    /// How it finds light, in words.
+    pub fn strategies(self) -> &'static str {
+        in_estimator!(self, E => E::STRATEGIES)
+    }
+
     /// Its name in the menu of comparisons.
     pub fn comparison(self) -> &'static str {
         in_estimator!(self, E => E::COMPARISON)
@@ -81,6 +87,9 @@ impl Estimator {
 /// A kind of estimator: the weights of the two strategies that find light.
 trait Weighting {
     const WORD: Word;
+
+    /// See [`Estimator::strategies`].
+    const STRATEGIES: &'static str;
 
     /// Its name in the menu of comparisons.
     const COMPARISON: &'static str = Self::WORD.title;

@@ -6,7 +6,7 @@ pub mod off;
 pub mod throughput;
 
 use noisefall_base::{
-    declare::{Kind, OneOf},
+    declare::{Accepted, Datum, Kind, OneOf, SettingValue},
     math::{F, Lanes, V},
 };
 
@@ -44,18 +44,6 @@ impl Roulette {
         in_roulette!(self, roulette => roulette.option())
     }
 
-    /// The roulette that the command line calls so; `None` if there is none.
-    pub fn named(option: &str) -> Option<Roulette> {
-        Roulette::alternatives()
-            .into_iter()
-            .find_map(|roulette| in_roulette!(roulette, kind => kind.named(option).map(Into::into)))
-    }
-
-    /// Names of all roulettes on the command line, for messages.
-    pub fn options() -> Vec<String> {
-        Roulette::alternatives().into_iter().map(|roulette| in_roulette!(roulette, kind => kind.options())).collect()
-    }
-
     /// Name and values in words.
     pub fn words(self) -> String {
         in_roulette!(self, roulette => roulette.words())
@@ -74,6 +62,21 @@ impl Roulette {
     /// Its name in a warning about variance.
     pub fn survival_words(self) -> String {
         in_roulette!(self, roulette => roulette.survival_words())
+    }
+}
+
+impl SettingValue for Roulette {
+    fn accepted() -> Accepted {
+        let options = |roulette: Roulette| in_roulette!(roulette, kind => kind.options());
+        Accepted::Other(Roulette::alternatives().into_iter().map(options).collect())
+    }
+
+    fn datum(&self) -> Datum {
+        Datum::Word(Roulette::name(*self))
+    }
+
+    fn read(word: &str) -> Option<Roulette> {
+        Roulette::alternatives().into_iter().find_map(|roulette| in_roulette!(roulette, kind => kind.named(word).map(Into::into)))
     }
 }
 

@@ -64,6 +64,22 @@ impl Survival for Throughput {
         (throughput.max_component() * scale).sqrt().min(l.f(Roulette::MOST)).max(l.f(Roulette::LEAST))
     }
 
+    fn option(self) -> String {
+        let key = Self::KIND.key;
+        if self == Self::default() { key.to_owned() } else { format!("{key}:{}", self.start) }
+    }
+
+    fn named(self, option: &str) -> Option<Self> {
+        match option.strip_prefix(Self::KIND.key)? {
+            "" => Some(self),
+            start => start.strip_prefix(':')?.parse().ok().map(|start| Throughput { start }),
+        }
+    }
+
+    fn options(self) -> String {
+        format!("{}[:BOUNCE]", Self::KIND.key)
+    }
+
     fn words(self) -> String {
         format!("roulette by throughput from bounce {} on", self.start)
     }
