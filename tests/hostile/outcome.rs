@@ -28,7 +28,7 @@ pub fn outcome(path: &Path, reader: Reader, number: u64) -> String {
             format!("{:?}", kept.map(|kept| kept.elapsed()).map_err(|error| error.to_string()))
         }
         Reader::Samples => format!("{:?}", joined(path).map_err(|error| error.to_string())),
-        Reader::Carried => format!("{:?}", load(path).map(drop).map_err(|error| error.report())),
+        Reader::Embedded => format!("{:?}", load(path).map(drop).map_err(|error| error.report())),
         Reader::Cameras => {
             let cameras = CameraPath::load(path).map_err(|error| error.report());
             format!("{:?}", cameras.and_then(|path| path.cameras(&built_in().camera)).map(|cameras| cameras.len()))

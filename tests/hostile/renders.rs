@@ -80,5 +80,5 @@ pub fn carried() -> Base {
         let text = settings_text(&scene, &camera, &settings, Display::default(), &frame, &[]);
         image_file::save(&frame, Display::default(), &text, path).expect("it is written");
     });
-    Base::new("png-scene", Reader::Carried, vec![("a.png", Structure::Png, bytes)])
+    Base::new("png-scene", Reader::Embedded, vec![("a.png", Structure::Png, bytes)])
 }

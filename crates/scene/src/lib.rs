@@ -1,5 +1,7 @@
 //! Scenes: images, models, textures, materials, shapes and lights as scene files describe them, and as the renderer compiles them.
 
+#[cfg(test)]
+mod chi_squared;
 pub mod geometry;
 pub mod image;
 pub mod light;

@@ -14,18 +14,29 @@ use noisefall_render::render::{
     threads::Threads,
 };
 
-use super::background_task::BackgroundTask;
+use super::search::{Patience, Question, Search};
 
 type Radiance = Arc<Vec<[f32; 3]>>;
 
+/// A frame to denoise.
+#[derive(Clone)]
+struct Noisy(Arc<Frame>);
+
+impl Question for Noisy {
+    fn is_same(&self, other: &Noisy) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
+    }
+
+    /// An earlier frame of the same image stands in while samples arrive.
+    fn is_near(&self, other: &Noisy) -> bool {
+        is_of_image(&self.0, &other.0)
+    }
+}
+
 pub struct Denoiser {
     ctx: egui::Context,
-    /// The last result, and its frame.
-    done: Option<(Arc<Frame>, Radiance)>,
-    /// The frame of the task.
-    of: Option<Arc<Frame>>,
-    pending: Option<BackgroundTask<Option<Vec<[f32; 3]>>>>,
-    /// The steps that the task has made.
+    search: Search<Noisy, Radiance>,
+    /// The steps that the search has made.
     steps: Arc<AtomicUsize>,
 }
 
@@ -34,57 +45,46 @@ const LOOK: u64 = 100;
 
 impl Denoiser {
     pub fn new(ctx: &egui::Context) -> Denoiser {
-        Denoiser { ctx: ctx.clone(), done: None, of: None, pending: None, steps: Arc::default() }
+        Denoiser { ctx: ctx.clone(), search: Search::default(), steps: Arc::default() }
     }
 
     /// The denoised radiance of a frame as soon as it is known; until then, that of an earlier frame of the same image.
     pub fn denoised(&mut self, frame: &Arc<Frame>, threads: usize) -> Option<Radiance> {
-        if let (Some(found), Some(of)) = (BackgroundTask::take(&mut self.pending), &self.of) {
-            self.done = found.ok().flatten().map(|radiance| (of.clone(), Arc::new(radiance)));
+        if frame.halves.is_some() {
+            let (steps, ctx) = (&mut self.steps, self.ctx.clone());
+            self.search.ask(&self.ctx, &Noisy(frame.clone()), Patience::Waits, |Noisy(frame)| {
+                *steps = Arc::default();
+                let steps = steps.clone();
+                move |cancelled| {
+                    let _memory = reserve([frame.width, frame.height]).ok()?;
+                    let pool = Threads::new(threads, SimdLevel::best()).ok()?;
+                    let step = || {
+                        steps.fetch_add(1, Ordering::Relaxed);
+                        ctx.request_repaint_after(Duration::from_millis(LOOK));
+                        cancelled()
+                    };
+                    pool.install(|| denoised(&frame, &step)).map(Arc::new)
+                }
+            });
         }
-        let is_of_image = |of: &Arc<Frame>| is_of_image(of, frame);
-        // A task for the same image runs to its end; otherwise none would end while samples arrive.
-        if self.pending.is_some() && !self.of.as_ref().is_some_and(is_of_image) {
-            self.pending = None;
-        }
-        let is_new = !self.of.as_ref().is_some_and(|of| Arc::ptr_eq(of, frame));
-        if self.pending.is_none() && is_new && frame.halves.is_some() {
-            self.start(frame, threads);
-        }
-        self.done.as_ref().filter(|(of, _)| is_of_image(of)).map(|(_, radiance)| radiance.clone())
+        self.search.found().filter(|(of, _)| is_of_image(&of.0, frame)).map(|(_, radiance)| radiance.clone())
     }
 
     /// The frame of this image whose result is known.
     pub fn of(&self, frame: &Frame) -> Option<Arc<Frame>> {
-        self.done.as_ref().map(|(of, _)| of.clone()).filter(|of| is_of_image(of, frame))
+        self.search.found().map(|(of, _)| of.0.clone()).filter(|of| is_of_image(of, frame))
     }
 
     /// The fraction of the task that is done, while there is no result for the image yet.
     pub fn progress(&self) -> Option<f32> {
-        let of = self.of.as_ref().filter(|of| self.pending.is_some() && self.of(of).is_none())?;
+        let Noisy(of) = self.search.pending().filter(|Noisy(of)| self.of(of).is_none())?;
         let whole = steps([of.width, of.height]).max(1);
         Some(self.steps.load(Ordering::Relaxed) as f32 / whole as f32)
     }
 
     /// Cancels the task and drops the result: nothing shows it.
     pub fn stop(&mut self) {
-        (self.done, self.of, self.pending) = (None, None, None);
-    }
-
-    fn start(&mut self, frame: &Arc<Frame>, threads: usize) {
-        self.of = Some(frame.clone());
-        self.steps = Arc::default();
-        let (frame, steps, ctx) = (frame.clone(), self.steps.clone(), self.ctx.clone());
-        self.pending = Some(BackgroundTask::start(&self.ctx, move |cancelled| {
-            let _memory = reserve([frame.width, frame.height]).ok()?;
-            let pool = Threads::new(threads, SimdLevel::best()).ok()?;
-            let step = || {
-                steps.fetch_add(1, Ordering::Relaxed);
-                ctx.request_repaint_after(Duration::from_millis(LOOK));
-                cancelled()
-            };
-            pool.install(|| denoised(&frame, &step))
-        }));
+        self.search = Search::default();
     }
 }
 

@@ -7,7 +7,7 @@ use std::{
 use glam::DVec3;
 use noisefall_base::file::open_regular;
 use noisefall_scene::{
-    image::{Encoding, Picture, carried_text, read as read_image},
+    image::{Encoding, Picture, embedded_text, read as read_image},
     model::{Model, read as read_model},
 };
 
@@ -123,7 +123,7 @@ fn image(path: &Path) -> Result<Picture, String> {
 }
 
 fn carries_scene(path: &Path) -> bool {
-    open_regular(path).ok().and_then(carried_text).is_some()
+    open_regular(path).ok().and_then(embedded_text).is_some()
 }
 
 /// The corners of the box around all triangles.

@@ -6,67 +6,52 @@ use noisefall_kernel::integrator::{Features, features};
 use noisefall_render::render::threads::Threads;
 use noisefall_scene::scene::{Camera, Scene};
 
-use super::background_task::BackgroundTask;
+use super::search::{Patience, Question, Search};
 
 /// The scene and the camera of features.
-type Viewpoint = (Arc<Scene>, Camera);
+#[derive(Clone)]
+struct Viewpoint(Arc<Scene>, Camera);
+
+impl Question for Viewpoint {
+    fn is_same(&self, other: &Viewpoint) -> bool {
+        self.is_near(other) && self.1 == other.1
+    }
+
+    /// Features of the same scene from another camera stand in while the camera is dragged.
+    fn is_near(&self, other: &Viewpoint) -> bool {
+        self.0.has_same_image(&other.0)
+    }
+}
 
 pub struct FeatureFinder {
     ctx: egui::Context,
-    found: Option<FoundFeatures>,
-    /// The last requested viewpoint.
-    viewpoint: Option<Viewpoint>,
-    pending: Option<BackgroundTask<Option<(Features, Reservation)>>>,
-}
-
-struct FoundFeatures {
-    viewpoint: Viewpoint,
-    features: Arc<Features>,
-    _memory: Reservation,
+    search: Search<Viewpoint, (Arc<Features>, Reservation)>,
 }
 
 impl FeatureFinder {
     pub fn new(ctx: &egui::Context) -> FeatureFinder {
-        FeatureFinder { ctx: ctx.clone(), found: None, viewpoint: None, pending: None }
+        FeatureFinder { ctx: ctx.clone(), search: Search::default() }
     }
 
     /// The features of an image as soon as they are known; until then, those of the same scene from the previous camera.
     pub fn of(&mut self, scene: &Arc<Scene>, camera: &Camera, threads: usize) -> Option<Arc<Features>> {
-        let same = |(old, at): &Viewpoint| old.has_same_image(scene) && at == camera;
-        if let (Some(features), Some(viewpoint)) = (BackgroundTask::take(&mut self.pending), &self.viewpoint) {
-            // A failure here is not reported, because the render threads report the same one.
-            let found = features.ok().flatten();
-            self.found = found.map(|(features, _memory)| FoundFeatures {
-                viewpoint: viewpoint.clone(),
-                features: Arc::new(features),
-                _memory,
-            });
-        }
-        // A running search is not cancelled; otherwise none would finish while the camera is dragged.
-        if self.pending.is_none() && !self.viewpoint.as_ref().is_some_and(same) {
-            self.search(scene, camera, threads);
-        }
-        let found = self.found.as_ref().filter(|found| found.viewpoint.0.has_same_image(scene));
-        found.map(|found| found.features.clone())
+        let viewpoint = Viewpoint(scene.clone(), *camera);
+        // A failure here is not reported, because the render threads report the same one.
+        self.search.ask(&self.ctx, &viewpoint, Patience::Waits, |Viewpoint(scene, camera)| {
+            move |cancelled| {
+                let room = Features::reserve(camera.resolution).ok()?;
+                // A pool of its own, with as many threads as the renderer has.
+                let pool = Threads::new(threads, SimdLevel::best()).ok()?;
+                let found = pool.install(|| features(SimdLevel::best(), &scene, &camera, cancelled))?;
+                Some((Arc::new(found), room))
+            }
+        });
+        self.search.found().map(|(_, (features, _))| features.clone())
     }
 
     /// Whether the features are those of this scene and camera.
     pub fn has(&self, scene: &Arc<Scene>, camera: &Camera) -> bool {
-        self.found
-            .as_ref()
-            .is_some_and(|FoundFeatures { viewpoint, .. }| viewpoint.0.has_same_image(scene) && viewpoint.1 == *camera)
-    }
-
-    fn search(&mut self, scene: &Arc<Scene>, camera: &Camera, threads: usize) {
-        self.viewpoint = Some((scene.clone(), *camera));
-        let (scene, camera) = (scene.clone(), *camera);
-        self.pending = Some(BackgroundTask::start(&self.ctx, move |cancelled| {
-            let room = Features::reserve(camera.resolution).ok()?;
-            // A pool of its own, with as many threads as the renderer has.
-            let pool = Threads::new(threads, SimdLevel::best()).ok()?;
-            let found = pool.install(|| features(SimdLevel::best(), &scene, &camera, cancelled))?;
-            Some((found, room))
-        }));
+        self.search.answer(&Viewpoint(scene.clone(), *camera)).is_some()
     }
 }
 

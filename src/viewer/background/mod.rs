@@ -28,5 +28,6 @@ mod reduction;
 pub mod reference_task;
 pub mod render_worker;
 pub mod saver;
+pub mod search;
 pub mod sequence_task;
 pub mod tev_link;

@@ -3,7 +3,7 @@ use std::{ops::Range, sync::Arc};
 
 use noisefall_kernel::integrator::Features;
 
-use super::background_task::BackgroundTask;
+use super::search::{Patience, Question, Search};
 
 /// The lines between pixels of an object and others, from corner to corner in pixels.
 #[derive(Debug, PartialEq)]
@@ -55,41 +55,45 @@ fn runs(count: u32, is_in: impl Fn(u32) -> bool) -> impl Iterator<Item = Range<u
 }
 
 /// The features and the objects of an outline.
-type Question = (Arc<Features>, Range<u32>);
+#[derive(Clone)]
+struct Subject(Arc<Features>, Range<u32>);
+
+impl Question for Subject {
+    fn is_same(&self, other: &Subject) -> bool {
+        Arc::ptr_eq(&self.0, &other.0) && self.1 == other.1
+    }
+
+    fn is_near(&self, other: &Subject) -> bool {
+        self.is_same(other)
+    }
+}
 
 /// Finds outlines on another thread; keeps the last one.
 pub struct OutlineFinder {
     ctx: egui::Context,
-    found: Option<(Question, Arc<Outline>)>,
-    asked: Option<Question>,
-    pending: Option<BackgroundTask<Outline>>,
+    search: Search<Subject, Arc<Outline>>,
 }
 
 impl OutlineFinder {
     pub fn new(ctx: &egui::Context) -> OutlineFinder {
-        OutlineFinder { ctx: ctx.clone(), found: None, asked: None, pending: None }
+        OutlineFinder { ctx: ctx.clone(), search: Search::default() }
     }
 
     /// The outline of these objects, as soon as it is known.
     pub fn of(&mut self, features: &Arc<Features>, objects: Range<u32>) -> Option<Arc<Outline>> {
-        let same = |(old, of): &Question| Arc::ptr_eq(old, features) && *of == objects;
-        if let (Some(found), Some(asked)) = (BackgroundTask::take(&mut self.pending), &self.asked) {
-            self.found = found.ok().map(|outline| (asked.clone(), Arc::new(outline)));
-        }
-        if !self.asked.as_ref().is_some_and(same) {
-            self.asked = Some((features.clone(), objects.clone()));
-            let (features, objects) = (features.clone(), objects.clone());
-            self.pending = Some(BackgroundTask::start(&self.ctx, move |_| {
+        let subject = Subject(features.clone(), objects);
+        self.search.ask(&self.ctx, &subject, Patience::Cancels, |Subject(features, objects)| {
+            move |_| {
                 let is_inside = |x: u32, y: u32| objects.contains(&features.object[(y * features.width + x) as usize]);
-                Outline::of([features.width, features.height], &is_inside)
-            }));
-        }
-        self.found.as_ref().filter(|(question, _)| same(question)).map(|(_, outline)| outline.clone())
+                Some(Arc::new(Outline::of([features.width, features.height], &is_inside)))
+            }
+        });
+        self.search.found().map(|(_, outline)| outline.clone())
     }
 
     /// Forgets all outlines: nothing is selected.
     pub fn clear(&mut self) {
-        (self.found, self.asked, self.pending) = (None, None, None);
+        self.search = Search::default();
     }
 }
 

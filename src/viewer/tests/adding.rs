@@ -15,9 +15,9 @@ use crate::viewer::{canvas::projection::project, panels::outliner::New};
 fn studio() -> Window {
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("crates/edit/src/edit/templates/studio.toml");
     let mut window = open(Some(path));
-    wait(&mut window, "the scene", |app| app.session.opened.is_some());
-    window.state_mut().session.camera.resolution = [96, 64];
-    wait(&mut window, "a picture", |app| app.results.shown.as_ref().is_some_and(|frame| frame.width == 96));
+    wait(&mut window, "the scene", |app| app.opened().is_some());
+    window.state_mut().camera_mut().resolution = [96, 64];
+    wait(&mut window, "a picture", |app| app.shown_frame().as_ref().is_some_and(|frame| frame.width == 96));
     window
 }
 
@@ -27,7 +27,7 @@ fn compiled(window: &Window) -> Scene {
 
 /// Fails unless the object that was added last is a visible part of the image, and the camera is outside.
 fn suits_the_view(window: &Window, what: &str) {
-    let (scene, camera) = (compiled(window), window.state().session.camera);
+    let (scene, camera) = (compiled(window), window.state().camera());
     let last = description(window).objects.len() - 1;
     let spheres = scene.objects[scene.objects_of(last)].iter().map(|object: &Object| object.shape.swept_sphere(&object.motion));
     let (center, radius) = framing::around(spheres).expect("it has a shape");
@@ -54,7 +54,7 @@ fn shapes_and_lamps_suit_what_the_camera_sees_before_a_far_backdrop() {
                 if is_middle {
                     suits_the_view(&window, kind.name());
                 }
-                let (scene, eye) = (compiled(&window), window.state().session.camera.eye);
+                let (scene, eye) = (compiled(&window), window.state().camera().eye);
                 let last = description(&window).objects.len() - 1;
                 for object in &scene.objects[scene.objects_of(last)] {
                     let (center, radius) = object.shape.swept_sphere(&object.motion);
@@ -66,7 +66,7 @@ fn shapes_and_lamps_suit_what_the_camera_sees_before_a_far_backdrop() {
         for kind in LampKind::alternatives() {
             window.state_mut().add(New::LampWithoutSurface(kind.name()));
             let lamp = description(&window).lamps.last().expect("it is there").clone();
-            let eye = window.state().session.camera.eye;
+            let eye = window.state().camera().eye;
             assert!(lamp.position().is_none_or(|at| at.distance(eye) < 60.0 && at.y < 12.0), "{lamp:?}");
             window.state_mut().discard_edit();
         }
@@ -92,10 +92,10 @@ fn meshes_of_any_unit_suit_the_view() {
 #[test]
 fn shift_a_adds_where_the_pointer_is() {
     let mut window = window("cornell_spheres");
-    window.state_mut().window.panel = PanelTab::Edit;
+    *window.state_mut().panel_mut() = PanelTab::Edit;
     window.hover_at(Pos2::new(472.0, 800.0));
     window.run_steps(2);
-    let pixel = window.state().window.hovered.expect("it is over the image");
+    let pixel = window.state().hovered().expect("it is over the image");
     window.key_press_modifiers(Modifiers::SHIFT, Key::A);
     window.run_steps(2);
     // The pointer goes to the menu.

@@ -7,13 +7,12 @@ use crate::viewer::{canvas::drawing::Split, instruments::compare::comparison::Co
 #[test]
 fn sides_of_a_comparison_are_swapped_kept_and_laid_out() {
     let mut window = window("cornell_spheres");
-    let a = window.state().session.settings;
+    let a = window.state().settings();
     let b = RenderSettings { seed: 5, ..a };
     window.state_mut().start_comparison(b);
     window.run_steps(3);
-    let sides = |window: &Window| {
-        (window.state().session.settings.seed, window.state().session.comparison.map(|compare| compare.other.seed))
-    };
+    let sides =
+        |window: &Window| (window.state().settings().seed, window.state().compared_with().map(|compare| compare.other.seed));
     click(&mut window, "Swap");
     assert_eq!(sides(&window), (5, Some(a.seed)));
     click(&mut window, "Swap");
@@ -23,16 +22,12 @@ fn sides_of_a_comparison_are_swapped_kept_and_laid_out() {
         ("Wipe", CompareLayout::Wipe, Split::Wipe),
     ] {
         click(&mut window, label);
-        let chosen = window.state().session.comparison.expect("it compares").layout;
+        let chosen = window.state().compared_with().expect("it compares").layout;
         assert_eq!((chosen, chosen.split()), (layout, split), "{label}");
     }
     click(&mut window, "Side by side");
     window.state_mut().start_comparison(RenderSettings { seed: 6, ..a });
-    assert_eq!(
-        window.state().session.comparison.map(|compare| compare.layout),
-        Some(CompareLayout::SideBySide),
-        "the layout stays"
-    );
+    assert_eq!(window.state().compared_with().map(|compare| compare.layout), Some(CompareLayout::SideBySide), "the layout stays");
     window.run_steps(3);
     // Settings of A or of B: the panel changes one of them.
     for (label, expected) in [("B", (a.seed, Some(9))), ("A", (9, Some(9)))] {
@@ -41,7 +36,7 @@ fn sides_of_a_comparison_are_swapped_kept_and_laid_out() {
         set(&mut window, "Seed", 0, 9.0);
         assert_eq!(sides(&window), expected, "{label}");
     }
-    window.state_mut().session.settings.seed = 1;
+    window.state_mut().settings_mut().seed = 1;
     click(&mut window, "Keep A");
     assert_eq!(sides(&window), (1, None));
 }
@@ -49,7 +44,7 @@ fn sides_of_a_comparison_are_swapped_kept_and_laid_out() {
 #[test]
 fn the_menu_of_comparisons_changes_what_it_names() {
     let mut window = window("cornell_spheres");
-    let of = window.state().session.settings;
+    let of = window.state().settings();
     for (label, other) in [
         ("Path sampling", RenderSettings { estimator: Estimator::Path, ..of }),
         ("Light sampling", RenderSettings { estimator: Estimator::Light, ..of }),
@@ -64,8 +59,8 @@ fn the_menu_of_comparisons_changes_what_it_names() {
         window.get_all_by_label("Compare with…").next().expect("the toolbar has it").click();
         window.run_steps(3);
         click(&mut window, label);
-        assert_eq!(window.state().session.comparison.map(|compare| compare.other), Some(other), "{label}");
-        assert_eq!(window.state().session.settings, of);
+        assert_eq!(window.state().compared_with().map(|compare| compare.other), Some(other), "{label}");
+        assert_eq!(window.state().settings(), of);
     }
 }
 
@@ -77,6 +72,6 @@ fn the_menu_of_comparisons_closes_behind_a_choice_by_a_screen_reader() {
     window.run_steps(3);
     window.get_by_label("Another seed").click_accesskit();
     window.run_steps(3);
-    assert!(window.state().session.comparison.is_some());
+    assert!(window.state().compared_with().is_some());
     assert!(window.query_by_label("Another seed").is_none());
 }

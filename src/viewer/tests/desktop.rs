@@ -23,17 +23,17 @@ fn ctrl_c_copies_all_pixels_of_the_picture_as_a_png_has_them() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("shot.png");
     let mut window = window("cornell_spheres");
-    window.state_mut().session.look.display.tone_map = ToneMap::Agx;
-    window.state_mut().session.budget.max_spp = Some(4);
+    window.state_mut().look_mut().display.tone_map = ToneMap::Agx;
+    window.state_mut().budget_mut().max_spp = Some(4);
     restarts(&mut window, "a restart", restart);
-    wait(&mut window, "the last frame", |app| app.can_save() && app.results.shown.as_ref().is_some_and(|frame| frame.spp == 4));
+    wait(&mut window, "the last frame", |app| app.can_save() && app.shown_frame().as_ref().is_some_and(|frame| frame.spp == 4));
     window.event(egui::Event::Copy);
     let commands = asked(&mut window, "the copy");
     let [OutputCommand::CopyImage(copied)] = &commands[..] else { panic!("{commands:?}") };
     window.run_steps(2);
     assert!(window.query_by_label("Copied the image, 96 × 64 pixels").is_some());
     window.state_mut().save_to(path.clone());
-    wait(&mut window, "the file", |app| app.window.last_saved.is_some());
+    wait(&mut window, "the file", |app| app.last_saved().is_some());
     let saved = image::open(&path).expect("it is a picture").into_rgba8();
     assert_eq!(copied.size, [96, 64]);
     let differing = copied.as_raw().iter().zip(saved.as_raw()).filter(|(a, b)| a != b).count();
@@ -116,9 +116,9 @@ fn recent_files_are_listed_opened_and_disabled_when_they_are_gone() {
     let mut window = window("cornell_spheres");
     window.state_mut().preferences = Preferences::in_folder(&folder.path().join("preferences"));
     for path in [&mine, &gone, &shipped("bright_sky")] {
-        window.state_mut().background.loader.open(Some(path.clone()));
+        window.state_mut().loader_mut().open(Some(path.clone()));
         let path = Some(path.clone());
-        wait(&mut window, "the scene", |app| app.session.opened.as_ref().is_some_and(|opened| opened.path == path));
+        wait(&mut window, "the scene", |app| app.opened().as_ref().is_some_and(|opened| opened.path == path));
     }
     let recent = window.state().preferences.now.recent.clone();
     assert_eq!(recent, [shipped("bright_sky").canonicalize().expect("it is shipped"), gone.clone(), mine.clone()]);
@@ -131,7 +131,7 @@ fn recent_files_are_listed_opened_and_disabled_when_they_are_gone() {
     let labels = ["mine.toml", "gone.toml"].map(|name| row(&window, name).expect("it is listed"));
     assert!(window.get_by_label(&labels[1]).accesskit_node().is_disabled());
     click(&mut window, &labels[0]);
-    wait(&mut window, "my scene", |app| app.session.opened.as_ref().is_some_and(|opened| opened.path.as_ref() == Some(&mine)));
+    wait(&mut window, "my scene", |app| app.opened().as_ref().is_some_and(|opened| opened.path.as_ref() == Some(&mine)));
     assert!(window.state().dialogs.open.is_none());
     assert_eq!(window.state().preferences.now.recent[0], mine);
     drop(window);
@@ -141,7 +141,7 @@ fn recent_files_are_listed_opened_and_disabled_when_they_are_gone() {
 #[test]
 fn white_balance_has_a_way_back_to_neutral_and_never_restarts() {
     let mut window = window("cornell_spheres");
-    let balance = |window: &Window| window.state().session.look.display.white_balance;
+    let balance = |window: &Window| window.state().look().display.white_balance;
     assert_eq!(balance(&window), WhiteBalance::NEUTRAL);
     never_restarts(&mut window, |w| {
         set(w, "White balance", 0, 3000.0);
@@ -152,7 +152,7 @@ fn white_balance_has_a_way_back_to_neutral_and_never_restarts() {
     assert_eq!(balance(&window), WhiteBalance::NEUTRAL);
     undo(&mut window);
     assert_eq!(balance(&window).kelvin, 3000.0, "it can be undone");
-    window.state_mut().background.loader.open(Some(shipped("furnace")));
-    wait(&mut window, "another scene", |app| app.session.opened.as_ref().is_some_and(|opened| opened.name == "Furnace"));
+    window.state_mut().loader_mut().open(Some(shipped("furnace")));
+    wait(&mut window, "another scene", |app| app.opened().as_ref().is_some_and(|opened| opened.name == "Furnace"));
     assert_eq!(balance(&window), WhiteBalance::NEUTRAL, "what suited the other scene");
 }

@@ -7,7 +7,7 @@ type Opens = fn(&mut Window);
 /// What a key of the window would change behind a dialog.
 fn behind(window: &Window) -> (Tool, bool, f32, Option<super::super::instruments::tabs::InstrumentTab>, u64) {
     let app = window.state();
-    (app.window.tool, app.session.budget.paused, app.session.look.display.exposure, app.window.tab, generation(window))
+    (app.tool(), app.budget().paused, app.look().display.exposure, app.tab(), generation(window))
 }
 
 /// The place of a dialog.
@@ -32,13 +32,13 @@ fn no_key_reaches_what_is_behind_a_dialog() {
     for (name, opens) in dialogs {
         opens(&mut window);
         window.run_steps(3);
-        let (front, before, camera) = (window.state().front(), behind(&window), window.state().session.camera);
+        let (front, before, camera) = (window.state().front(), behind(&window), window.state().camera());
         assert!(front.is_some(), "{name}");
         for key in [Key::C, Key::B, Key::F2, Key::F4, Key::V, Key::CloseBracket, Key::W, Key::Home, Key::Period] {
             press(&mut window, key);
             assert_eq!((window.state().front(), behind(&window)), (front, before), "{name}: {key:?}");
         }
-        assert_eq!(window.state().session.camera, camera, "{name}");
+        assert_eq!(window.state().camera(), camera, "{name}");
         press(&mut window, Key::Escape);
         assert_eq!(window.state().front(), None, "{name}");
     }
@@ -86,7 +86,7 @@ fn tab_does_not_leave_a_form() {
         let focused = focused.map(|node| node.rect());
         assert!(focused.is_none_or(|rect| inside.contains_rect(rect) && rect.right() < 940.0), "{focused:?}");
     }
-    assert!(!window.state().session.budget.paused);
+    assert!(!window.state().budget().paused);
 }
 
 #[test]
@@ -95,10 +95,10 @@ fn a_later_scene_proposes_its_own_name() {
     let mut window = window("furnace");
     wait(&mut window, "a full picture", App::can_save);
     window.state_mut().save_to(folder.path().join("first.png"));
-    wait(&mut window, "the file", |app| app.window.last_saved.is_some());
-    window.state_mut().background.loader.open(Some(shipped("bright_sky")));
+    wait(&mut window, "the file", |app| app.last_saved().is_some());
+    window.state_mut().loader_mut().open(Some(shipped("bright_sky")));
     let path = Some(shipped("bright_sky"));
-    wait(&mut window, "the other scene", |app| app.session.opened.as_ref().is_some_and(|opened| opened.path == path));
+    wait(&mut window, "the other scene", |app| app.opened().as_ref().is_some_and(|opened| opened.path == path));
     window.state_mut().open_save_dialog(super::super::dialogs::save_target::SaveTarget::Picture);
     let proposed = window.state().dialogs.save.as_ref().expect("it is open").path().to_owned();
     assert_eq!(PathBuf::from(proposed), folder.path().join("bright_sky.png"));

@@ -76,10 +76,8 @@ fn a_mesh_stands_on_the_floor_where_it_is_dropped() {
         "{:?}",
         tent.shape
     );
-    wait(&mut window, "the compiled tent", |app| {
-        app.session.opened.as_ref().is_some_and(|opened| opened.scene.objects.len() == 9)
-    });
-    let scene = &window.state().session.opened.as_ref().expect("it is open").scene;
+    wait(&mut window, "the compiled tent", |app| app.opened().as_ref().is_some_and(|opened| opened.scene.objects.len() == 9));
+    let scene = &window.state().opened().as_ref().expect("it is open").scene;
     let [min, max] = scene.objects[scene.objects_of(8)][0].shape.corners();
     assert!(min.y.abs() < 2e-3 && (max.y - 0.3).abs() < 2e-3, "{min} {max}");
     assert!((0.5 * (min + max)).with_y(0.0).distance(spot) < 0.25, "{min} {max}");

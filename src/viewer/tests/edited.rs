@@ -18,14 +18,14 @@ pub fn edits(window: &mut Window, what: &str, act: impl FnOnce(&mut Window)) {
     let before = generation(window);
     act(window);
     wait(window, what, |app| {
-        let waits = app.background.worker.is_editing() || app.session.waiting_edit.is_some();
-        let shown = app.results.shown.as_ref().map_or(0, |frame| frame.generation);
-        !waits && shown > before && shown == app.background.worker.generation()
+        let waits = app.worker().is_editing() || app.session.waiting_edit.is_some();
+        let shown = app.shown_frame().as_ref().map_or(0, |frame| frame.generation);
+        !waits && shown > before && shown == app.worker().generation()
     });
 }
 
 pub fn select(window: &mut Window, subject: Subject) {
-    window.state_mut().window.panel = PanelTab::Edit;
+    *window.state_mut().panel_mut() = PanelTab::Edit;
     window.state_mut().selection.select(Some(subject));
     window.run_steps(3);
 }

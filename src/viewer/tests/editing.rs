@@ -22,14 +22,14 @@ fn edit(window: &mut Window, description: &SceneDescription) {
     window.state_mut().edit_scene(Arc::new(description.clone()));
     window.step();
     wait(window, "the edited picture", |app| {
-        let shown = app.results.shown.as_ref().map_or(0, |frame| frame.generation);
-        let waits = app.background.worker.is_editing() || app.session.waiting_edit.is_some();
-        !waits && shown == app.background.worker.generation()
+        let shown = app.shown_frame().as_ref().map_or(0, |frame| frame.generation);
+        let waits = app.worker().is_editing() || app.session.waiting_edit.is_some();
+        !waits && shown == app.worker().generation()
     });
 }
 
 fn mean(app: &App) -> f32 {
-    let frame = app.results.shown.as_ref().expect("a picture is shown");
+    let frame = app.shown_frame().as_ref().expect("a picture is shown");
     frame.radiance.iter().map(|[_, g, _]| g).sum::<f32>() / frame.radiance.len() as f32
 }
 
@@ -37,20 +37,20 @@ fn mean(app: &App) -> f32 {
 fn a_brighter_lamp_makes_the_picture_brighter_and_keeps_camera_and_settings() {
     let mut window = window("cornell_spheres");
     let mut description = description("cornell_spheres");
-    window.state_mut().session.camera.fov = 30.0;
-    window.state_mut().session.settings.seed = 7;
+    window.state_mut().camera_mut().fov = 30.0;
+    window.state_mut().settings_mut().seed = 7;
     edit(&mut window, &description);
     let before = mean(window.state());
     description.objects.iter_mut().find_map(|object| object.emission.as_mut()).expect("a lamp").scale = 50.0;
     edit(&mut window, &description);
     assert!(mean(window.state()) > 10.0 * before, "{} after {before}", mean(window.state()));
-    assert_eq!((window.state().session.camera.fov, window.state().session.settings.seed), (30.0, 7));
-    let opened = window.state().session.opened.as_ref().expect("it is open");
-    assert!(Arc::ptr_eq(&opened.scene, &window.state().background.worker.request().expect("it is rendered").scene));
+    assert_eq!((window.state().camera().fov, window.state().settings().seed), (30.0, 7));
+    let opened = window.state().opened().as_ref().expect("it is open");
+    assert!(Arc::ptr_eq(&opened.scene, &window.state().worker().request().expect("it is rendered").scene));
     // The camera of the scene is edited: the window follows.
     description.camera.fov = Some(50.0);
     edit(&mut window, &description);
-    assert_eq!(window.state().session.camera.fov, 50.0);
+    assert_eq!(window.state().camera().fov, 50.0);
 }
 
 #[test]
@@ -61,10 +61,10 @@ fn an_edit_of_title_and_notes_keeps_the_samples_and_is_in_the_scene_of_the_image
     never_restarts(&mut window, |w| {
         w.state_mut().edit_scene(Arc::new(description.clone()));
         w.step();
-        wait(w, "the edited scene", |app| app.session.opened.as_ref().is_some_and(|opened| opened.scene.title == "Five balls"));
+        wait(w, "the edited scene", |app| app.opened().as_ref().is_some_and(|opened| opened.scene.title == "Five balls"));
     });
     assert!(window.query_by_label("One is amber.").is_some());
-    let request = window.state().background.worker.request().expect("it is rendered");
+    let request = window.state().worker().request().expect("it is rendered");
     assert!(request.scene.source.contains("Five balls"), "a saved image carries the new title");
     // The next change restarts the render.
     description.materials.clear();
@@ -78,13 +78,13 @@ fn an_edit_of_title_and_notes_keeps_the_samples_and_is_in_the_scene_of_the_image
 fn an_edit_that_is_invalid_says_why_and_keeps_the_scene() {
     let mut window = window("cornell_spheres");
     let (generation, scene) =
-        (window.state().background.worker.generation(), window.state().session.opened.as_ref().expect("open").scene.clone());
+        (window.state().worker().generation(), window.state().opened().as_ref().expect("open").scene.clone());
     let mut description = description("cornell_spheres");
     description.camera.look_at = description.camera.eye;
     edit(&mut window, &description);
     assert!(window.state().dialogs.notices.0.iter().any(|notice| notice.text.contains("the same point")));
-    assert!(Arc::ptr_eq(&window.state().session.opened.as_ref().expect("open").scene, &scene));
-    assert_eq!(window.state().background.worker.generation(), generation);
+    assert!(Arc::ptr_eq(&window.state().opened().as_ref().expect("open").scene, &scene));
+    assert_eq!(window.state().worker().generation(), generation);
 }
 
 #[test]
@@ -94,7 +94,7 @@ fn a_mesh_that_is_dragged_settles_when_the_button_is_released() {
     let knot = Mesh { source: MeshSource::Knot(Knot { triangles: 500 }), smooth: None };
     description.add_object("knot", knot).material = Some("white".to_owned());
     edit(&mut window, &description);
-    let moves = |app: &App| app.session.opened.as_ref().is_some_and(|opened| opened.scene.shapes.have_moved_meshes());
+    let moves = |app: &App| app.opened().as_ref().is_some_and(|opened| opened.scene.shapes.have_moved_meshes());
     assert!(!moves(window.state()), "a new mesh has a tree of its own");
     window.drag_at(pos2(640.0, 1296.0));
     window.step();

@@ -13,7 +13,7 @@ fn shows(window: &Window, text: &str) -> bool {
 #[test]
 fn an_estimator_that_the_scene_allows_is_named_once_in_the_line_below() {
     let mut window = window("cornell_spheres");
-    wait(&mut window, "samples", |app| app.results.status.spp >= 1);
+    wait(&mut window, "samples", |app| app.status().spp >= 1);
     restarts(&mut window, "light sampling", |w| choose(w, "Estimator", "Light"));
     assert!(shows(&window, "Light") && window.query_by_label_contains("Light, not").is_none());
 }
@@ -22,7 +22,7 @@ fn an_estimator_that_the_scene_allows_is_named_once_in_the_line_below() {
 fn the_choice_by_trial_says_what_it_has_chosen_and_why() {
     let mut window = window("cornell_spheres");
     restarts(&mut window, "a trial", |w| choose(w, "Estimator", "Auto"));
-    let scene = window.state().session.opened.as_ref().expect("it is open").scene.clone();
+    let scene = window.state().opened().as_ref().expect("it is open").scene.clone();
     wait(&mut window, "the trial", |_| scene.estimator_by_trial.get().is_some());
     window.run_steps(3);
     let best = scene.estimator_by_trial.get().expect("it has been tried").title();
@@ -37,7 +37,7 @@ fn the_choice_by_trial_says_what_it_has_chosen_and_why() {
 fn an_estimator_that_the_scene_does_not_allow_says_what_renders_instead() {
     let mut window = window("textures_and_bump");
     restarts(&mut window, "paths from lights", |w| choose(w, "Estimator", "Forward"));
-    wait(&mut window, "samples", |app| app.results.status.spp >= 1);
+    wait(&mut window, "samples", |app| app.status().spp >= 1);
     window.run_steps(3);
     assert!(shows(&window, "MIS: the scene has smooth meshes, bump or normal maps") && shows(&window, "MIS, not Forward"));
 }
@@ -51,12 +51,12 @@ fn instruments_say_that_they_show_paths_from_the_camera_alone() {
     };
     for (estimator, traces) in [("MIS", false), ("Bidirectional", true)] {
         choose(&mut window, "Estimator", estimator);
-        window.state_mut().window.tab = Some(InstrumentTab::Bounces);
-        wait(&mut window, "the series", |app| app.results.second_frame.as_ref().is_some_and(|frame| frame.series.is_some()));
+        *window.state_mut().tab_mut() = Some(InstrumentTab::Bounces);
+        wait(&mut window, "the series", |app| app.second_frame().as_ref().is_some_and(|frame| frame.series.is_some()));
         assert_eq!(says(&mut window, "by paths from the camera (MIS)"), traces, "{estimator}");
-        window.state_mut().window.tab = Some(InstrumentTab::Path);
-        window.state_mut().instruments.path.look_at([40, 30]);
-        wait(&mut window, "its samples", |app| app.instruments.path.histogram().is_some());
+        *window.state_mut().tab_mut() = Some(InstrumentTab::Path);
+        window.state_mut().path_inspector_mut().look_at([40, 30]);
+        wait(&mut window, "its samples", |app| app.path_inspector().histogram().is_some());
         assert_eq!(says(&mut window, "Samples lack the light that paths from lights bring"), traces, "{estimator}");
     }
 }
@@ -72,11 +72,11 @@ fn strategy_beside(app: &App) -> Option<Strategy> {
 #[test]
 fn bounces_show_the_image_of_a_single_strategy() {
     let mut window = window("cornell_box");
-    window.state_mut().window.tab = Some(InstrumentTab::Bounces);
-    let has_series = |app: &App| app.results.second_frame.as_ref().is_some_and(|frame| frame.series.is_some());
+    *window.state_mut().tab_mut() = Some(InstrumentTab::Bounces);
+    let has_series = |app: &App| app.second_frame().as_ref().is_some_and(|frame| frame.series.is_some());
     wait(&mut window, "the series", has_series);
     window.get_by_label("Strategies (s, t)").click();
-    let has_frame = |app: &App| app.results.second_frame.as_ref().is_some_and(|frame| frame.series.is_none() && frame.spp >= 1);
+    let has_frame = |app: &App| app.second_frame().as_ref().is_some_and(|frame| frame.series.is_none() && frame.spp >= 1);
     wait(&mut window, "light samples", has_frame);
     assert_eq!(strategy_beside(window.state()), Some(Strategy { s: 1, t: 2, weighted: true }));
     window.get_by_label("2, 1").click();
@@ -93,10 +93,10 @@ fn bounces_show_the_image_of_a_single_strategy() {
 fn a_scene_without_paths_from_lights_has_no_strategies_to_show() {
     let mut window = window("leaves");
     // Paths from both ends do not count crossings.
-    window.state_mut().session.settings.count_crossings = true;
-    window.state_mut().window.tab = Some(InstrumentTab::Bounces);
+    window.state_mut().settings_mut().count_crossings = true;
+    *window.state_mut().tab_mut() = Some(InstrumentTab::Bounces);
     window.state_mut().session.bounces.strategy = Some(Strategy { s: 1, t: 2, weighted: true });
-    wait(&mut window, "the series", |app| app.results.second_frame.as_ref().is_some_and(|frame| frame.series.is_some()));
+    wait(&mut window, "the series", |app| app.second_frame().as_ref().is_some_and(|frame| frame.series.is_some()));
     assert_eq!(window.state().strategy(), None);
 }
 
@@ -104,9 +104,9 @@ fn a_scene_without_paths_from_lights_has_no_strategies_to_show() {
 fn the_path_inspector_lists_the_strategies_of_a_sample() {
     let mut window = window("cornell_spheres");
     choose(&mut window, "Estimator", "Bidirectional");
-    window.state_mut().window.tab = Some(InstrumentTab::Path);
-    window.state_mut().instruments.path.look_at([40, 30]);
-    wait(&mut window, "its sample", |app| app.instruments.path.replay().is_some_and(|(_, replay)| replay.both_ends.is_some()));
+    *window.state_mut().tab_mut() = Some(InstrumentTab::Path);
+    window.state_mut().path_inspector_mut().look_at([40, 30]);
+    wait(&mut window, "its sample", |app| app.path_inspector().replay().is_some_and(|(_, replay)| replay.both_ends.is_some()));
     window.run_steps(2);
     assert!(
         shows(&window, "L = Σ w C over the strategies with t ≥ 2.") && shows(&window, "joined at") && shows(&window, "Sample")

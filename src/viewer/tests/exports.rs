@@ -38,12 +38,12 @@ fn tev_gets_the_film_as_it_grows_until_it_is_stopped() {
     wait(&mut window, "the connection", |app| app.background.tev.state() == TevState::Live);
     window.run_steps(2);
     assert!(window.query_by_label(&format!("Sending to tev at {}", server.address)).is_some());
-    window.state_mut().session.budget.max_spp = Some(window.state().results.status.spp + 4);
-    wait(&mut window, "the end", |app| matches!(app.results.status.state, State::Done(_)));
+    window.state_mut().budget_mut().max_spp = Some(window.state().status().spp + 4);
+    wait(&mut window, "the end", |app| matches!(app.status().state, State::Done(_)));
     wait(&mut window, "the last frame in tev", |app| {
-        image(&server.packets()) == ([96, 64], app.background.worker.latest().frame.radiance.clone())
+        image(&server.packets()) == ([96, 64], app.worker().latest().frame.radiance.clone())
     });
-    let name = window.state().session.opened.as_ref().map(|opened| opened.name.clone());
+    let name = window.state().opened().as_ref().map(|opened| opened.name.clone());
     assert!(matches!(&server.packets()[0], Packet::Create { name: of, .. } if Some(of) == name.as_ref()));
     click(&mut window, "Stop sending");
     assert_eq!(window.state().background.tev.state(), TevState::Off);
@@ -76,8 +76,8 @@ fn a_connection_that_is_lost_is_told_once_and_the_render_goes_on() {
     let mut window = window("cornell_spheres");
     connect(&mut window, &server.address);
     wait(&mut window, "the message", |app| notices(app, "was lost") > 0);
-    let before = window.state().results.status.spp;
-    wait(&mut window, "more samples", |app| app.results.status.spp > before);
+    let before = window.state().status().spp;
+    wait(&mut window, "more samples", |app| app.status().spp > before);
     assert_eq!(notices(window.state(), "was lost"), 1);
     assert_eq!(window.state().background.tev.state(), TevState::Off);
 }
@@ -104,7 +104,7 @@ fn a_turntable_is_rendered_to_numbered_files_and_replaces_none_unasked() {
     });
     let images = [1, 2, 3].map(|number| image_file::read(&path(number)).expect("an image"));
     assert!(images.iter().all(|image| [image.width, image.height] == [96, 64]) && images[0] != images[1]);
-    wait(&mut window, "the main render", |app| app.results.status.state != State::Paused);
+    wait(&mut window, "the main render", |app| app.status().state != State::Paused);
     std::fs::write(path(1), "mine").expect("it is written");
     std::fs::remove_file(path(3)).expect("it is there");
     render_turntable(&mut window, 2.0, &files);
@@ -122,7 +122,7 @@ fn the_main_render_pauses_for_frames_and_resumes_when_they_are_stopped() {
     let mut window = window("cornell_spheres");
     render_turntable(&mut window, 16_000_000.0, &folder.path().join("frame-##.png"));
     assert!(window.state().is_rendering_sequence());
-    wait(&mut window, "the pause", |app| app.results.status.state == State::Paused);
+    wait(&mut window, "the pause", |app| app.status().state == State::Paused);
     wait(&mut window, "a first sample", |app| {
         app.background.sequence.as_ref().is_some_and(|sequence| sequence.progress().frames == 3)
     });
@@ -130,7 +130,7 @@ fn the_main_render_pauses_for_frames_and_resumes_when_they_are_stopped() {
     assert!(window.query_by_label("Rendering frame 1 of 3").is_some());
     click(&mut window, "Stop rendering");
     wait(&mut window, "the end", |app| notices(app, "Stopped after 0 of 3 images") == 1);
-    wait(&mut window, "the main render", |app| app.results.status.state != State::Paused);
+    wait(&mut window, "the main render", |app| app.status().state != State::Paused);
     assert!(std::fs::read_dir(folder.path()).expect("it is there").next().is_none(), "no unfinished image is written");
 }
 

@@ -20,14 +20,14 @@ fn under(folder: &FilePath, radiance: f64) -> PathBuf {
 /// A window in which the first image of a scene has been measured.
 fn measured(path: PathBuf) -> Window {
     let mut window = open(Some(path));
-    wait(&mut window, "the scene", |app| app.session.opened.is_some());
+    wait(&mut window, "the scene", |app| app.opened().is_some());
     wait(&mut window, "its first image", |app| !app.results.awaits_meter);
     window.run_steps(3);
     window
 }
 
 fn exposure(window: &Window) -> f32 {
-    window.state().session.look.display.exposure
+    window.state().look().display.exposure
 }
 
 #[test]

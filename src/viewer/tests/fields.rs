@@ -19,9 +19,9 @@ fn a_field_that_is_only_looked_into_changes_nothing() {
     let mut window = window("cornell_spheres");
     let odd = DVec3::new(-0.123_456_789, 1.364_251, 12_345.678_912);
     restarts(&mut window, "an eye of many decimals", |w| {
-        w.state_mut().session.camera.eye = odd;
-        w.state_mut().session.camera.lens = Some(Lens { radius: 0.012_345_6, focus: 4.417_23 });
-        w.state_mut().session.camera.fov = 0.5;
+        w.state_mut().camera_mut().eye = odd;
+        w.state_mut().camera_mut().lens = Some(Lens { radius: 0.012_345_6, focus: 4.417_23 });
+        w.state_mut().camera_mut().fov = 0.5;
         w.run_steps(3);
     });
     for (label, place) in [("Eye", 0), ("Eye", 1), ("Eye", 2), ("Lens radius", 0), ("Focus", 0), ("Seed", 0), ("Resolution", 0)] {
@@ -39,7 +39,7 @@ fn a_field_that_is_only_looked_into_changes_nothing() {
         w.key_press(Key::Escape);
         w.run_steps(3);
     });
-    assert_eq!((window.state().session.camera.eye, window.state().session.camera.fov), (odd, 0.5));
+    assert_eq!((window.state().camera().eye, window.state().camera().fov), (odd, 0.5));
 }
 
 #[test]
@@ -58,7 +58,7 @@ fn a_typed_number_counts_when_it_is_entered_and_escape_gives_it_up() {
         w.key_press(Key::Enter);
         w.run_steps(3);
     });
-    assert_eq!(window.state().session.camera.eye.y, 2.5);
+    assert_eq!(window.state().camera().eye.y, 2.5);
 }
 
 #[test]
@@ -71,13 +71,13 @@ fn arithmetic_counts_and_what_is_no_number_says_so_until_the_next_press() {
         w.run_steps(3);
     };
     type_seed(&mut window, "3*7");
-    assert_eq!(window.state().session.settings.seed, 21);
+    assert_eq!(window.state().settings().seed, 21);
     never_restarts(&mut window, |w| type_seed(w, "3//7"));
     const REFUSAL: &str = "expected a number, found “3//7”";
     assert!(window.query_by_label(REFUSAL).is_some());
     click(&mut window, "Teaching");
     assert!(window.query_by_label(REFUSAL).is_none());
-    assert_eq!(window.state().session.settings.seed, 21);
+    assert_eq!(window.state().settings().seed, 21);
 }
 
 #[test]
@@ -109,9 +109,7 @@ fn a_scene_can_be_opened_by_its_path() {
     window.run_steps(3);
     click(&mut window, "Open");
     assert!(window.state().dialogs.open.is_none());
-    wait(&mut window, "the other scene", |app| {
-        app.session.opened.as_ref().is_some_and(|opened| opened.name.starts_with("Bright sky"))
-    });
+    wait(&mut window, "the other scene", |app| app.opened().as_ref().is_some_and(|opened| opened.name.starts_with("Bright sky")));
 }
 
 #[test]
@@ -120,7 +118,7 @@ fn a_picture_is_replaced_only_by_the_button_that_says_so() {
     let path = folder.path().join("shot.png");
     std::fs::write(&path, "what was there").expect("it is written");
     let mut window = window("furnace");
-    window.state_mut().window.last_saved = Some(path.clone());
+    *window.state_mut().last_saved_mut() = Some(path.clone());
     window.key_press_modifiers(Modifiers::COMMAND, Key::E);
     window.run_steps(4);
     let suggested = window.state().dialogs.save.as_ref().map(|dialog| dialog.path().to_owned());
@@ -133,9 +131,9 @@ fn a_picture_is_replaced_only_by_the_button_that_says_so() {
     window.key_press(Key::Enter);
     window.run_steps(3);
     assert!(window.state().dialogs.save.is_some(), "Enter replaces nothing");
-    window.state_mut().window.last_saved = None;
+    *window.state_mut().last_saved_mut() = None;
     click(&mut window, "Replace");
-    wait(&mut window, "the file", |app| app.window.last_saved.is_some());
+    wait(&mut window, "the file", |app| app.last_saved().is_some());
     assert!(image_file::read(&path).is_ok());
 }
 
@@ -143,7 +141,7 @@ fn a_picture_is_replaced_only_by_the_button_that_says_so() {
 fn a_typed_name_replaces_the_suggested_one_and_enter_saves_after_a_click_elsewhere() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = window("furnace");
-    window.state_mut().window.last_saved = Some(folder.path().join("shot.exr"));
+    *window.state_mut().last_saved_mut() = Some(folder.path().join("shot.exr"));
     window.key_press_modifiers(Modifiers::COMMAND, Key::E);
     window.run_steps(4);
     window.event(egui::Event::Text("mine".to_owned()));
@@ -153,11 +151,11 @@ fn a_typed_name_replaces_the_suggested_one_and_enter_saves_after_a_click_elsewhe
     let above = window.get_by_role(Role::TextInput).rect().center_top() - vec2(0.0, 10.0);
     click_at(&mut window, above);
     window.run_steps(3);
-    window.state_mut().window.last_saved = None;
+    *window.state_mut().last_saved_mut() = None;
     window.key_press(Key::Enter);
     window.run_steps(3);
     assert!(window.state().dialogs.save.is_none());
     let path = folder.path().join("mine.png");
-    wait(&mut window, "the file", |app| app.window.last_saved.as_ref() == Some(&path));
+    wait(&mut window, "the file", |app| app.last_saved().as_ref() == Some(&path));
     assert!(image_file::read(&path).is_ok());
 }

@@ -15,7 +15,7 @@ fn tent(folder: &FilePath) -> PathBuf {
 }
 
 fn is_open(window: &mut Window, path: &FilePath) {
-    wait(window, "the scene", |app| app.session.path() == Some(path) && !app.background.loader.is_busy());
+    wait(window, "the scene", |app| app.session.path() == Some(path) && !app.loader().is_busy());
 }
 
 #[test]
@@ -29,7 +29,7 @@ fn remarks_are_counted_at_the_bottom_and_listed() {
         effect: "it looks smooth".to_owned(),
     };
     let remarks: Remarks = ["`hair`", "`cloth`", "`hair`"].map(remark).into_iter().collect();
-    window.state_mut().session.opened.as_mut().expect("it is open").remarks = Arc::new(remarks);
+    window.state_mut().opened_mut().as_mut().expect("it is open").remarks = Arc::new(remarks);
     window.run_steps(2);
     click(&mut window, "2 remarks");
     assert!(window.state().dialogs.remarks);
@@ -46,9 +46,9 @@ fn saving_a_scene_of_another_program_goes_on_with_the_written_one() {
     let mut window = open(Some(mesh.clone()));
     is_open(&mut window, &mesh);
     let kept = std::fs::read(&mesh).expect("it is there");
-    window.state_mut().session.camera.eye.x += 0.125;
+    window.state_mut().camera_mut().eye.x += 0.125;
     window.run_steps(2);
-    let camera = window.state().session.camera;
+    let camera = window.state().camera();
     window.key_press_modifiers(Modifiers::COMMAND, Key::S);
     window.run_steps(3);
     assert!(window.state().dialogs.save.is_some(), "it asks for a name");
@@ -58,7 +58,7 @@ fn saving_a_scene_of_another_program_goes_on_with_the_written_one() {
     is_open(&mut window, &path);
     let app = window.state();
     assert!(path.is_file() && !app.has_unsaved_changes() && app.dialogs.scene_error.is_none());
-    assert_eq!(app.session.camera, camera, "the view stays");
+    assert_eq!(app.camera(), camera, "the view stays");
     assert_eq!(std::fs::read(&mesh).expect("it is there"), kept);
 }
 
@@ -80,7 +80,7 @@ fn a_scene_of_another_program_is_opened_again_when_its_file_changes() {
     let mut window = open_with(Some(mesh.clone()), App::use_disk);
     is_open(&mut window, &mesh);
     wait(&mut window, "the watch", |app| app.outside.watched.is_some());
-    let corners = |app: &App| app.session.opened.as_ref().map(|opened| opened.scene.objects[0].shape.corners());
+    let corners = |app: &App| app.opened().as_ref().map(|opened| opened.scene.objects[0].shape.corners());
     let before = corners(window.state());
     std::fs::write(&mesh, TENT.replace("0.75", "1.5")).expect("it is written");
     wait(&mut window, "the changed mesh", move |app| corners(app) != before);
@@ -100,7 +100,7 @@ fn it_is_opened_again_when_a_file_that_it_includes_changes() {
     let mut window = open_with(Some(room.clone()), App::use_disk);
     is_open(&mut window, &room);
     wait(&mut window, "the watch", |app| app.outside.watched.is_some());
-    let corners = |app: &App| app.session.opened.as_ref().map(|opened| opened.scene.objects[0].shape.corners());
+    let corners = |app: &App| app.opened().as_ref().map(|opened| opened.scene.objects[0].shape.corners());
     let before = corners(window.state());
     write(&ball, &radius(2.0));
     wait(&mut window, "the changed ball", move |app| corners(app) != before);

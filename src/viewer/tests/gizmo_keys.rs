@@ -21,14 +21,14 @@ fn window_with_ball() -> Window {
 fn the_gizmo_moves_the_object_by_keys_and_escape_takes_it_back() {
     let mut window = window_with_ball();
     let at = seen(&mut window, ball());
-    let (start, tool) = (center(&window, AMBER_BALL), window.state().window.tool);
+    let (start, tool) = (center(&window, AMBER_BALL), window.state().tool());
     window.hover_at(at - vec2(0.0, 120.0));
     window.run_steps(2);
     press(&mut window, Key::G);
     for key in [Key::X, Key::Num2, Key::Enter] {
         press(&mut window, key);
     }
-    assert_eq!(window.state().window.tool, tool, "the key moves the object and chooses no tool");
+    assert_eq!(window.state().tool(), tool, "the key moves the object and chooses no tool");
     assert!(center(&window, AMBER_BALL).distance(start + DVec3::X * 2.0) < 1e-12);
     undo(&mut window);
     assert_eq!(center(&window, AMBER_BALL), start);
@@ -44,13 +44,13 @@ fn the_gizmo_moves_the_object_by_keys_and_escape_takes_it_back() {
     press(&mut window, Key::Escape);
     assert_eq!((center(&window, AMBER_BALL), window.state().has_unsaved_changes()), (start, false));
     assert_eq!(window.state().selection.object(), Some(AMBER_BALL), "the key ends the operation only");
-    let camera = window.state().session.camera;
+    let camera = window.state().camera();
     for key in [Key::S, Key::Num2, Key::Enter] {
         press(&mut window, key);
     }
     let ShapeKind::Sphere(sphere) = &description(&window).objects[AMBER_BALL].shape else { panic!("it is a ball") };
     assert!((sphere.radius - 0.76).abs() < 1e-12);
-    assert_eq!(window.state().session.camera, camera, "the key does not fly");
+    assert_eq!(window.state().camera(), camera, "the key does not fly");
 }
 
 #[test]
@@ -136,7 +136,7 @@ fn a_copy_made_in_the_list_lies_beside_its_original() {
 #[test]
 fn keys_of_operations_cost_nothing_without_an_object_or_beside_the_picture() {
     let mut window = window("cornell_spheres");
-    let tool = window.state().window.tool;
+    let tool = window.state().tool();
     let press_both = |w: &mut Window| [Key::G, Key::R].into_iter().for_each(|key| press(w, key));
     window.hover_at(Pos2::new(430.0, 430.0));
     window.run_steps(2);
@@ -145,5 +145,5 @@ fn keys_of_operations_cost_nothing_without_an_object_or_beside_the_picture() {
     window.event(egui::Event::PointerGone);
     window.run_steps(2);
     never_restarts(&mut window, press_both);
-    assert_eq!((window.state().window.tool, window.state().has_unsaved_changes()), (tool, false));
+    assert_eq!((window.state().tool(), window.state().has_unsaved_changes()), (tool, false));
 }

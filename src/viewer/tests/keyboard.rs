@@ -36,7 +36,7 @@ fn focus(window: &Window) -> Option<egui::Id> {
 #[test]
 fn a_number_keeps_its_last_digits_when_tab_or_a_press_comes_in_the_same_frame() {
     let mut window = window("furnace");
-    window.state_mut().session.budget.paused = true;
+    window.state_mut().budget_mut().paused = true;
     let pos = Pos2::new(300.0, 300.0);
     let button = |pressed| Event::PointerButton { pos, button: PointerButton::Primary, pressed, modifiers: Modifiers::NONE };
     let tab = vec![pressed(Key::Tab, Modifiers::NONE)];
@@ -48,7 +48,7 @@ fn a_number_keeps_its_last_digits_when_tab_or_a_press_comes_in_the_same_frame() 
         let mut events = typed(&f64::to_string(&number));
         events.extend(leaves);
         at_once(&mut window, events);
-        assert_eq!(f64::from(window.state().session.camera.resolution[0]), number);
+        assert_eq!(f64::from(window.state().camera().resolution[0]), number);
     }
 }
 
@@ -64,7 +64,7 @@ fn a_list_that_keys_open_closes_when_they_choose() {
     assert!(egui::Popup::is_any_open(&window.ctx));
     enter(&mut window, Role::Button, "AgX");
     assert!(!egui::Popup::is_any_open(&window.ctx));
-    assert_eq!(window.state().session.look.display.tone_map, ToneMap::Agx);
+    assert_eq!(window.state().look().display.tone_map, ToneMap::Agx);
 }
 
 #[test]
@@ -89,7 +89,7 @@ fn a_question_has_the_keyboard_and_enter_gives_its_first_answer() {
     }
     press(&mut window, Key::Enter);
     assert!(window.state().dialogs.unsaved.is_none());
-    wait(&mut window, "the file", |app| app.session.opened.as_ref().is_some_and(|opened| opened.name == "Furnace"));
+    wait(&mut window, "the file", |app| app.opened().as_ref().is_some_and(|opened| opened.name == "Furnace"));
     assert!(std::fs::read_to_string(&path).expect("it is there").contains("radius = 0.25"));
 }
 
@@ -102,12 +102,12 @@ fn the_gallery_has_the_keyboard_and_begins_at_the_open_scene() {
     assert!(card(&window, "Furnace"));
     let at = window.get_by_label("Open a file…").rect();
     assert!(at.bottom() < SIZE.y, "{at:?}");
-    let eye = window.state().session.camera.eye;
+    let eye = window.state().camera().eye;
     press(&mut window, Key::ArrowLeft);
     assert!(!card(&window, "Furnace") && focus(&window).is_some());
-    assert_eq!(window.state().session.camera.eye, eye);
+    assert_eq!(window.state().camera().eye, eye);
     press(&mut window, Key::Enter);
-    wait(&mut window, "the card before it", |app| app.session.opened.as_ref().is_some_and(|opened| opened.name != "Furnace"));
+    wait(&mut window, "the card before it", |app| app.opened().as_ref().is_some_and(|opened| opened.name != "Furnace"));
 }
 
 #[test]
@@ -142,29 +142,29 @@ fn keys_without_text_work_after_tab_has_reached_a_button() {
     window.run_steps(3);
     assert!(focus(&window).is_some());
     press(&mut window, Key::C);
-    assert_eq!(window.state().window.tool, Tool::Camera);
-    let before = window.state().session.camera;
+    assert_eq!(window.state().tool(), Tool::Camera);
+    let before = window.state().camera();
     window.key_down(Key::W);
     window.run_steps(3);
     window.key_up(Key::W);
     window.run_steps(1);
-    assert_ne!(window.state().session.camera.eye, before.eye);
+    assert_ne!(window.state().camera().eye, before.eye);
     press(&mut window, Key::Space);
-    assert!(!window.state().session.budget.paused, "it pressed the button");
+    assert!(!window.state().budget().paused, "it pressed the button");
 }
 
 #[test]
 fn a_quick_shift_v_goes_back_though_shift_is_up_when_the_frame_ends() {
     let mut window = window("furnace");
-    let before = window.state().session.look.view;
+    let before = window.state().look().view;
     assert_eq!(before, View::Radiance);
     window.input_mut().events = vec![pressed(Key::V, Modifiers::SHIFT)];
     window.step();
-    let back = window.state().session.look.view;
+    let back = window.state().look().view;
     window.input_mut().events = vec![pressed(Key::V, Modifiers::NONE)];
     window.step();
     assert_ne!(back, before);
-    assert_eq!(window.state().session.look.view, before);
+    assert_eq!(window.state().look().view, before);
 }
 
 #[test]
@@ -180,16 +180,16 @@ fn a_path_that_is_typed_replaces_the_folder_that_open_begins_with() {
 #[test]
 fn up_is_never_zero_and_home_keeps_the_resolution() {
     let mut window = window("cornell_spheres");
-    let start = window.state().session.camera;
+    let start = window.state().camera();
     set(&mut window, "Up", 1, 0.0);
-    assert_eq!(window.state().session.camera.up, start.up);
+    assert_eq!(window.state().camera().up, start.up);
     // The message is measured before it is shown.
     window.run_steps(2);
     assert!(window.query_by_label_contains("A direction must not be zero").is_some());
-    window.state_mut().session.camera.eye.x = 0.5;
+    window.state_mut().camera_mut().eye.x = 0.5;
     window.run_steps(3);
     press(&mut window, Key::Home);
-    assert_eq!(window.state().session.camera, start);
+    assert_eq!(window.state().camera(), start);
 }
 
 #[test]

@@ -65,10 +65,10 @@ fn frame() -> Arc<Frame> {
 #[test]
 fn the_line_at_the_bottom_has_every_figure_in_its_unit() {
     let mut app = app();
-    let status = &mut app.results.status;
+    let status = app.status_mut();
     (status.spp, status.samples, status.elapsed) = (7, 5_000_000, Duration::from_secs(2));
     (status.region_spp, status.rel_mse_estimate) = (Some(12), Some(0.0016));
-    app.session.budget.max_spp = Some(64);
+    app.budget_mut().max_spp = Some(64);
     app.results.comparison = Some(ReferenceComparison { rel_mse: 0.0025, bias: None });
     (app.results.shown, app.window.hovered) = (Some(frame()), Some([1, 0]));
     let texts = said(&mut app, App::status_bar);
@@ -79,7 +79,7 @@ fn the_line_at_the_bottom_has_every_figure_in_its_unit() {
 #[test]
 fn samples_that_are_no_numbers_and_paths_that_were_cut_are_counted() {
     let mut app = app();
-    let status = &mut app.results.status;
+    let status = app.status_mut();
     (status.invalid_samples, status.first_invalid, status.cut_paths) = (3, Some(SampleId { pixel: [4, 5], sample: 6 }), 1);
     let texts = said(&mut app, App::status_bar);
     assert_says(&texts, &["3 invalid samples", "paths cut after 4096 bounces"]);
@@ -149,7 +149,7 @@ fn each_side_of_a_comparison_has_its_own_figures_in_their_columns() {
         (status.spp, status.elapsed, status.rel_mse_estimate) = (spp, Duration::from_millis(milliseconds), Some(rel_mse));
     }
     (app.results.comparison, app.results.second_comparison) = (against(0.0025), against(0.01));
-    app.start_comparison(RenderSettings { max_bounces: Some(2), ..app.session.settings });
+    app.start_comparison(RenderSettings { max_bounces: Some(2), ..app.settings() });
     let texts = said(&mut app, |app, ui| app.instrument(ui, InstrumentTab::Compare));
     for row in [
         ["A", "MIS, Sobol (Owen), no sharing", "7", "2.5 s", "4.00 %", "5.00 %", "160", "the solution"],
@@ -175,10 +175,10 @@ fn each_side_of_a_comparison_has_its_own_figures_in_their_columns() {
 #[test]
 fn lines_are_estimates_points_are_true_and_clear_keeps_the_curve_that_grows() {
     let mut app = app();
-    let scene = app.session.opened.as_ref().expect("it is open").scene.clone();
+    let scene = app.opened().as_ref().expect("it is open").scene.clone();
     app.instruments.history.look_at(&scene, &scene.camera, None);
     let other = RenderSettings { seed: 5, ..scene.settings };
-    for (settings, generation) in [(other, 5), (scene.settings, app.background.worker.generation())] {
+    for (settings, generation) in [(other, 5), (scene.settings, app.worker().generation())] {
         for (spp, true_error) in [(1, None), (4, Some(0.25)), (16, None)] {
             let noise = Some(0.5 / f64::from(spp));
             app.instruments.history.record(
@@ -195,14 +195,14 @@ fn lines_are_estimates_points_are_true_and_clear_keeps_the_curve_that_grows() {
     harness.get_by_label("Clear").click();
     harness.run_steps(3);
     drop(harness);
-    let left: Vec<u64> = app.instruments.history.curves.iter().map(|curve| curve.generation).collect();
-    assert_eq!(left, [app.background.worker.generation()]);
+    let left: Vec<u64> = app.curves().curves.iter().map(|curve| curve.generation).collect();
+    assert_eq!(left, [app.worker().generation()]);
 }
 
 #[test]
 fn where_no_truth_is_known_the_plot_of_bias_says_what_it_needs() {
     let mut app = app();
-    let scene = app.session.opened.as_ref().expect("it is open").scene.clone();
+    let scene = app.opened().as_ref().expect("it is open").scene.clone();
     app.instruments.history.look_at(&scene, &scene.camera, None);
     app.instruments.history.what = Quantity::Bias;
     let needs = |texts: &[String]| texts.iter().any(|text| text.starts_with("The bias needs a reference"));
@@ -239,7 +239,7 @@ fn frame_times_are_those_of_layout_and_of_all() {
 fn a_pinned_picture_has_the_samples_of_its_own() {
     let mut pinned = Some(Arc::new(Frame { spp: 12, ..Frame::default() }));
     let rows = |app: &mut App, ui: &mut egui::Ui| {
-        views::rows(ui, &mut app.session.look.map, Some(&frame()), &mut pinned);
+        views::rows(ui, &mut app.look_mut().map, Some(&frame()), &mut pinned);
     };
     assert_says(&said(&mut app(), rows), &["12 spp"]);
 }

@@ -19,9 +19,9 @@ const SIZES: [(Vec2, f32); 2] = [(vec2(900.0, 600.0), 1.0), (vec2(800.0, 500.0),
 fn sized(size: Vec2, scale: f32) -> Window {
     let builder = Harness::builder().with_size(size).with_pixels_per_point(scale).renderer(Blind);
     let mut window = builder.build_ui_state(drawing(Some(shipped("cornell_spheres")), |_| {}), Lazy(None));
-    wait(&mut window, "the scene", |app| app.session.opened.is_some());
-    window.state_mut().session.camera.resolution = [48, 48];
-    wait(&mut window, "a picture", |app| app.results.shown.as_ref().is_some_and(|frame| frame.width == 48));
+    wait(&mut window, "the scene", |app| app.opened().is_some());
+    window.state_mut().camera_mut().resolution = [48, 48];
+    wait(&mut window, "a picture", |app| app.shown_frame().as_ref().is_some_and(|frame| frame.width == 48));
     window.run_steps(3);
     window
 }
@@ -61,7 +61,7 @@ fn assert_apart(window: &Window, size: Vec2, names: &[&str]) {
 fn toolbar_tabs_and_instruments_fit_a_small_window() {
     for (size, scale) in SIZES {
         let mut window = sized(size, scale);
-        window.state_mut().session.budget.region = Some(noisefall_render::render::Region::between([4, 4], [40, 40]));
+        window.state_mut().budget_mut().region = Some(noisefall_render::render::Region::between([4, 4], [40, 40]));
         for tab in [
             None,
             Some(InstrumentTab::Convergence),
@@ -69,7 +69,7 @@ fn toolbar_tabs_and_instruments_fit_a_small_window() {
             Some(InstrumentTab::Bounces),
             Some(InstrumentTab::Path),
         ] {
-            window.state_mut().window.tab = tab;
+            *window.state_mut().tab_mut() = tab;
             window.run_steps(4);
             assert_whole(&window, size, &format!("{tab:?}"));
             let bar = ["Pause", "Step", "Restart", "Undo", "Redo", "Region", "Inspect", "Clear", "Home", "Fit", "1:1"];
@@ -83,13 +83,13 @@ fn toolbar_tabs_and_instruments_fit_a_small_window() {
 fn a_comparison_and_the_samples_of_a_pixel_fit_a_small_window() {
     for (size, scale) in SIZES {
         let mut window = sized(size, scale);
-        let other = RenderSettings { seed: 3, ..window.state().session.settings };
+        let other = RenderSettings { seed: 3, ..window.state().settings() };
         window.state_mut().start_comparison(other);
         window.run_steps(4);
         assert_whole(&window, size, "a comparison");
         assert_apart(&window, size, &["Wipe", "Side by side", "Difference", "Swap", "Keep B", "Keep A", "End comparison"]);
-        window.state_mut().session.comparison = None;
-        window.state_mut().window.tab = Some(InstrumentTab::Bounces);
+        *window.state_mut().compared_with_mut() = None;
+        *window.state_mut().tab_mut() = Some(InstrumentTab::Bounces);
         window.run_steps(4);
         assert_apart(&window, size, &["Bounce k alone", "Bounces up to k"]);
         let bars: Vec<(String, Rect)> = buttons(&window).into_iter().filter(|(name, _)| name.contains(" bounce")).collect();
@@ -102,9 +102,9 @@ fn a_comparison_and_the_samples_of_a_pixel_fit_a_small_window() {
 fn figures_of_the_line_below_end_in_the_window() {
     for (size, scale) in SIZES {
         let mut window = sized(size, scale);
-        window.state_mut().session.settings.max_bounces = Some(3);
-        wait(&mut window, "figures", |app| app.results.status.spp >= 4);
-        window.state_mut().session.budget.region = Some(noisefall_render::render::Region::between([4, 4], [40, 40]));
+        window.state_mut().settings_mut().max_bounces = Some(3);
+        wait(&mut window, "figures", |app| app.status().spp >= 4);
+        window.state_mut().budget_mut().region = Some(noisefall_render::render::Region::between([4, 4], [40, 40]));
         window.run_steps(5);
         let labels = window.query_all_by_role(Role::Label);
         let line: Vec<Rect> = labels.map(|label| label.rect()).filter(|rect| rect.top() > size.y - 30.0).collect();
@@ -117,17 +117,17 @@ fn every_figure_of_the_line_below_has_room_at_scale_2_on_a_common_screen() {
     const LONGEST: [&str; 5] = ["Done", "Bidirectional", "1024 / 4096 spp", "true error 5.00 %", "biased: cap at 3"];
     let size = vec2(960.0, 540.0);
     let mut app = labels::app();
-    while app.background.loader.is_busy() {
+    while app.loader().is_busy() {
         drop(app.background.loader.take());
         std::thread::yield_now();
     }
-    app.session.settings = RenderSettings { max_bounces: Some(3), ..Preset::Fastest.applied_to(&app.session.settings) };
-    app.session.budget.max_spp = Some(4096);
-    let scene = &app.session.opened.as_ref().expect("it is open").scene;
-    let traces = RenderSettings { estimator: Estimator::Bidirectional, ..app.session.settings };
+    app.session.settings = RenderSettings { max_bounces: Some(3), ..Preset::Fastest.applied_to(&app.settings()) };
+    app.budget_mut().max_spp = Some(4096);
+    let scene = &app.opened().as_ref().expect("it is open").scene;
+    let traces = RenderSettings { estimator: Estimator::Bidirectional, ..app.settings() };
     assert!(scene.traces_light_paths(&traces));
     scene.estimator_by_trial.set(Estimator::Bidirectional).expect("there was no trial");
-    let status = &mut app.results.status;
+    let status = app.status_mut();
     (status.spp, status.rel_mse_estimate, status.state) = (1024, Some(0.0016), State::Done(Target::Samples(1024)));
     app.results.comparison = Some(ReferenceComparison { rel_mse: 0.0025, bias: None });
     let window = Harness::builder().with_size(size).build_ui(|ui| app.status_bar(ui));
@@ -142,9 +142,9 @@ fn every_figure_of_the_line_below_has_room_at_scale_2_on_a_common_screen() {
 fn a_comparison_that_has_not_begun_leaves_the_room_to_the_image() {
     let (size, scale) = SIZES[1];
     let mut window = sized(size, scale);
-    let zoom = |window: &Window| window.state().window.view.drawn_zoom;
+    let zoom = |window: &Window| window.state().picture_view().drawn_zoom;
     let alone = zoom(&window);
-    window.state_mut().window.tab = Some(InstrumentTab::Compare);
+    *window.state_mut().tab_mut() = Some(InstrumentTab::Compare);
     window.run_steps(6);
     assert!(window.query_by_label_contains("Choose settings to compare with").is_some());
     let beside = zoom(&window);
@@ -193,7 +193,7 @@ fn dialogs_lie_in_a_small_window_with_all_their_buttons() {
             effect: "it is missing in the image".to_owned(),
         };
         let remarks: Remarks = (0..40).map(remark).collect();
-        window.state_mut().session.opened.as_mut().expect("it is open").remarks = Arc::new(remarks);
+        window.state_mut().opened_mut().as_mut().expect("it is open").remarks = Arc::new(remarks);
         window.state_mut().dialogs.remarks = true;
         window.run_steps(8);
         assert!(screen.contains_rect(window.get_by_label("Copy").rect()));

@@ -9,20 +9,18 @@ use crate::viewer::instruments::tabs::InstrumentTab;
 fn a_hidden_window_renders_nothing_and_goes_on_when_it_is_seen() {
     let mut window = window("cornell_spheres");
     window.state_mut().hide(true);
-    wait_without_frames(&window, |app| app.background.worker.latest().status.state == State::Paused);
-    let samples = window.state().background.worker.latest().status.samples;
+    wait_without_frames(&window, |app| app.worker().latest().status.state == State::Paused);
+    let samples = window.state().worker().latest().status.samples;
     // The worker takes its orders in their order: when it has rendered another picture's first sample, which a pause does not hold
     // back, whatever else it meant to do with this one would be done.
     let app = window.state_mut();
-    let request = app.background.worker.request().cloned().expect("it was asked for");
+    let request = app.worker().request().cloned().expect("it was asked for");
     let settings = RenderSettings { seed: 5, ..request.settings };
     let other = RenderTask::Picture(RenderRequest { settings, ..request.clone() });
     app.background.worker.update(request, Some(other), 0.0);
-    wait_without_frames(&window, |app| {
-        app.background.worker.latest_second().frame.generation == app.background.worker.second_generation()
-    });
-    assert_eq!(window.state().background.worker.latest().status.samples, samples, "a hidden window works");
-    wait(&mut window, "more samples", |app| app.results.status.samples > samples && app.results.status.state == State::Running);
+    wait_without_frames(&window, |app| app.worker().latest_second().frame.generation == app.worker().second_generation());
+    assert_eq!(window.state().worker().latest().status.samples, samples, "a hidden window works");
+    wait(&mut window, "more samples", |app| app.status().samples > samples && app.status().state == State::Running);
 }
 
 #[test]
@@ -42,7 +40,7 @@ fn a_window_that_is_minimized_is_hidden() {
 fn wait_without_frames(window: &Window, condition: impl Fn(&App) -> bool) {
     let start = Instant::now();
     while !condition(window.state()) {
-        assert!(start.elapsed() < Duration::from_secs(60), "{:?}", window.state().background.worker.latest().status);
+        assert!(start.elapsed() < Duration::from_secs(60), "{:?}", window.state().worker().latest().status);
         std::thread::sleep(Duration::from_millis(2));
     }
 }
@@ -50,8 +48,8 @@ fn wait_without_frames(window: &Window, condition: impl Fn(&App) -> bool) {
 #[test]
 fn nothing_is_drawn_where_nothing_changes() {
     let mut window = window("bright_sky");
-    window.state_mut().session.budget.max_spp = Some(2);
-    wait(&mut window, "the target", |app| matches!(app.results.status.state, State::Done(_)));
+    window.state_mut().budget_mut().max_spp = Some(2);
+    wait(&mut window, "the target", |app| matches!(app.status().state, State::Done(_)));
     // What is on its way arrives, then no frame asks for another one.
     wait(&mut window, "rest", |app| !app.ctx.has_requested_repaint());
 }
@@ -63,9 +61,9 @@ fn the_number_of_threads_never_changes_the_picture() {
         w.get_by_role_and_label(Role::Slider, "Threads").set_value_accesskit(2.0);
         w.run_steps(2);
     });
-    assert_eq!(window.state().background.worker.threads(), 2);
-    let samples = window.state().results.status.samples;
-    wait(&mut window, "more samples", |app| app.results.status.samples > samples);
+    assert_eq!(window.state().worker().threads(), 2);
+    let samples = window.state().status().samples;
+    wait(&mut window, "more samples", |app| app.status().samples > samples);
 }
 
 #[test]
@@ -83,27 +81,27 @@ fn a_dragged_control_asks_for_the_next_picture_when_it_has_seen_the_last() {
     let clock = |window: &Window| window.ctx.input(|input| input.time);
     let (mut waited, mut asked) = (0, 0);
     for step in 0..60 {
-        let (before, asked_before) = (window.state().background.worker.generation(), window.state().background.worker.asked());
+        let (before, asked_before) = (window.state().worker().generation(), window.state().worker().asked());
         // The harness lets a quarter of a second pass in a frame, which is longer than that.
         window.input_mut().time = Some(clock(&window) + 0.03);
         window.hover_at(start + vec2(step as f32, 0.0));
         window.step();
         let app = window.state();
-        let is_shown = app.results.shown.as_ref().is_some_and(|frame| frame.generation >= before);
+        let is_shown = app.shown_frame().as_ref().is_some_and(|frame| frame.generation >= before);
         let patience_ends = clock(&window) - asked_before > 0.1 - 1e-9;
-        let waits = app.background.worker.request().is_some_and(|request| request.camera != app.session.camera);
+        let waits = app.worker().request().is_some_and(|request| request.camera != app.camera());
         if waits {
             assert!(!is_shown && !patience_ends, "it waits for what is there already");
             waited += 1;
-        } else if app.background.worker.generation() > before {
+        } else if app.worker().generation() > before {
             assert!(is_shown || patience_ends, "pictures pile up");
             asked += 1;
         }
     }
     assert!(asked > 5 && asked + waited > 30, "{asked} asked for, {waited} steps waited");
     press(&window, start + vec2(59.0, 0.0), false);
-    let is_last = |app: &App| app.background.worker.request().is_some_and(|request| request.camera.fov == app.session.camera.fov);
-    wait(&mut window, "the last one", |app| is_last(app) && app.results.status.generation == app.background.worker.generation());
+    let is_last = |app: &App| app.worker().request().is_some_and(|request| request.camera.fov == app.camera().fov);
+    wait(&mut window, "the last one", |app| is_last(app) && app.status().generation == app.worker().generation());
 }
 
 #[test]
@@ -123,20 +121,20 @@ fn the_tour_shows_noise_bounces_and_roulette_and_is_not_shown_again() {
         ("Your turn", InstrumentTab::Compare),
     ] {
         assert!(window.query_by_label(title).is_some(), "{title}");
-        assert_eq!(window.state().window.tab, Some(tab));
+        assert_eq!(window.state().tab(), Some(tab));
         if title.starts_with("Roulette") {
-            window.state_mut().session.settings.roulette = Roulette::Off;
+            window.state_mut().settings_mut().roulette = Roulette::Off;
             click(&mut window, "Compare with a cap of 3");
             let app = window.state();
-            let capped = RenderSettings { max_bounces: Some(3), ..app.session.settings };
-            assert_eq!(app.session.comparison.map(|compare| compare.other), Some(capped));
-            assert_eq!(app.session.settings.roulette, Roulette::BY_THROUGHPUT);
+            let capped = RenderSettings { max_bounces: Some(3), ..app.settings() };
+            assert_eq!(app.compared_with().map(|compare| compare.other), Some(capped));
+            assert_eq!(app.settings().roulette, Roulette::BY_THROUGHPUT);
         }
         if title.starts_with("Paths") {
             click(&mut window, "Compare MIS with both ends");
             let app = window.state();
-            let other = app.session.comparison.map(|compare| compare.other.estimator);
-            assert_eq!((app.session.settings.estimator, other), (Estimator::Mis, Some(Estimator::Bidirectional)));
+            let other = app.compared_with().map(|compare| compare.other.estimator);
+            assert_eq!((app.settings().estimator, other), (Estimator::Mis, Some(Estimator::Bidirectional)));
         }
         let next = if title == "Your turn" { "Done" } else { "Next" };
         let place = window.get_by_label(next).rect();
@@ -158,7 +156,7 @@ fn the_gallery_shows_the_scenes_and_opens_one() {
     window.run_steps(5);
     window.get_by_role_and_label(Role::Button, "Bright sky: fast to converge").click();
     window.run_steps(3);
-    wait(&mut window, "the scene", |app| app.session.opened.as_ref().is_some_and(|opened| opened.name.starts_with("Bright sky")));
+    wait(&mut window, "the scene", |app| app.opened().as_ref().is_some_and(|opened| opened.name.starts_with("Bright sky")));
     assert!(!window.state().dialogs.gallery.open);
 }
 

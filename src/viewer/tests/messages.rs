@@ -7,14 +7,14 @@ use super::*;
 fn escape_closes_one_thing_after_the_other() {
     let mut window = window("cornell_spheres");
     let app = window.state_mut();
-    app.session.budget.region = Some(Region::between([1, 1], [20, 20]));
+    app.budget_mut().region = Some(Region::between([1, 1], [20, 20]));
     app.tell("a message".to_owned(), true);
     app.dialogs.help = true;
     app.start_tour();
     window.run_steps(2);
     let left = |window: &Window| {
         let app = window.state();
-        [app.dialogs.tour.is_some(), app.dialogs.help, !app.dialogs.notices.0.is_empty(), app.session.budget.region.is_some()]
+        [app.dialogs.tour.is_some(), app.dialogs.help, !app.dialogs.notices.0.is_empty(), app.budget().region.is_some()]
             .map(u8::from)
     };
     assert_eq!(left(&window), [1, 1, 1, 1]);

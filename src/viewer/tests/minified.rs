@@ -15,14 +15,14 @@ fn texture_size(window: &Window) -> [usize; 2] {
 fn fit_averages_over_the_pixels_of_the_screen() {
     let mut window = window("furnace");
     assert_eq!(texture_size(&window), [96, 64], "a magnified picture has its own pixels");
-    window.state_mut().session.budget.max_spp = Some(1);
-    window.state_mut().session.camera.resolution = [2000, 250];
+    window.state_mut().budget_mut().max_spp = Some(1);
+    window.state_mut().camera_mut().resolution = [2000, 250];
     wait(&mut window, "a large picture", |app| {
-        app.results.shown.as_ref().is_some_and(|frame| frame.width == 2000 && frame.spp == 1)
+        app.shown_frame().as_ref().is_some_and(|frame| frame.width == 2000 && frame.spp == 1)
     });
     wait(&mut window, "its texture", |app| {
         let size = app.results.textures[0].as_ref().map(egui::TextureHandle::size);
-        app.window.view.on_screen().map(|size| size.map(|side| side as usize)) == size
+        app.picture_view().on_screen().map(|size| size.map(|side| side as usize)) == size
     });
     let [width, height] = texture_size(&window);
     assert!(width < 1280 && (width as f32 / height as f32 - 8.0).abs() < 0.1, "{width} {height}");

@@ -9,6 +9,7 @@ mod denoising;
 mod desktop;
 mod dialogs;
 mod dragging;
+mod driven;
 mod driving;
 mod dropping;
 mod edited;
@@ -141,9 +142,9 @@ fn drawing(scene: Option<PathBuf>, prepare: impl Fn(&mut App) + 'static) -> impl
 /// A window with a small picture of a scene.
 fn window(scene: &str) -> Window {
     let mut window = open(Some(shipped(scene)));
-    wait(&mut window, "the scene", |app| app.session.opened.is_some());
-    window.state_mut().session.camera.resolution = [96, 64];
-    wait(&mut window, "a picture", |app| app.results.shown.as_ref().is_some_and(|frame| frame.width == 96));
+    wait(&mut window, "the scene", |app| app.opened().is_some());
+    window.state_mut().camera_mut().resolution = [96, 64];
+    wait(&mut window, "a picture", |app| app.shown_frame().as_ref().is_some_and(|frame| frame.width == 96));
     window
 }
 
@@ -152,7 +153,7 @@ fn wait(window: &mut Window, what: &str, condition: impl Fn(&App) -> bool) {
     let start = Instant::now();
     while !condition(window.state()) {
         let error = window.state().dialogs.scene_error.as_deref().unwrap_or_default();
-        assert!(start.elapsed() < Duration::from_secs(60), "{what} never came; {:?} {error}", window.state().results.status);
+        assert!(start.elapsed() < Duration::from_secs(60), "{what} never came; {:?} {error}", window.state().status());
         std::thread::sleep(Duration::from_millis(2));
         window.step();
     }
@@ -184,20 +185,20 @@ fn a_long_title_does_not_push_the_panel_out_of_the_window() {
 
 /// The number of the picture that was asked for last: known at once, and not only when the worker has taken it up.
 fn generation(window: &Window) -> u64 {
-    window.state().background.worker.generation()
+    window.state().worker().generation()
 }
 
 /// Does something and waits for a picture of what it asked for.
 fn restarts(window: &mut Window, what: &str, act: impl FnOnce(&mut Window)) {
     let before = generation(window);
     act(window);
-    wait(window, what, |app| app.results.shown.as_ref().is_some_and(|frame| frame.generation > before));
+    wait(window, what, |app| app.shown_frame().as_ref().is_some_and(|frame| frame.generation > before));
 }
 
 /// Does something and makes sure that the render went on, and that of the second view if it is the same.
 fn never_restarts(window: &mut Window, act: impl FnOnce(&mut Window)) {
     let before = generation(window);
-    let second = |window: &Window| (window.state().second_view(), window.state().background.worker.second_generation());
+    let second = |window: &Window| (window.state().second_view(), window.state().worker().second_generation());
     let second_before = second(window);
     act(window);
     // A new picture is asked for in the frame that finds that it is wanted.
@@ -210,9 +211,9 @@ fn never_restarts(window: &mut Window, act: impl FnOnce(&mut Window)) {
 #[test]
 fn the_built_in_scene_appears_and_refines() {
     let mut window = open(None);
-    wait(&mut window, "a first picture", |app| app.results.shown.is_some());
-    wait(&mut window, "samples", |app| app.results.status.spp >= 2);
-    assert_eq!(window.state().results.status.state, State::Running);
+    wait(&mut window, "a first picture", |app| app.shown_frame().is_some());
+    wait(&mut window, "samples", |app| app.status().spp >= 2);
+    assert_eq!(window.state().status().state, State::Running);
     assert!(window.query_by_label("Running").is_some() && window.query_by_label("unbiased").is_some());
 }
 
@@ -221,7 +222,7 @@ fn the_pixel_under_the_pointer_is_read_out() {
     let mut window = window("furnace");
     window.hover_at(Pos2::new(400.0, 400.0));
     window.run_steps(2);
-    assert!(window.state().window.hovered.is_some());
+    assert!(window.state().hovered().is_some());
     assert!(
         window.get_all_by_role(Role::Label).any(|label| label.accesskit_node().value().is_some_and(|text| text.contains("RGB")))
     );
@@ -231,33 +232,33 @@ fn the_pixel_under_the_pointer_is_read_out() {
 fn every_single_key_does_what_the_help_says() {
     let mut window = window("cornell_spheres");
     press(&mut window, Key::C);
-    assert_eq!(window.state().window.tool, Tool::Camera);
+    assert_eq!(window.state().tool(), Tool::Camera);
     press(&mut window, Key::P);
-    assert_eq!(window.state().window.tool, Tool::Picture);
+    assert_eq!(window.state().tool(), Tool::Picture);
     press(&mut window, Key::Num1);
-    assert_eq!(window.state().window.view.drawn_zoom, 1.0);
+    assert_eq!(window.state().picture_view().drawn_zoom, 1.0);
     press(&mut window, Key::F);
-    assert!(window.state().window.view.zoom.is_none());
+    assert!(window.state().picture_view().zoom.is_none());
     press(&mut window, Key::CloseBracket);
     press(&mut window, Key::CloseBracket);
     press(&mut window, Key::OpenBracket);
-    assert_eq!(window.state().session.look.display.exposure, 0.5);
+    assert_eq!(window.state().look().display.exposure, 0.5);
     press(&mut window, Key::Space);
-    assert!(window.state().session.budget.paused);
+    assert!(window.state().budget().paused);
     press(&mut window, Key::Space);
-    assert!(!window.state().session.budget.paused);
+    assert!(!window.state().budget().paused);
     restarts(&mut window, "a restart", restart);
     for (key, axis, sign) in
         [(Key::A, 0, -1.0), (Key::D, 0, 1.0), (Key::Q, 1, -1.0), (Key::E, 1, 1.0), (Key::S, 2, -1.0), (Key::W, 2, 1.0)]
     {
-        let before = window.state().session.camera;
+        let before = window.state().camera();
         restarts(&mut window, "flight", |w| {
             w.key_down(key);
             w.run_steps(3);
             w.key_up(key);
             w.run_steps(1);
         });
-        let moved = window.state().session.camera.eye - before.eye;
+        let moved = window.state().camera().eye - before.eye;
         assert!(moved.dot(before.axes()[axis]) * sign > 0.0, "{key:?}");
     }
 }
@@ -272,7 +273,7 @@ fn a_bad_scene_shows_its_diagnostic_and_the_window_lives_on() {
     assert!(window.state().dialogs.scene_error.as_ref().is_some_and(|report| report.contains("bad.toml:2:10")));
     window.run_steps(3);
     click(&mut window, "Open the built-in scene");
-    wait(&mut window, "the built-in scene", |app| app.session.opened.is_some() && app.results.shown.is_some());
+    wait(&mut window, "the built-in scene", |app| app.opened().is_some() && app.shown_frame().is_some());
 }
 
 #[test]
@@ -282,9 +283,7 @@ fn scenes_are_chosen_from_the_list() {
     window.get_by_role_and_label(Role::ComboBox, "Scene").click();
     window.run_steps(3);
     click(&mut window, "Bright sky: fast to converge");
-    wait(&mut window, "the other scene", |app| {
-        app.session.opened.as_ref().is_some_and(|opened| opened.name.starts_with("Bright sky"))
-    });
+    wait(&mut window, "the other scene", |app| app.opened().as_ref().is_some_and(|opened| opened.name.starts_with("Bright sky")));
 }
 
 #[test]

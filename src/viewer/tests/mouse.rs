@@ -37,20 +37,20 @@ fn wheel(window: &mut Window, at: [f32; 2], by: f32, modifiers: Modifiers) {
 #[test]
 fn the_pointer_is_over_the_pixel_that_lies_under_it() {
     let mut window = window("cornell_spheres");
-    let zoom = window.state().window.view.drawn_zoom;
+    let zoom = window.state().picture_view().drawn_zoom;
     window.hover_at(MIDDLE.into());
     window.run_steps(2);
-    let [x, y] = window.state().window.hovered.expect("it is over the picture");
+    let [x, y] = window.state().hovered().expect("it is over the picture");
     assert!(x.abs_diff(48) <= 1, "the middle of 96: {x}");
     for (dx, dy) in [(7.0, 0.0), (0.0, 5.0), (-9.0, -4.0)] {
         window.hover_at(beside(MIDDLE, dx * zoom, dy * zoom).into());
         window.run_steps(2);
-        let at = window.state().window.hovered.expect("it is over the picture");
+        let at = window.state().hovered().expect("it is over the picture");
         assert_eq!([at[0] as f32 - x as f32, at[1] as f32 - y as f32], [dx, dy]);
     }
     // Its number stands in the line below.
     let ([x, y], frame) =
-        (window.state().window.hovered.expect("as before"), window.state().results.shown.clone().expect("it is shown"));
+        (window.state().hovered().expect("as before"), window.state().shown_frame().clone().expect("it is shown"));
     let label = format!("({x}, {y})  RGB");
     assert!(window.query_all_by_label_contains(&label).count() == 1, "{label}");
     assert_eq!(frame.index_at([x, y]), Some((y * 96 + x) as usize));
@@ -62,21 +62,21 @@ fn with_any_tool_ctrl_and_wheel_magnify_and_a_middle_drag_pans_unless_it_orbits(
         let mut window = window("furnace");
         window.key_press(key);
         window.run_steps(3);
-        let fitted = window.state().window.view.drawn_zoom;
+        let fitted = window.state().picture_view().drawn_zoom;
         let at = beside(MIDDLE, 100.0, -60.0);
         window.hover_at(at.into());
         window.run_steps(2);
-        let under = window.state().window.hovered;
+        let under = window.state().hovered();
         never_restarts(&mut window, |w| wheel(w, at, 60.0, Modifiers::COMMAND));
-        assert!(window.state().window.view.drawn_zoom > 1.1 * fitted, "{key:?}");
-        assert_eq!(window.state().window.hovered, under, "about the pointer");
+        assert!(window.state().picture_view().drawn_zoom > 1.1 * fitted, "{key:?}");
+        assert_eq!(window.state().hovered(), under, "about the pointer");
         if key == Key::C {
             // It orbits.
             continue;
         }
-        let before = window.state().window.view.offset;
+        let before = window.state().picture_view().offset;
         never_restarts(&mut window, |w| drag(w, PointerButton::Middle, MIDDLE, beside(MIDDLE, 40.0, 20.0)));
-        let moved = (window.state().window.view.offset - before) * window.state().window.view.drawn_zoom;
+        let moved = (window.state().picture_view().offset - before) * window.state().picture_view().drawn_zoom;
         assert!((moved - vec2(-40.0, -20.0)).length() < 0.5, "{key:?} {moved:?}");
     }
 }
@@ -84,10 +84,10 @@ fn with_any_tool_ctrl_and_wheel_magnify_and_a_middle_drag_pans_unless_it_orbits(
 #[test]
 fn the_wheel_and_a_drag_belong_to_the_tool() {
     let mut window = window("cornell_spheres");
-    let start = window.state().session.camera;
-    let fitted = window.state().window.view.drawn_zoom;
+    let start = window.state().camera();
+    let fitted = window.state().picture_view().drawn_zoom;
     wheel(&mut window, MIDDLE, -40.0, Modifiers::NONE);
-    assert!(window.state().window.view.drawn_zoom < 0.95 * fitted && window.state().session.camera == start);
+    assert!(window.state().picture_view().drawn_zoom < 0.95 * fitted && window.state().camera() == start);
     // A double click fits the picture again.
     let press = |pressed| egui::Event::PointerButton {
         pos: MIDDLE.into(),
@@ -97,17 +97,17 @@ fn the_wheel_and_a_drag_belong_to_the_tool() {
     };
     window.input_mut().events = [true, false, true, false].map(press).into();
     window.run_steps(2);
-    assert_eq!(window.state().window.view.zoom, None);
+    assert_eq!(window.state().picture_view().zoom, None);
     window.key_press(Key::C);
     window.run_steps(2);
     wheel(&mut window, MIDDLE, -40.0, Modifiers::NONE);
-    assert!(window.state().window.view.zoom.is_none());
+    assert!(window.state().picture_view().zoom.is_none());
     let distance = |camera: &Camera| camera.eye.distance(camera.look_at);
-    let farther = window.state().session.camera;
+    let farther = window.state().camera();
     assert!(distance(&farther) > 1.1 * distance(&start) && farther.look_at == start.look_at);
-    window.state_mut().session.camera.projection = Projection::orthographic(2.0);
+    window.state_mut().camera_mut().projection = Projection::orthographic(2.0);
     wheel(&mut window, MIDDLE, 40.0, Modifiers::NONE);
-    let nearer = window.state().session.camera;
+    let nearer = window.state().camera();
     assert!(
         nearer.eye == farther.eye && nearer.width_at_look_at() < 1.9 && !nearer.projection.has_angle(),
         "parallel rays: {nearer:?}"
@@ -119,26 +119,21 @@ fn what_is_looked_at_follows_a_pan() {
     let mut window = window("cornell_spheres");
     window.key_press(Key::C);
     window.run_steps(2);
-    let start = window.state().session.camera;
+    let start = window.state().camera();
     // The picture is 944 points wide.
-    let width = window.state().window.view.drawn_zoom * 96.0;
+    let width = window.state().picture_view().drawn_zoom * 96.0;
     let by = [0.05 * width, 0.03 * width];
     drag(&mut window, PointerButton::Secondary, MIDDLE, beside(MIDDLE, by[0], by[1]));
     let expected = navigation::pan(&start, 0.05, -0.03);
-    assert!(
-        window.state().session.camera.eye.distance(expected.eye) < 1e-3,
-        "{} {}",
-        window.state().session.camera.eye,
-        expected.eye
-    );
-    let moved = window.state().session.camera.eye - start.eye;
+    assert!(window.state().camera().eye.distance(expected.eye) < 1e-3, "{} {}", window.state().camera().eye, expected.eye);
+    let moved = window.state().camera().eye - start.eye;
     let [right, up, _] = start.axes();
     assert!(moved.dot(right) < -0.05 && moved.dot(up) > 0.03, "the eye goes against the drag: {moved}");
     // Shift makes a pan of a drag that would orbit.
-    window.state_mut().session.camera = start;
+    *window.state_mut().camera_mut() = start;
     window.run_steps(2);
     shift_drag(&mut window, PointerButton::Primary, by);
-    let camera = window.state().session.camera;
+    let camera = window.state().camera();
     assert!((camera.look_at - camera.eye).distance(start.look_at - start.eye) < 1e-9 && camera.eye != start.eye, "{camera:?}");
 }
 
@@ -167,25 +162,29 @@ fn with_the_camera_tool_a_middle_drag_orbits_and_pans_with_shift() {
     let mut window = window("cornell_spheres");
     window.key_press(Key::C);
     window.run_steps(2);
-    let (start, offset) = (window.state().session.camera, window.state().window.view.offset);
+    let (start, offset) = (window.state().camera(), window.state().picture_view().offset);
     drag(&mut window, PointerButton::Middle, MIDDLE, beside(MIDDLE, 20.0, 10.0));
-    let orbited = window.state().session.camera;
+    let orbited = window.state().camera();
     assert!(orbited.look_at == start.look_at && orbited.eye.distance(start.eye) > 0.05, "{orbited:?}");
     let distance = |camera: &Camera| camera.eye.distance(camera.look_at);
     assert!((distance(&orbited) - distance(&start)).abs() < 1e-9);
     shift_drag(&mut window, PointerButton::Middle, [20.0, 10.0]);
-    let panned = window.state().session.camera;
+    let panned = window.state().camera();
     let way = |camera: &Camera| camera.look_at - camera.eye;
     assert!(way(&panned).distance(way(&orbited)) < 1e-9 && panned.eye.distance(orbited.eye) > 0.01, "{panned:?}");
-    assert_eq!((window.state().window.view.offset, window.state().window.view.zoom), (offset, None), "the image stays in place");
+    assert_eq!(
+        (window.state().picture_view().offset, window.state().picture_view().zoom),
+        (offset, None),
+        "the image stays in place"
+    );
 }
 
 #[test]
 fn keys_fly_and_turn_and_shift_is_faster() {
     let mut window = window("cornell_spheres");
-    let start = window.state().session.camera;
+    let start = window.state().camera();
     let held = |window: &mut Window, key: Key, modifiers: Modifiers| {
-        window.state_mut().session.camera = start;
+        *window.state_mut().camera_mut() = start;
         window.step();
         // In one frame the key is down, in the next it is not.
         let event = |pressed| egui::Event::Key { key, physical_key: None, pressed, repeat: false, modifiers };
@@ -193,9 +192,9 @@ fn keys_fly_and_turn_and_shift_is_faster() {
         window.step();
         window.input_mut().events = vec![event(false), egui::Event::ModifiersChanged(Modifiers::NONE)];
         window.step();
-        window.state().session.camera
+        window.state().camera()
     };
-    let size = window.state().session.opened.as_ref().expect("it is open").scene.size;
+    let size = window.state().opened().as_ref().expect("it is open").scene.size;
     // A frame counts as a tenth of a second at most.
     let step = 0.25 * size * 0.1;
     let [slow, fast] = [Modifiers::NONE, Modifiers::SHIFT].map(|modifiers| held(&mut window, Key::W, modifiers));
@@ -216,13 +215,13 @@ fn keys_fly_and_turn_and_shift_is_faster() {
 #[test]
 fn pixels_of_a_comparison_are_those_of_the_side_that_they_lie_on() {
     let mut window = window("cornell_spheres");
-    let other = noisefall_scene::scene::RenderSettings { max_bounces: Some(0), ..window.state().session.settings };
+    let other = noisefall_scene::scene::RenderSettings { max_bounces: Some(0), ..window.state().settings() };
     window.state_mut().start_comparison(other);
-    wait(&mut window, "both", |app| app.results.textures[1].is_some() && app.results.second_frame.is_some());
+    wait(&mut window, "both", |app| app.results.textures[1].is_some() && app.second_frame().is_some());
     let over = |window: &mut Window, x: f32| {
         window.hover_at(Pos2::new(x, 400.0));
         window.run_steps(2);
-        (window.state().window.over_second, window.state().window.hovered)
+        (window.state().window.over_second, window.state().hovered())
     };
     let [left, right] = [372.0, 572.0].map(|x| over(&mut window, x));
     assert!(!left.0 && right.0 && left.1 != right.1);
@@ -237,7 +236,7 @@ fn pixels_of_a_comparison_are_those_of_the_side_that_they_lie_on() {
     };
     let (a, b) = letters(&window);
     assert!(a < 100.0 && b > 400.0, "{a} {b}");
-    if let Some(compare) = &mut window.state_mut().session.comparison {
+    if let Some(compare) = &mut window.state_mut().compared_with_mut() {
         compare.layout = CompareLayout::SideBySide;
     }
     window.run_steps(3);
@@ -251,7 +250,7 @@ fn pixels_of_a_comparison_are_those_of_the_side_that_they_lie_on() {
 fn a_bar_of_the_bounces_is_clicked_and_says_its_share() {
     let mut window = window("furnace");
     window.key_press(Key::F4);
-    wait(&mut window, "the series", |app| app.results.second_frame.as_ref().is_some_and(|frame| frame.series.is_some()));
+    wait(&mut window, "the series", |app| app.second_frame().as_ref().is_some_and(|frame| frame.series.is_some()));
     window.run_steps(3);
     for k in [3usize, 0, 2] {
         let bar = window
@@ -265,17 +264,17 @@ fn a_bar_of_the_bounces_is_clicked_and_says_its_share() {
     assert!(names.contains(&"≥ 16".to_owned()) && names.contains(&"50 %".to_owned()), "half of the light is emitted: {names:?}");
     click(&mut window, "Bounces up to k");
     assert!(window.state().session.bounces.up_to);
-    window.state_mut().session.camera.resolution = [2100, 2001];
+    window.state_mut().camera_mut().resolution = [2100, 2001];
     window.run_steps(2);
     assert!(window.state().second_view().is_none() && window.query_all_by_label_contains("too many").count() == 1);
-    window.state_mut().session.camera.resolution = [2100, 2000];
+    window.state_mut().camera_mut().resolution = [2100, 2000];
     assert!(window.state().second_view().is_some());
 }
 
 #[test]
 fn a_quick_drag_that_begins_beside_the_image_does_not_pan_it() {
     let mut window = window("furnace");
-    let before = window.state().window.view.offset;
+    let before = window.state().picture_view().offset;
     let label = window.get_by_label("Seed").rect().center();
     window.hover_at(label);
     window.run_steps(2);
@@ -289,5 +288,5 @@ fn a_quick_drag_that_begins_beside_the_image_does_not_pan_it() {
     }
     window.event(button(beside(MIDDLE, 80.0, 0.0).into(), false));
     window.run_steps(2);
-    assert_eq!(window.state().window.view.offset, before);
+    assert_eq!(window.state().picture_view().offset, before);
 }

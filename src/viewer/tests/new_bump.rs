@@ -11,12 +11,12 @@ use super::{
 
 /// The mean angle between the shading normals of an object in two scenes, degrees.
 fn tilt(window: &Window, [before, after]: [&Scene; 2], object: &str) -> f64 {
-    let camera = window.state().session.camera;
+    let camera = window.state().camera();
     let [before, after] = [before, after].map(|scene| {
         noisefall_kernel::integrator::features(SimdLevel::best(), scene, &camera, &|| false).expect("they are found")
     });
     let dot = |a: [f32; 3], b: [f32; 3]| f64::from(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]);
-    let scene = &window.state().session.opened.as_ref().expect("it is open").scene;
+    let scene = &window.state().opened().as_ref().expect("it is open").scene;
     let is_of = |place: &usize| scene.objects.get(before.object[*place] as usize).is_some_and(|found| found.name == object);
     let angles: Vec<f64> = (0..before.normal.len())
         .filter(is_of)
@@ -30,7 +30,7 @@ fn tilt(window: &Window, [before, after]: [&Scene; 2], object: &str) -> f64 {
 fn a_bump_map_that_is_ticked_tilts_the_normals_of_small_and_of_large_objects() {
     for (material, object) in [("amber", "amber ball"), ("white", "back wall")] {
         let mut window = window("cornell_spheres");
-        let scene = |window: &Window| window.state().session.opened.as_ref().expect("it is open").scene.clone();
+        let scene = |window: &Window| window.state().opened().as_ref().expect("it is open").scene.clone();
         let (before, start) = (scene(&window), bits(&window));
         select(&mut window, Subject::Material(material.to_owned()));
         edits(&mut window, "the bumps", |w| check_box(w, "Bump"));

@@ -30,7 +30,7 @@ fn listed(window: &mut Window, rows: usize) {
 }
 
 fn is_opened(window: &mut Window, path: &std::path::Path) {
-    wait(window, "the scene", |app| app.session.path() == Some(path) && !app.background.loader.is_busy());
+    wait(window, "the scene", |app| app.session.path() == Some(path) && !app.loader().is_busy());
     assert!(window.state().dialogs.open.is_none());
 }
 

@@ -121,7 +121,7 @@ fn scores_are_bars_at_their_places_under_the_normal_curve() {
 #[test]
 fn a_region_is_framed_with_the_tiles_that_it_takes() {
     let mut app = app();
-    app.session.budget.region = Some(Region { from: [10, 40], to: [20, 50] });
+    app.budget_mut().region = Some(Region { from: [10, 40], to: [20, 50] });
     let frames = |app: &mut App| {
         let shapes = painted(|ui| app.overlays(ui, &AREA, None));
         let frame = |shape: &Shape| match shape {

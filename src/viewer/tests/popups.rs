@@ -23,9 +23,9 @@ fn escape_closes_a_menu_or_a_colour_picker_and_keeps_the_selection() {
         window.run_steps(4);
         assert!(Popup::is_any_open(&window.ctx));
         press(&mut window, Key::Escape);
-        assert_eq!((Popup::is_any_open(&window.ctx), window.state().selection.subject.clone()), (false, amber()));
+        assert_eq!((Popup::is_any_open(&window.ctx), window.state().selected().clone()), (false, amber()));
         press(&mut window, Key::Escape);
-        assert_eq!(window.state().selection.subject, None);
+        assert_eq!(window.state().selected(), None);
     }
 }
 
@@ -34,12 +34,12 @@ fn a_tool_leaves_the_page_of_the_panel_as_it_is() {
     let mut window = window("cornell_spheres");
     for key in [Key::B, Key::I, Key::P, Key::C] {
         press(&mut window, key);
-        assert_eq!(window.state().window.panel, PanelTab::Render, "{key:?}");
+        assert_eq!(window.state().panel(), PanelTab::Render, "{key:?}");
     }
     let at = seen(&mut window, ball());
     click_at(&mut window, at);
     assert_eq!(window.state().selection.object(), Some(AMBER_BALL));
-    assert_eq!(window.state().window.panel, PanelTab::Render, "the camera has its numbers there");
+    assert_eq!(window.state().panel(), PanelTab::Render, "the camera has its numbers there");
 }
 
 #[test]

@@ -18,32 +18,32 @@ fn in_force(window: &Window) -> Option<Estimator> {
 }
 
 fn names(window: &Window) -> Vec<String> {
-    let history = &window.state().instruments.history;
+    let history = &window.state().curves();
     history.curves.iter().map(|curve| history.name(curve)).collect()
 }
 
 #[test]
 fn sharing_stays_as_it_is_while_other_settings_change_and_every_curve_names_it() {
     let mut window = window("cornell_spheres");
-    window.state_mut().window.tab = Some(InstrumentTab::Convergence);
+    *window.state_mut().tab_mut() = Some(InstrumentTab::Convergence);
     let sampled =
-        |window: &mut Window| wait(window, "samples", |app| app.results.shown.as_ref().is_some_and(|frame| frame.spp >= 2));
+        |window: &mut Window| wait(window, "samples", |app| app.shown_frame().as_ref().is_some_and(|frame| frame.spp >= 2));
     sampled(&mut window);
-    assert!(window.state().results.status.sharing == Sharing::Suffixes);
+    assert!(window.state().status().sharing == Sharing::Suffixes);
     restarts(&mut window, "independent samples", |w| choose(w, "Sampler", "Independent"));
     sampled(&mut window);
     restarts(&mut window, "paths alone", |w| choose(w, "Estimator", "Path"));
     sampled(&mut window);
-    restarts(&mut window, "a cap", |w| w.state_mut().session.settings.max_bounces = Some(4));
+    restarts(&mut window, "a cap", |w| w.state_mut().settings_mut().max_bounces = Some(4));
     sampled(&mut window);
-    assert!(window.state().results.status.sharing == Sharing::Suffixes, "the decision is that of the scene");
+    assert!(window.state().status().sharing == Sharing::Suffixes, "the decision is that of the scene");
     restarts(&mut window, "no sharing", |w| choose(w, "Sharing", "Nothing"));
     sampled(&mut window);
     window.run_steps(3);
     let names = names(&window);
     assert_eq!(names.iter().filter(|name| name.contains("shared paths")).count(), 4, "{names:?}");
     assert_eq!(names.iter().filter(|name| name.contains("no sharing")).count(), 1, "{names:?}");
-    let table = window.state().instruments.history.csv().expect("it is written");
+    let table = window.state().curves().csv().expect("it is written");
     let table = String::from_utf8(table).expect("it is text");
     assert!(table.starts_with("name,settings,sharing,") && table.contains(",on,") && table.contains(",off,"), "{table}");
 }
@@ -51,9 +51,9 @@ fn sharing_stays_as_it_is_while_other_settings_change_and_every_curve_names_it()
 #[test]
 fn both_sides_of_a_comparison_name_their_sharing() {
     let mut window = window("cornell_spheres");
-    let other = RenderSettings { reuse: Reuse::Off, ..window.state().session.settings };
+    let other = RenderSettings { reuse: Reuse::Off, ..window.state().settings() };
     window.state_mut().start_comparison(other);
-    wait(&mut window, "both", |app| app.results.status.spp >= 2 && app.results.second_status.spp >= 2);
+    wait(&mut window, "both", |app| app.status().spp >= 2 && app.second_status().spp >= 2);
     window.run_steps(3);
     assert!(window.query_by_label("MIS, Sobol (Owen), shared paths").is_some());
     assert!(window.get_all_by_label("no sharing").next().is_some());
@@ -66,16 +66,16 @@ fn a_preset_sets_what_it_says_and_the_panel_marks_the_one_in_force() {
     app.session.settings = RenderSettings { sampler: Sampler::Stratified, max_bounces: Some(6), ..RenderSettings::default() };
     window.run_steps(3);
     assert!(window.query_by_label("Custom").is_some());
-    let before = window.state().session.settings;
+    let before = window.state().settings();
     restarts(&mut window, "the textbook estimator", |w| click(w, "Teaching"));
-    assert_eq!(window.state().session.settings, RenderSettings { reuse: Reuse::Off, adaptive: false, ..before });
+    assert_eq!(window.state().settings(), RenderSettings { reuse: Reuse::Off, adaptive: false, ..before });
     assert!(is_marked(&window, "Teaching") && !is_marked(&window, "Fastest") && window.query_by_label("Custom").is_none());
-    wait(&mut window, "its samples", |app| app.results.status.spp >= 1 && app.results.status.sharing == Sharing::Nothing);
+    wait(&mut window, "its samples", |app| app.status().spp >= 1 && app.status().sharing == Sharing::Nothing);
     restarts(&mut window, "the fastest one", |w| click(w, "Fastest"));
     assert!(is_marked(&window, "Fastest") && !is_marked(&window, "Teaching"));
-    let settings = window.state().session.settings;
+    let settings = window.state().settings();
     assert_eq!((Preset::of(&settings), settings.max_bounces), (Some(Preset::Fastest), Some(6)), "a cap is no matter of speed");
-    wait(&mut window, "its samples", |app| app.results.status.spp >= 1 && app.results.status.sharing == Sharing::Suffixes);
+    wait(&mut window, "its samples", |app| app.status().spp >= 1 && app.status().sharing == Sharing::Suffixes);
     assert_eq!(in_force(&window), Some(Estimator::Mis), "paths from both ends cost more in this room");
     window.get_by_role_and_label(Role::CheckBox, "Adaptive").click();
     window.run_steps(3);
@@ -85,9 +85,9 @@ fn a_preset_sets_what_it_says_and_the_panel_marks_the_one_in_force() {
 #[test]
 fn fastest_takes_paths_from_both_ends_where_they_are_measured_to_be_faster() {
     let mut window = window("glass_ball_caustic");
-    window.state_mut().session.settings.estimator = Estimator::Mis;
+    window.state_mut().settings_mut().estimator = Estimator::Mis;
     restarts(&mut window, "the fastest one", |w| click(w, "Fastest"));
-    wait(&mut window, "its samples", |app| app.results.status.spp >= 1);
+    wait(&mut window, "its samples", |app| app.status().spp >= 1);
     assert_eq!(in_force(&window), Some(Estimator::Bidirectional));
 }
 
@@ -95,7 +95,7 @@ fn fastest_takes_paths_from_both_ends_where_they_are_measured_to_be_faster() {
 fn the_panel_says_that_adaptive_sampling_is_not_used_where_pixels_share_paths() {
     const NOTE: &str = "not used: shared paths";
     let mut window = window("cornell_spheres");
-    let sampled = |window: &mut Window| wait(window, "samples", |app| app.results.status.spp >= 1);
+    let sampled = |window: &mut Window| wait(window, "samples", |app| app.status().spp >= 1);
     sampled(&mut window);
     assert!(window.query_by_label(NOTE).is_none(), "nobody asked for it");
     restarts(&mut window, "adaptive sampling", |w| w.get_by_role_and_label(Role::CheckBox, "Adaptive").click());
@@ -112,7 +112,7 @@ fn the_panel_says_that_adaptive_sampling_is_not_used_where_pixels_share_paths() 
 fn advice_tries_the_other_sharing() {
     let mut window = window("cornell_box");
     restarts(&mut window, "no sharing", |w| choose(w, "Sharing", "Nothing"));
-    wait(&mut window, "a picture", |app| app.results.status.spp >= 1);
+    wait(&mut window, "a picture", |app| app.status().spp >= 1);
     click(&mut window, "What should I use here?");
     wait(&mut window, "the advice", |app| !app.is_studying());
     let advice = window.state().background.adviser.as_ref().and_then(|adviser| adviser.advice.as_ref());

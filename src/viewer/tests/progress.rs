@@ -10,8 +10,8 @@ use crate::viewer::background::progress_keeper::ProgressKeeper;
 fn continues(window: &mut Window, file: &Path) {
     let seconds = KeptFile::open(file).expect("it is whole").header().counters.seconds;
     assert!(seconds > 0.0);
-    wait(window, "the render", |app| app.session.opened.is_some() && app.results.status.spp > 0);
-    let status = &window.state().results.status;
+    wait(window, "the render", |app| app.opened().is_some() && app.status().spp > 0);
+    let status = &window.state().status();
     assert!(status.elapsed.as_secs_f64() > seconds, "{:?} follows {seconds} s", status.elapsed);
     let session = &window.state().session;
     assert_eq!(session.camera.resolution, [96, 64]);
@@ -25,12 +25,12 @@ fn a_render_that_was_saved_continues_when_its_file_is_opened() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("spheres.nf");
     let mut window = window("cornell_spheres");
-    wait(&mut window, "a while", |app| app.results.status.elapsed.as_secs_f64() > 0.5);
+    wait(&mut window, "a while", |app| app.status().elapsed.as_secs_f64() > 0.5);
     open_export(&mut window, "Save progress…");
     window.get_by_role(Role::TextInput).set_text_value_accesskit(&path.display().to_string());
     window.run_steps(3);
     click(&mut window, "Save");
-    wait(&mut window, "the file", |app| app.window.last_saved.is_some());
+    wait(&mut window, "the file", |app| app.last_saved().is_some());
     drop(window);
     let mut window = open_with(Some(path.clone()), |_| {});
     continues(&mut window, &path);
@@ -46,7 +46,7 @@ fn a_render_without_samples_or_by_another_name_is_not_saved() {
     click(&mut window, "Save");
     assert!(window.query_by_label_contains("The name must end in .nf.").is_some());
     press(&mut window, Key::Escape);
-    window.state_mut().results.status.spp = 0;
+    window.state_mut().status_mut().spp = 0;
     assert!(window.state().render_to_keep().is_err());
 }
 
@@ -62,7 +62,7 @@ fn the_render_of_a_lost_window_is_offered_and_continues() {
     lost.state_mut().background.progress = ProgressKeeper::in_folder(&ctx, folder.path());
     lost.run_steps(2);
     let render = lost.state().render_to_keep().expect("it has samples");
-    let (worker, elapsed) = (lost.state().background.worker.keep_handle(), lost.state().results.status.elapsed);
+    let (worker, elapsed) = (lost.state().worker().keep_handle(), lost.state().status().elapsed);
     lost.state_mut().background.progress.keep(render, worker, elapsed);
     wait(&mut lost, "the file", |_| files(folder.path()).len() == 1);
     drop(lost);
@@ -73,7 +73,7 @@ fn the_render_of_a_lost_window_is_offered_and_continues() {
     window.run_steps(2);
     assert!(window.query_by_label_contains("Continue the render of “Five-sphere Cornell box” from").is_some());
     click(&mut window, "Continue render");
-    wait(&mut window, "the scene", |app| !app.background.loader.is_busy() && app.session.camera.resolution == [96, 64]);
+    wait(&mut window, "the scene", |app| !app.loader().is_busy() && app.camera().resolution == [96, 64]);
     continues(&mut window, &files(folder.path())[0]);
     // It goes when the window ends in order.
     let viewport = window.input_mut().viewports.entry(egui::ViewportId::ROOT).or_default();

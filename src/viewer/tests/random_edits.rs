@@ -94,7 +94,7 @@ fn drag_in_inspector(window: &mut Window, random: &mut SmallRng) {
     let names: Vec<String> = description(window).materials.keys().cloned().collect();
     let material = names.choose(random).cloned().map(Subject::Material);
     let subject = if random.random() { material } else { random_object(window, random) };
-    window.state_mut().window.panel = PanelTab::Edit;
+    *window.state_mut().panel_mut() = PanelTab::Edit;
     window.state_mut().selection.select(subject);
     window.run_steps(2);
     let mut place = || ROWS.map(|[from, to]| random.random_range(from..to));
@@ -142,9 +142,9 @@ fn image(window: &mut Window) -> Vec<[f32; 3]> {
     window.run_steps(3);
     settle(window);
     wait(window, "two samples", |app| {
-        app.results.shown.as_ref().is_some_and(|frame| frame.spp == 2 && frame.generation == app.background.worker.generation())
+        app.shown_frame().as_ref().is_some_and(|frame| frame.spp == 2 && frame.generation == app.worker().generation())
     });
-    window.state().results.shown.as_ref().expect("it is shown").radiance.clone()
+    window.state().shown_frame().as_ref().expect("it is shown").radiance.clone()
 }
 
 /// Why the scene as it is edited cannot be compiled.
@@ -180,7 +180,7 @@ fn the_image_after_random_edits_is_that_of_the_saved_file() {
     assert!(!window.state().has_unsaved_changes());
     let edited = image(&mut window);
     let mut fresh = open(Some(path));
-    wait(&mut fresh, "the saved scene", |app| app.session.opened.is_some());
+    wait(&mut fresh, "the saved scene", |app| app.opened().is_some());
     let [of_edits, of_file] = [&window, &fresh].map(|window| Tree::of(&mut description(window).clone()));
     assert!(of_edits.is_identical(&of_file));
     let saved = image(&mut fresh);

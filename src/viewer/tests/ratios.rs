@@ -10,9 +10,9 @@ use crate::viewer::instruments::{compare::comparison::CompareLayout, tabs::Instr
 /// A window that compares the settings of a scene with others.
 fn comparing(scene: &str, change: impl FnOnce(RenderSettings) -> RenderSettings) -> Window {
     let mut window = window(scene);
-    let other = change(window.state().session.settings);
+    let other = change(window.state().settings());
     window.state_mut().start_comparison(other);
-    wait(&mut window, "a ratio", |app| app.results.error_ratio.is_some() && app.results.second_status.spp >= 4);
+    wait(&mut window, "a ratio", |app| app.results.error_ratio.is_some() && app.second_status().spp >= 4);
     window.run_steps(3);
     window
 }
@@ -37,7 +37,7 @@ fn a_winner_is_named_only_where_the_interval_excludes_1() {
 fn a_clear_winner_is_named_with_its_interval() {
     let mut window = comparing("cornell_spheres", |a| RenderSettings { estimator: Estimator::Path, reuse: Reuse::Off, ..a });
     wait(&mut window, "the verdict", |app| {
-        app.results.error_ratio.is_some_and(|ratio| ratio.interval()[2] < 0.2) && app.results.status.spp >= 8
+        app.results.error_ratio.is_some_and(|ratio| ratio.interval()[2] < 0.2) && app.status().spp >= 8
     });
     window.run_steps(3);
     let verdict = window.query_all_by_label_contains("times as efficient (95 % interval ").next().expect("it is said");
@@ -47,20 +47,20 @@ fn a_clear_winner_is_named_with_its_interval() {
 #[test]
 fn a_click_on_side_b_shows_the_samples_of_b() {
     let mut window = comparing("cornell_spheres", |a| RenderSettings { seed: a.seed + 5, reuse: Reuse::Off, ..a });
-    if let Some(compare) = &mut window.state_mut().session.comparison {
+    if let Some(compare) = &mut window.state_mut().compared_with_mut() {
         compare.layout = CompareLayout::SideBySide;
     }
-    window.state_mut().window.tool = Tool::Inspect;
+    *window.state_mut().tool_mut() = Tool::Inspect;
     window.run_steps(3);
     let samples_of = |window: &mut Window, x: f32, side: &str| {
         click_at(window, Pos2::new(x, 500.0));
-        assert_eq!(window.state().window.tab, Some(InstrumentTab::Path));
+        assert_eq!(window.state().tab(), Some(InstrumentTab::Path));
         wait(window, "its samples", |app| {
-            app.instruments.path.samples().is_some_and(|samples| samples.len() >= 2) && app.instruments.path.replay().is_some()
+            app.path_inspector().samples().is_some_and(|samples| samples.len() >= 2) && app.path_inspector().replay().is_some()
         });
         window.run_steps(2);
         assert!(window.query_by_label(&format!("Pixel of {side}")).is_some());
-        let inspector = &window.state().instruments.path;
+        let inspector = &window.state().path_inspector();
         (inspector.pixel.expect("it was clicked"), inspector.samples().expect("they are there")[..2].to_vec())
     };
     let (pixel, of_a) = samples_of(&mut window, 242.0, "A");
@@ -82,17 +82,17 @@ fn a_click_on_side_b_shows_the_samples_of_b() {
     });
     assert!(marks.collect::<Vec<_>>().first().is_some_and(|x| *x > 472.0));
     click(&mut window, "End comparison");
-    assert!(!window.state().instruments.path.of_second && window.query_all_by_label_contains("Pixel of").count() == 0);
+    assert!(!window.state().path_inspector().of_second && window.query_all_by_label_contains("Pixel of").count() == 0);
 }
 
 #[test]
 fn a_button_ends_the_comparison_whatever_is_open() {
     let mut window = comparing("cornell_spheres", |a| RenderSettings { seed: a.seed + 1, ..a });
-    let settings = window.state().session.settings;
-    window.state_mut().window.tab = None;
+    let settings = window.state().settings();
+    *window.state_mut().tab_mut() = None;
     window.run_steps(3);
     never_restarts(&mut window, |w| click(w, "End comparison"));
-    assert!(window.state().session.comparison.is_none() && window.state().session.settings == settings);
+    assert!(window.state().compared_with().is_none() && window.state().settings() == settings);
     assert!(window.query_by_label("End comparison").is_none() && window.query_by_label("Compare with…").is_some());
-    wait(&mut window, "one picture", |app| app.results.second_frame.is_none() && app.results.textures[1].is_none());
+    wait(&mut window, "one picture", |app| app.second_frame().is_none() && app.results.textures[1].is_none());
 }

@@ -17,8 +17,8 @@ fn kept(folder: &Path) -> Vec<PathBuf> {
 fn reopened(path: Option<PathBuf>, folder: &Path) -> Window {
     let folder = folder.to_owned();
     let mut window = open_with(path, move |app| app.background.recovery = RecoveryKeeper::in_folder(&folder));
-    wait(&mut window, "the scene", |app| app.session.opened.is_some());
-    window.state_mut().session.camera.resolution = [96, 64];
+    wait(&mut window, "the scene", |app| app.opened().is_some());
+    window.state_mut().camera_mut().resolution = [96, 64];
     window
 }
 
@@ -56,7 +56,7 @@ fn changes_of_a_lost_window_are_offered_and_restored() {
     window.run_steps(2);
     let before = kept(&kept_in);
     click(&mut window, "Restore changes");
-    wait(&mut window, "the changes", |app| app.has_unsaved_changes() && !app.background.loader.is_busy());
+    wait(&mut window, "the changes", |app| app.has_unsaved_changes() && !app.loader().is_busy());
     assert_eq!((radius(&window), window.state().session.path()), (0.25, Some(&*path)));
     wait(&mut window, "a file of this window", |_| kept(&kept_in).len() == 1 && kept(&kept_in) != before);
     save(&mut window);
@@ -82,7 +82,7 @@ fn the_view_comes_back_with_the_changes() {
     wait(&mut window, "the question", |app| app.dialogs.recovery.is_some());
     window.run_steps(2);
     click(&mut window, "Restore changes");
-    wait(&mut window, "the changes", |app| app.has_unsaved_changes() && !app.background.loader.is_busy());
+    wait(&mut window, "the changes", |app| app.has_unsaved_changes() && !app.loader().is_busy());
     let session = &window.state().session;
     assert_eq!((session.camera, session.settings.seed, session.look.display.exposure), (camera, 7, 1.5));
 }

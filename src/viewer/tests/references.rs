@@ -6,8 +6,8 @@ use super::{edited::edits, *};
 use crate::viewer::instruments::tabs::InstrumentTab;
 
 fn is_compared(app: &App) -> bool {
-    let is_latest = app.results.shown.as_ref().is_some_and(|frame| frame.generation == app.background.worker.generation());
-    is_latest && app.results.comparison.is_some()
+    let is_latest = app.shown_frame().as_ref().is_some_and(|frame| frame.generation == app.worker().generation());
+    is_latest && app.measured_error().is_some()
 }
 
 fn said(window: &Window, text: &str) -> bool {
@@ -17,7 +17,7 @@ fn said(window: &Window, text: &str) -> bool {
 #[test]
 fn a_reference_is_rendered_beside_the_image_and_is_for_the_scene_as_it_was() {
     let mut window = window("cornell_spheres");
-    window.state_mut().session.settings.max_bounces = Some(1);
+    window.state_mut().settings_mut().max_bounces = Some(1);
     window.state_mut().session.reference_noise = 0.2;
     let generation = generation(&window);
     click(&mut window, "Render a reference");
@@ -28,15 +28,15 @@ fn a_reference_is_rendered_beside_the_image_and_is_for_the_scene_as_it_was() {
     let given = window.state().session.given_reference.as_ref().expect("it is there");
     assert!(given.reference.relative_noise().is_some_and(|noise| noise <= 0.2), "{:?}", given.reference.relative_noise());
     assert!(said(&window, "noise ") && said(&window, "true error"));
-    assert!(window.state().background.worker.generation() >= generation);
+    assert!(window.state().worker().generation() >= generation);
     // A cap of one bounce is wrong by much more than the noise of the reference.
-    wait(&mut window, "a precise image", |app| app.results.status.spp >= 64);
-    wait(&mut window, "its error", |app| app.results.comparison.is_some_and(|comparison| comparison.rel_mse.sqrt() > 0.25));
+    wait(&mut window, "a precise image", |app| app.status().spp >= 64);
+    wait(&mut window, "its error", |app| app.measured_error().is_some_and(|comparison| comparison.rel_mse.sqrt() > 0.25));
     edits(&mut window, "the edit", |w| {
         let brighter = Edit::set(Path::of("objects.0.emission.radiance"), OwnedValue::Colour([3.0; 3]));
         assert!(w.state_mut().edit(&brighter));
     });
-    wait(&mut window, "an image of the edit", |app| app.results.shown.is_some());
+    wait(&mut window, "an image of the edit", |app| app.shown_frame().is_some());
     assert!(window.state().reference().is_none(), "it is not of the edited scene");
     undo(&mut window);
     wait(&mut window, "the error of the scene before", is_compared);
@@ -51,7 +51,7 @@ fn the_image_itself_is_a_reference_unless_it_is_biased() {
     wait(&mut window, "the error", is_compared);
     click(&mut window, "Remove");
     assert!(window.state().reference().is_none());
-    window.state_mut().session.settings.max_bounces = Some(2);
+    window.state_mut().settings_mut().max_bounces = Some(2);
     wait(&mut window, "the capped image", |app| app.why_no_reference().is_some_and(|why| why.contains("biased")));
 }
 
@@ -73,9 +73,9 @@ fn a_reference_is_opened_by_its_path() {
 #[test]
 fn an_undo_leaves_the_errors_of_all_curves() {
     let mut window = window("furnace");
-    window.state_mut().window.tab = Some(InstrumentTab::Convergence);
+    *window.state_mut().tab_mut() = Some(InstrumentTab::Convergence);
     let measured = |app: &App, curves: usize| {
-        let history = &app.instruments.history;
+        let history = &app.curves();
         let is_long = history.curves.iter().all(|curve| curve.moments.iter().filter(|m| m.true_error.is_some()).count() >= 3);
         history.curves.len() == curves && is_long
     };
@@ -92,19 +92,19 @@ fn an_undo_leaves_the_errors_of_all_curves() {
 #[test]
 fn a_click_in_the_legend_hides_a_curve_and_a_menu_renames_and_removes_it() {
     let mut window = window("cornell_spheres");
-    window.state_mut().window.tab = Some(InstrumentTab::Convergence);
-    wait(&mut window, "a curve", |app| app.instruments.history.curves.first().is_some_and(|curve| curve.moments.len() > 1));
+    *window.state_mut().tab_mut() = Some(InstrumentTab::Convergence);
+    wait(&mut window, "a curve", |app| app.curves().curves.first().is_some_and(|curve| curve.moments.len() > 1));
     window.run_steps(2);
     assert!(said(&window, "relative noise") || said(&window, "Noise"), "nothing is measured");
     let name = |window: &Window| {
-        let history = &window.state().instruments.history;
+        let history = &window.state().curves();
         history.name(&history.curves[0])
     };
     let entry = name(&window);
     click(&mut window, &entry);
-    assert!(window.state().instruments.history.curves[0].is_hidden);
+    assert!(window.state().curves().curves[0].is_hidden);
     click(&mut window, &entry);
-    assert!(!window.state().instruments.history.curves[0].is_hidden);
+    assert!(!window.state().curves().curves[0].is_hidden);
     window.get_by_label(&entry).click_secondary();
     window.run_steps(3);
     click(&mut window, "Rename");
@@ -112,13 +112,13 @@ fn a_click_in_the_legend_hides_a_curve_and_a_menu_renames_and_removes_it() {
     window.run_steps(2);
     press(&mut window, Key::Enter);
     assert_eq!(name(&window), "mine");
-    window.state_mut().session.budget.paused = true;
+    window.state_mut().budget_mut().paused = true;
     window.run_steps(3);
     window.get_by_label("mine").click_secondary();
     window.run_steps(3);
-    let generation = window.state().instruments.history.curves[0].generation;
+    let generation = window.state().curves().curves[0].generation;
     click(&mut window, "Remove");
-    let curves = &window.state().instruments.history.curves;
+    let curves = &window.state().curves().curves;
     assert!(
         curves.iter().all(|curve| curve.generation == generation && curve.given_name.is_none()),
         "it is gone, or begins anew"

@@ -13,8 +13,8 @@ fn description(app: &App) -> &SceneDescription {
 /// Waits until what has changed is taken up, compiled and shown.
 pub fn settle(window: &mut Window) {
     wait(window, "rest", |app| {
-        let waits = app.background.worker.is_editing() || app.session.waiting_edit.is_some();
-        let shown = app.results.shown.as_ref().is_some_and(|frame| frame.generation == app.background.worker.generation());
+        let waits = app.worker().is_editing() || app.session.waiting_edit.is_some();
+        let shown = app.shown_frame().as_ref().is_some_and(|frame| frame.generation == app.worker().generation());
         app.outside.is_settled() && app.saving.is_none() && !waits && shown
     });
     window.run_steps(2);
@@ -47,32 +47,32 @@ fn radius(app: &App) -> f64 {
 fn a_change_by_another_program_is_shown_and_camera_and_settings_stay() {
     let folder = tempfile::tempdir().expect("a folder");
     let (mut window, path, text) = window_of_copy(folder.path());
-    window.state_mut().session.camera.eye.x = 0.5;
-    window.state_mut().session.settings.seed = 7;
+    window.state_mut().camera_mut().eye.x = 0.5;
+    window.state_mut().settings_mut().seed = 7;
     window.run_steps(2);
-    let camera = window.state().session.camera;
+    let camera = window.state().camera();
     let before = generation(&window);
     write(&mut window, &path, &with_radius(&text, "0.21"));
     let app = window.state();
     assert_eq!((radius(app), app.has_unsaved_changes()), (0.21, false));
     assert!(generation(&window) > before && app.history.names()[0].as_deref() == Some("reload of the file"));
-    assert_eq!((app.session.camera, app.session.settings.seed), (camera, 7));
-    let opened = app.session.opened.as_ref().expect("it is open");
+    assert_eq!((app.camera(), app.settings().seed), (camera, 7));
+    let opened = app.opened().as_ref().expect("it is open");
     assert_eq!(&*opened.description, description(app), "the new scene is rendered");
     // What the file changes is taken over: the camera as a whole, without the resolution.
     let wider = with_radius(&text, "0.21").replace("fov = 36", "fov = 50");
     assert_ne!(wider, with_radius(&text, "0.21"));
     write(&mut window, &path, &wider);
     let app = window.state();
-    assert_eq!((app.session.camera.fov, app.session.camera.eye.x, app.session.camera.resolution), (50.0, 0.0, [96, 64]));
-    assert_eq!(app.session.settings.seed, 7);
+    assert_eq!((app.camera().fov, app.camera().eye.x, app.camera().resolution), (50.0, 0.0, [96, 64]));
+    assert_eq!(app.settings().seed, 7);
     // Each reload is one step.
     undo(&mut window);
     settle(&mut window);
-    assert_eq!((window.state().session.camera.fov, window.state().has_unsaved_changes()), (36.0, true));
+    assert_eq!((window.state().camera().fov, window.state().has_unsaved_changes()), (36.0, true));
     redo(&mut window);
     settle(&mut window);
-    assert_eq!((window.state().session.camera.fov, window.state().has_unsaved_changes()), (50.0, false));
+    assert_eq!((window.state().camera().fov, window.state().has_unsaved_changes()), (50.0, false));
 }
 
 #[test]
@@ -101,8 +101,8 @@ fn an_error_is_shown_with_its_line_and_the_last_scene_stays() {
     assert!(error.contains(&format!("mine.toml:{line}:")), "{error}");
     assert!(window.query_by_label("This scene file cannot be reloaded").is_some());
     assert_eq!((radius(window.state()), generation(&window)), (start, before));
-    let samples = window.state().results.status.samples;
-    wait(&mut window, "more samples", |app| app.results.status.samples > samples);
+    let samples = window.state().status().samples;
+    wait(&mut window, "more samples", |app| app.status().samples > samples);
     let unknown = format!("{text}\n[[objects]]\nmaterial = 'whit'\nshape.sphere = {{ center = [0, 0, 0], radius = 0.1 }}\n");
     write(&mut window, &path, &unknown);
     let error = window.state().dialogs.file_error.clone().expect("it is shown");
@@ -129,7 +129,7 @@ fn conflict(folder: &std::path::Path) -> (Window, PathBuf, String) {
     let outside = text.replace("fov = 36", "fov = 50");
     write(&mut window, &path, &outside);
     assert!(window.query_by_label_contains("was changed by another program").is_some());
-    assert_eq!((radius(window.state()), window.state().session.camera.fov), (0.25, 36.0));
+    assert_eq!((radius(window.state()), window.state().camera().fov), (0.25, 36.0));
     (window, path, outside)
 }
 
@@ -157,11 +157,11 @@ fn in_a_conflict_the_file_can_be_used_and_undo_brings_the_changes_back() {
     click(&mut window, "Use the file");
     settle(&mut window);
     let app = window.state();
-    assert!(!app.has_unsaved_changes() && radius(app) != 0.25 && app.session.camera.fov == 50.0);
+    assert!(!app.has_unsaved_changes() && radius(app) != 0.25 && app.camera().fov == 50.0);
     assert_eq!(read(&path), outside);
     undo(&mut window);
     settle(&mut window);
-    assert_eq!((radius(window.state()), window.state().session.camera.fov), (0.25, 36.0));
+    assert_eq!((radius(window.state()), window.state().camera().fov), (0.25, 36.0));
 }
 
 #[test]
@@ -238,7 +238,7 @@ fn an_image_of_a_texture_is_read_again_when_it_changes() {
     );
     write(&mut window, &path, &textured);
     assert_eq!(window.state().dialogs.file_error, None);
-    let made = |window: &Window| window.state().session.opened.as_ref().expect("it is open").scene.compiled.made("pictures");
+    let made = |window: &Window| window.state().opened().as_ref().expect("it is open").scene.compiled.made("pictures");
     let before = generation(&window);
     paint(4, 20);
     window.state().background.files.report(&image);

@@ -13,7 +13,7 @@ fn ctrl_e_saves_what_is_shown_where_the_path_field_says() {
     field.set_text_value_accesskit(&path.display().to_string());
     window.run_steps(3);
     click(&mut window, "Save");
-    wait(&mut window, "the file", |app| app.window.last_saved.is_some());
+    wait(&mut window, "the file", |app| app.last_saved().is_some());
     let saved = image_file::read(&path).expect("it is a picture");
     assert_eq!([saved.width, saved.height], [96, 64]);
     assert!(window.state().dialogs.notices.0.iter().any(|notice| !notice.is_error));
@@ -33,11 +33,11 @@ fn an_image_with_layers_has_the_first_surfaces_beside_its_radiance() {
     click(&mut window, "Layers");
     window.get_by_role_and_label(Role::CheckBox, "Bounces").click_accesskit();
     window.run_steps(2);
-    assert_eq!(window.state().window.tab, Some(InstrumentTab::Bounces));
-    let has_series = |app: &App| app.results.second_frame.as_ref().is_some_and(|frame| frame.series.is_some());
+    assert_eq!(window.state().tab(), Some(InstrumentTab::Bounces));
+    let has_series = |app: &App| app.second_frame().as_ref().is_some_and(|frame| frame.series.is_some());
     wait(&mut window, "the bounces", has_series);
     click(&mut window, "Save");
-    wait(&mut window, "the file", |app| app.window.last_saved.is_some());
+    wait(&mut window, "the file", |app| app.last_saved().is_some());
     let path = path.with_extension("exr");
     assert_eq!(image_file::read(&path).expect("it is an EXR").width, 96);
     let meta = exr::meta::MetaData::read_from_file(&path, false).expect("it has a header");
@@ -79,14 +79,14 @@ fn exposure_and_tone_map_change_what_is_saved() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = window("bright_sky");
     click(&mut window, "Pause");
-    wait(&mut window, "the pause", |app| app.results.status.state == State::Paused && app.can_save());
+    wait(&mut window, "the pause", |app| app.status().state == State::Paused && app.can_save());
     let mut pictures = Vec::new();
     for (i, map) in ["None (sRGB)", "Reinhard", "ACES-like", "False colour"].into_iter().enumerate() {
         choose(&mut window, "Tone map", map);
         let path = folder.path().join(format!("{i}.png"));
-        window.state_mut().window.last_saved = None;
+        *window.state_mut().last_saved_mut() = None;
         window.state_mut().save_to(path.clone());
-        wait(&mut window, "the file", |app| app.window.last_saved.is_some());
+        wait(&mut window, "the file", |app| app.last_saved().is_some());
         pictures.push(image_file::read(&path).expect("it is a picture").radiance);
     }
     for i in 1..pictures.len() {
@@ -101,11 +101,11 @@ fn an_exr_has_all_of_the_picture_whatever_is_seen_and_whatever_letters_the_scene
     let mut window = window("inside_lit_inside");
     window.key_press(Key::F4);
     window.run_steps(2);
-    wait(&mut window, "the series", |app| app.results.second_frame.is_some());
+    wait(&mut window, "the series", |app| app.second_frame().is_some());
     let text = |window: &mut Window, name: &str| {
         let path = folder.path().join(name);
         window.state_mut().save_to(path.clone());
-        wait(window, "the file", |app| app.window.last_saved.as_ref() == Some(&path));
+        wait(window, "the file", |app| app.last_saved().as_ref() == Some(&path));
         String::from_utf8_lossy(&std::fs::read(&path).expect("it is there")).into_owned()
     };
     assert!(!text(&mut window, "whole.exr").contains("exactly 1 bounce"));

@@ -14,17 +14,17 @@ fn an_albedo_that_is_changed_in_the_inspector_is_that_of_the_next_picture() {
     let mut window = window("cornell_spheres");
     let at = seen(&mut window, ball());
     click_at(&mut window, at);
-    assert_eq!(window.state().window.panel, PanelTab::Render, "the page stays");
+    assert_eq!(window.state().panel(), PanelTab::Render, "the page stays");
     assert_eq!(window.state().selection.object(), Some(AMBER_BALL));
     click(&mut window, "Edit");
     assert!(window.query_by_label("Parts").is_some());
     let row = window.get_all_by_role(Role::Button).find(|row| row.accesskit_node().label().as_deref() == Some("amberlambertian"));
     row.expect("the material has a row").click();
     window.run_steps(3);
-    assert_eq!(window.state().selection.subject, Some(Subject::Material("amber".to_owned())));
+    assert_eq!(window.state().selected(), Some(Subject::Material("amber".to_owned())));
     edits(&mut window, "the darker ball", |w| set(w, "Albedo ρ", 0, 0.25));
     assert_eq!(material(&window, "amber"), OwnedValue::Textured(Textured::Constant([0.25, 0.55, 0.22])));
-    let scene = &window.state().session.opened.as_ref().expect("it is open").scene;
+    let scene = &window.state().opened().as_ref().expect("it is open").scene;
     assert!(scene.source.contains("0.25, 0.55, 0.22"), "the scene that is rendered is the edited one");
 }
 
@@ -35,13 +35,13 @@ fn edits_and_controls_are_undone_in_one_order_to_the_very_same_scene() {
     select(&mut window, Subject::Material("white".to_owned()));
     edits(&mut window, "a first edit", |w| set(w, "Albedo ρ", 1, 0.5));
     let first = bits(&window);
-    window.state_mut().session.settings.seed = 9;
+    window.state_mut().settings_mut().seed = 9;
     window.run_steps(3);
     edits(&mut window, "a second edit", |w| set(w, "Albedo ρ", 2, 0.125));
     let second = bits(&window);
     let at = |window: &Window, expected: &Tree, seed: u32| {
         assert!(bits(window).is_identical(expected));
-        assert_eq!(window.state().session.settings.seed, seed);
+        assert_eq!(window.state().settings().seed, seed);
     };
     for (expected, seed) in [(&first, 9), (&first, 0), (&start, 0)] {
         undo(&mut window);
@@ -54,7 +54,7 @@ fn edits_and_controls_are_undone_in_one_order_to_the_very_same_scene() {
     }
     assert!(window.state().has_unsaved_changes());
     wait(&mut window, "the last scene", |app| {
-        let opened = app.session.opened.as_ref().expect("it is open");
+        let opened = app.opened().as_ref().expect("it is open");
         app.editor.as_ref().is_some_and(|editor| editor.document.description() == &*opened.description)
     });
 }
@@ -77,10 +77,10 @@ fn the_camera_of_the_scene_is_edited_and_the_window_follows_without_a_step() {
         w.state_mut().edit(&fov(50.0));
         w.run_steps(1);
     });
-    assert_eq!((window.state().session.camera.fov, window.state().session.camera.resolution), (50.0, [96, 64]));
+    assert_eq!((window.state().camera().fov, window.state().camera().resolution), (50.0, [96, 64]));
     window.run_steps(3);
     edits(&mut window, "the way back", undo);
-    assert_eq!(window.state().session.camera.fov, 36.0);
+    assert_eq!(window.state().camera().fov, 36.0);
     assert!(!window.state().has_unsaved_changes());
 }
 
@@ -90,9 +90,9 @@ fn title_and_settings_of_the_scene_have_rows_too() {
     select(&mut window, Subject::Presentation);
     assert!(window.query_by_label("Title").is_some() && window.query_by_label("Reference").is_some());
     window.state_mut().edit(&Edit::set(Path::of("title"), OwnedValue::Text("Five balls".to_owned())));
-    let title = |app: &App| app.session.opened.as_ref().is_some_and(|opened| opened.scene.title == "Five balls");
+    let title = |app: &App| app.opened().as_ref().is_some_and(|opened| opened.scene.title == "Five balls");
     wait(&mut window, "the scene under its new title", title);
-    let opened = window.state().session.opened.as_ref().expect("it is open");
+    let opened = window.state().opened().as_ref().expect("it is open");
     assert!(opened.scene.source.contains("title = \"Five balls\""));
 }
 

@@ -17,9 +17,9 @@ pub fn window_of_copy(folder: &FilePath) -> (Window, PathBuf, String) {
     let text = std::fs::read_to_string(shipped("cornell_spheres")).expect("it is shipped");
     std::fs::write(&path, &text).expect("it is written");
     let mut window = open(Some(path.clone()));
-    wait(&mut window, "the scene", |app| app.session.opened.is_some());
-    window.state_mut().session.camera.resolution = [96, 64];
-    wait(&mut window, "a picture", |app| app.results.shown.as_ref().is_some_and(|frame| frame.width == 96));
+    wait(&mut window, "the scene", |app| app.opened().is_some());
+    window.state_mut().camera_mut().resolution = [96, 64];
+    wait(&mut window, "a picture", |app| app.shown_frame().as_ref().is_some_and(|frame| frame.width == 96));
     (window, path, text)
 }
 
@@ -85,24 +85,24 @@ fn saving_a_scene_with_an_error_says_that_it_cannot_be_opened() {
 fn the_view_of_the_window_is_saved_when_the_scene_is_given_it() {
     let folder = tempfile::tempdir().expect("a folder");
     let (mut window, path, text) = window_of_copy(folder.path());
-    window.state_mut().session.camera.resolution = [720, 720];
-    window.state_mut().session.camera.eye.x = 0.5;
+    window.state_mut().camera_mut().resolution = [720, 720];
+    window.state_mut().camera_mut().eye.x = 0.5;
     window.run_steps(2);
     assert!(!window.state().has_unsaved_changes(), "a move of the camera changes no scene");
-    let moved = window.state().session.camera;
+    let moved = window.state().camera();
     window.state_mut().use_view();
     save(&mut window);
     let saved = std::fs::read_to_string(&path).expect("it is there");
     assert_eq!(saved, text.replace("eye = [0.0, 1.0, 4.0]", "eye = [0.5, 1.0, 4.0]"));
-    wait(&mut window, "the edit", |app| app.session.waiting_edit.is_none() && !app.background.worker.is_editing());
-    assert_eq!(window.state().session.camera, moved);
+    wait(&mut window, "the edit", |app| app.session.waiting_edit.is_none() && !app.worker().is_editing());
+    assert_eq!(window.state().camera(), moved);
 }
 
 #[test]
 fn a_scene_without_a_file_asks_where_to_save() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = open(None);
-    wait(&mut window, "the scene", |app| app.session.opened.is_some());
+    wait(&mut window, "the scene", |app| app.opened().is_some());
     grow(&mut window);
     save(&mut window);
     assert!(window.state().dialogs.save.is_some());
@@ -145,9 +145,9 @@ fn another_scene_is_opened_after_a_question_if_changes_are_unsaved() {
         assert!(window.state().dialogs.unsaved.is_none());
     };
     asks(&mut window, "Cancel");
-    assert!(!window.state().background.loader.is_busy() && window.state().has_unsaved_changes());
+    assert!(!window.state().loader().is_busy() && window.state().has_unsaved_changes());
     asks(&mut window, "Discard changes");
-    let is_furnace = |app: &App| app.session.opened.as_ref().is_some_and(|opened| opened.name == "Furnace");
+    let is_furnace = |app: &App| app.opened().as_ref().is_some_and(|opened| opened.name == "Furnace");
     wait(&mut window, "the other scene", is_furnace);
     assert_eq!(std::fs::read_to_string(&path).expect("it is there"), text);
     window.state_mut().ask_to_leave(Leaving::Open(Some(path.clone())));
@@ -195,7 +195,7 @@ fn a_new_scene_begins_from_a_template() {
     click(&mut window, "Edit");
     click(&mut window, "New scene");
     click(&mut window, "Studio");
-    wait(&mut window, "the studio", |app| app.session.opened.as_ref().is_some_and(|opened| opened.name == "Studio"));
+    wait(&mut window, "the studio", |app| app.opened().as_ref().is_some_and(|opened| opened.name == "Studio"));
     assert!(window.state().session.path().is_none() && !window.state().has_unsaved_changes());
 }
 
@@ -224,7 +224,7 @@ fn a_new_scene_is_saved_under_its_title() {
     click(&mut window, "Edit");
     click(&mut window, "New scene");
     click(&mut window, "Studio");
-    wait(&mut window, "the studio", |app| app.session.opened.as_ref().is_some_and(|opened| opened.name == "Studio"));
+    wait(&mut window, "the studio", |app| app.opened().as_ref().is_some_and(|opened| opened.name == "Studio"));
     window.key_press_modifiers(Modifiers::COMMAND, Key::S);
     window.run_steps(3);
     assert!(window.state().dialogs.save.as_ref().is_some_and(|dialog| dialog.path().ends_with("studio.toml")));
@@ -233,15 +233,15 @@ fn a_new_scene_is_saved_under_its_title() {
 #[test]
 fn saving_says_that_the_view_is_left_out_and_can_keep_it() {
     let mut window = window("cornell_spheres");
-    window.state_mut().session.camera.eye.y += 0.1;
-    let eye = window.state().session.camera.eye;
+    window.state_mut().camera_mut().eye.y += 0.1;
+    let eye = window.state().camera().eye;
     window.run_steps(2);
     let at = seen(&mut window, ball());
     window.state_mut().ask_where_to_save();
     window.run_steps(3);
     // The dialog has the mouse too.
     click_at(&mut window, at);
-    assert_eq!(window.state().selection.subject, None);
+    assert_eq!(window.state().selected(), None);
     check_box(&mut window, "Save this view as the scene's camera");
     window.state_mut().keep_view();
     assert_eq!(description(&window).camera.eye, eye);

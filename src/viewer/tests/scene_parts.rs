@@ -36,7 +36,7 @@ fn parts_are_added_duplicated_renamed_assigned_and_deleted() {
     window.state_mut().act_on(Subject::Background, Action::AddBackground);
     assert!(description(&window).background.is_some());
     window.state_mut().act_on(ball(), Action::Delete);
-    assert_eq!((description(&window).objects.len(), window.state().selection.subject.clone()), (10, None));
+    assert_eq!((description(&window).objects.len(), window.state().selected().clone()), (10, None));
     edits(&mut window, "the picture of all of it", |w| w.run_steps(2));
     (0..9).for_each(|_| undo(&mut window));
     assert!(bits(&window).is_identical(&start));
@@ -60,9 +60,9 @@ fn lamps_without_surface_are_parts_like_others() {
     let mut window = window("cornell_spheres");
     let start = bits(&window);
     window.state_mut().add(New::LampWithoutSurface("spot"));
-    assert_eq!(window.state().selection.subject, Some(Subject::Lamp(0)), "what is new is selected");
+    assert_eq!(window.state().selected(), Some(Subject::Lamp(0)), "what is new is selected");
     window.state_mut().act_on(Subject::Lamp(0), Action::Duplicate);
-    assert_eq!(window.state().selection.subject, Some(Subject::Lamp(1)));
+    assert_eq!(window.state().selected(), Some(Subject::Lamp(1)));
     window.state_mut().act_on(Subject::Lamp(1), Action::Rename("stage".to_owned()));
     window.state_mut().act_on(Subject::Lamp(1), Action::ChangeKind("point"));
     let lamps = description(&window).lamps.clone();
@@ -72,7 +72,7 @@ fn lamps_without_surface_are_parts_like_others() {
     );
     edits(&mut window, "the picture of both", |w| w.run_steps(2));
     window.state_mut().act_on(Subject::Lamp(1), Action::Delete);
-    assert_eq!((description(&window).lamps.len(), window.state().selection.subject.clone()), (1, None));
+    assert_eq!((description(&window).lamps.len(), window.state().selected().clone()), (1, None));
     (0..5).for_each(|_| undo(&mut window));
     assert!(bits(&window).is_identical(&start));
 }
@@ -85,24 +85,24 @@ fn the_menu_adds_what_it_says() {
         entries.iter().for_each(|entry| click(&mut window, entry));
     }
     assert!(description(&window).materials.contains_key("material"));
-    assert_eq!(window.state().selection.subject, Some(Subject::Texture("texture".to_owned())));
+    assert_eq!(window.state().selected(), Some(Subject::Texture("texture".to_owned())));
 }
 
 #[test]
 fn keys_duplicate_and_delete_the_selected_object() {
     let mut window = window("cornell_spheres");
-    let (count, camera) = (description(&window).objects.len(), window.state().session.camera);
+    let (count, camera) = (description(&window).objects.len(), window.state().camera());
     for delete in [Key::Delete, Key::X] {
         window.state_mut().selection.select(Some(Subject::Object(AMBER_BALL)));
         window.key_press_modifiers(Modifiers::SHIFT, Key::D);
         window.run_steps(3);
         assert_eq!(description(&window).objects.len(), count + 1);
         press(&mut window, delete);
-        assert_eq!((description(&window).objects.len(), window.state().selection.subject.clone()), (count, None));
+        assert_eq!((description(&window).objects.len(), window.state().selected().clone()), (count, None));
         press(&mut window, delete);
         assert_eq!(description(&window).objects.len(), count, "nothing is selected");
     }
-    assert_eq!(window.state().session.camera, camera, "the key does not fly");
+    assert_eq!(window.state().camera(), camera, "the key does not fly");
     (0..4).for_each(|_| undo(&mut window));
     assert!(!window.state().has_unsaved_changes());
 }
@@ -128,11 +128,11 @@ fn the_icon_of_a_lamp_selects_it_on_the_page_of_the_scene() {
     let position = description(&window).lamps[0].position().expect("it stands somewhere");
     let at = seen(&mut window, position);
     for (page, selected) in [(PanelTab::Render, false), (PanelTab::Edit, true)] {
-        window.state_mut().window.panel = page;
+        *window.state_mut().panel_mut() = page;
         window.state_mut().selection.select(None);
         window.run_steps(2);
         click_at(&mut window, at);
-        assert_eq!(window.state().selection.subject == Some(Subject::Lamp(0)), selected, "{page:?}");
+        assert_eq!(window.state().selected() == Some(Subject::Lamp(0)), selected, "{page:?}");
     }
 }
 
@@ -155,13 +155,13 @@ fn a_material_names_the_objects_that_use_it_and_they_are_a_click_away() {
 fn shift_a_opens_the_menu_that_adds_and_letters_do_not_fly_over_a_selection() {
     let mut window = window("cornell_spheres");
     select(&mut window, Subject::Object(AMBER_BALL));
-    let camera = window.state().session.camera;
+    let camera = window.state().camera();
     window.hover_at(Pos2::new(430.0, 430.0));
     window.run_steps(2);
     [Key::A, Key::W, Key::E].into_iter().for_each(|key| press(&mut window, key));
     window.key_press_modifiers(Modifiers::SHIFT, Key::A);
     window.run_steps(3);
-    assert_eq!(window.state().session.camera, camera, "no key flies");
+    assert_eq!(window.state().camera(), camera, "no key flies");
     window.get_by_role_and_label(Role::Button, "Material").click();
     window.run_steps(3);
     assert!(description(&window).materials.contains_key("material"));

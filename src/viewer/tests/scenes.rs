@@ -13,9 +13,9 @@ fn changed(folder: &tempfile::TempDir, scene: &str, this: &str, that: &str) -> P
 
 fn opened(path: PathBuf) -> Window {
     let mut window = open(Some(path));
-    wait(&mut window, "the scene", |app| app.session.opened.is_some());
-    window.state_mut().session.camera.resolution = [48, 32];
-    wait(&mut window, "a picture", |app| app.results.shown.as_ref().is_some_and(|frame| frame.width == 48));
+    wait(&mut window, "the scene", |app| app.opened().is_some());
+    window.state_mut().camera_mut().resolution = [48, 32];
+    wait(&mut window, "a picture", |app| app.shown_frame().as_ref().is_some_and(|frame| frame.width == 48));
     window
 }
 
@@ -24,7 +24,7 @@ fn a_long_name_of_an_object_does_not_widen_the_panel() {
     let folder = tempfile::tempdir().expect("a folder");
     let name = "a wall with a name that is far longer than any panel of a window could ever be wide";
     let mut window = opened(changed(&folder, "furnace", "name = \"wall\"", &format!("name = \"{name}\"")));
-    window.state_mut().window.panel = PanelTab::Edit;
+    *window.state_mut().panel_mut() = PanelTab::Edit;
     window.state_mut().selection.select(Some(Subject::Object(0)));
     window.run_steps(3);
     let rights = ["a wall with a name that is far longer", "Rename", "Material"].map(|text| {
@@ -38,7 +38,7 @@ fn a_long_name_of_an_object_does_not_widen_the_panel() {
 #[test]
 fn a_black_picture_is_told_with_its_likely_cause() {
     let mut window = opened(shipped("inside_lit_outside"));
-    wait(&mut window, "samples", |app| app.results.status.spp >= 2 && app.results.black);
+    wait(&mut window, "samples", |app| app.status().spp >= 2 && app.results.black);
     window.run_steps(2);
     assert!(window.query_by_label("no light found yet").is_some() && window.query_by_label_contains("noise").is_none());
     assert!(window.query_by_label("The camera is inside “wall”.").is_some());
@@ -53,15 +53,15 @@ fn a_true_picture_of_another_size_is_told() {
     let mut first = opened(shipped("furnace"));
     wait(&mut first, "a full picture", App::can_save);
     first.state_mut().save_to(folder.path().join("true.exr"));
-    wait(&mut first, "the file", |app| app.window.last_saved.is_some());
+    wait(&mut first, "the file", |app| app.last_saved().is_some());
     let text = std::fs::read_to_string(shipped("furnace")).expect("it is shipped");
     let truth = text.find("[truth]").expect("it has one");
     let path = folder.path().join("scene.toml");
     std::fs::write(&path, format!("{}[truth]\nimage = \"true.exr\"\n", &text[..truth])).expect("it is written");
     let mut window = opened(path);
-    wait(&mut window, "the true error", |app| app.results.comparison.is_some());
-    window.state_mut().session.camera.resolution = [40, 32];
-    wait(&mut window, "another size", |app| app.results.shown.as_ref().is_some_and(|frame| frame.width == 40));
+    wait(&mut window, "the true error", |app| app.measured_error().is_some());
+    window.state_mut().camera_mut().resolution = [40, 32];
+    wait(&mut window, "another size", |app| app.shown_frame().as_ref().is_some_and(|frame| frame.width == 40));
     window.run_steps(2);
     assert!(window.query_by_label("true error unknown").is_some());
 }
@@ -69,16 +69,16 @@ fn a_true_picture_of_another_size_is_told() {
 #[test]
 fn a_camera_that_cannot_be_leaves_the_last_picture_as_it_is() {
     let mut window = window("cornell_spheres");
-    let shape = |window: &Window| window.state().window.view.drawn_zoom;
+    let shape = |window: &Window| window.state().picture_view().drawn_zoom;
     let before = shape(&window);
     never_restarts(&mut window, |w| {
-        let camera = &mut w.state_mut().session.camera;
+        let camera = &mut w.state_mut().camera_mut();
         (camera.resolution, camera.look_at) = ([64, 640], camera.eye);
     });
     assert_eq!(shape(&window), before);
     assert!(window.query_by_label("Invalid settings").is_some() && window.query_by_label("unbiased").is_none());
     never_restarts(&mut window, |w| {
-        let camera = &mut w.state_mut().session.camera;
+        let camera = &mut w.state_mut().camera_mut();
         (camera.look_at, camera.up) = (DVec3::ZERO, DVec3::ZERO);
     });
     assert!(window.query_by_label_contains("“up” is zero").is_some());
@@ -99,10 +99,10 @@ fn the_list_marks_the_open_scene_however_it_was_named_and_knows_those_from_elsew
     window.key_press(Key::Escape);
     window.run_steps(3);
     let path = changed(&folder, "furnace", "title = \"Furnace\"", "title = \"A furnace of mine\"");
-    window.state_mut().session.look.display.exposure = 3.0;
-    window.state_mut().background.loader.open(Some(path));
-    wait(&mut window, "my scene", |app| app.session.opened.as_ref().is_some_and(|opened| opened.name == "A furnace of mine"));
-    assert_eq!(window.state().session.look.display.exposure, 0.0, "what suited the other scene");
+    window.state_mut().look_mut().display.exposure = 3.0;
+    window.state_mut().loader_mut().open(Some(path));
+    wait(&mut window, "my scene", |app| app.opened().as_ref().is_some_and(|opened| opened.name == "A furnace of mine"));
+    assert_eq!(window.state().look().display.exposure, 0.0, "what suited the other scene");
     assert!(window.state().catalogue.iter().any(|entry| entry.name == "A furnace of mine"));
 }
 

@@ -13,9 +13,9 @@ pub fn seen(window: &mut Window, p: DVec3) -> Pos2 {
     let at = Pos2::new(430.0, 430.0);
     window.hover_at(at);
     window.run_steps(2);
-    let hovered = window.state().window.hovered.expect("it is over the picture");
-    let pixel = project(&window.state().session.camera, p).expect("it is in front");
-    let zoom = window.state().window.view.drawn_zoom;
+    let hovered = window.state().hovered().expect("it is over the picture");
+    let pixel = project(&window.state().camera(), p).expect("it is in front");
+    let zoom = window.state().picture_view().drawn_zoom;
     at + vec2(pixel[0] - hovered[0] as f32, pixel[1] - hovered[1] as f32) * zoom
 }
 
@@ -30,11 +30,11 @@ fn meshes(window: &Window) -> usize {
 #[test]
 fn a_click_selects_an_object_and_outlines_it_without_a_restart() {
     let mut window = window("cornell_spheres");
-    window.state_mut().window.panel = PanelTab::Edit;
+    *window.state_mut().panel_mut() = PanelTab::Edit;
     window.run_steps(2);
     let at = seen(&mut window, ball());
-    let camera = window.state().session.camera;
-    let scene = window.state().session.opened.as_ref().expect("it is open").scene.clone();
+    let camera = window.state().camera();
+    let scene = window.state().opened().as_ref().expect("it is open").scene.clone();
     assert!(!window.state().background.features.has(&scene, &camera), "nothing is looked at while nothing is selected");
     let before = meshes(&window);
     never_restarts(&mut window, |w| click_at(w, at));
@@ -54,15 +54,15 @@ fn a_click_selects_an_object_and_outlines_it_without_a_restart() {
 #[test]
 fn the_camera_looks_at_the_selected_object_unless_it_is_larger_than_the_scene() {
     let mut window = window("cornell_spheres");
-    let direction = window.state().session.camera.axes()[2];
-    window.state_mut().selection.subject = Some(Subject::Object(AMBER_BALL));
+    let direction = window.state().camera().axes()[2];
+    *window.state_mut().selected_mut() = Some(Subject::Object(AMBER_BALL));
     restarts(&mut window, "a look at the ball", |w| {
         w.key_press(Key::L);
         w.run_steps(3);
     });
-    let camera = window.state().session.camera;
+    let camera = window.state().camera();
     assert!(camera.look_at.distance(ball()) < 1e-9 && camera.axes()[2].distance(direction) < 1e-9);
-    window.state_mut().selection.subject = Some(Subject::Object(LEFT_WALL));
+    *window.state_mut().selected_mut() = Some(Subject::Object(LEFT_WALL));
     never_restarts(&mut window, |w| {
         w.key_press(Key::L);
         w.run_steps(3);
@@ -73,18 +73,18 @@ fn the_camera_looks_at_the_selected_object_unless_it_is_larger_than_the_scene() 
 #[test]
 fn escape_gives_the_selection_up_before_the_region_and_another_scene_has_none() {
     let mut window = window("cornell_spheres");
-    let select = |window: &mut Window| window.state_mut().selection.subject = Some(Subject::Object(AMBER_BALL));
+    let select = |window: &mut Window| *window.state_mut().selected_mut() = Some(Subject::Object(AMBER_BALL));
     select(&mut window);
-    window.state_mut().session.budget.region = Some(Region::between([1, 1], [20, 20]));
+    window.state_mut().budget_mut().region = Some(Region::between([1, 1], [20, 20]));
     for left in [(false, true), (false, false)] {
         window.key_press(Key::Escape);
         window.run_steps(3);
         let app = window.state();
-        assert_eq!((app.selection.subject.is_some(), app.session.budget.region.is_some()), left);
+        assert_eq!((app.selected().is_some(), app.budget().region.is_some()), left);
     }
     select(&mut window);
-    window.state_mut().background.loader.open(Some(shipped("furnace")));
-    wait(&mut window, "the other scene", |app| app.selection.subject.is_none());
+    window.state_mut().loader_mut().open(Some(shipped("furnace")));
+    wait(&mut window, "the other scene", |app| app.selected().is_none());
 }
 
 #[test]

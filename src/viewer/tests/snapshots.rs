@@ -11,18 +11,18 @@ const STATUS_BAR: u32 = 34;
 fn at_rest(scene: &str, spp: u32, change: impl FnOnce(&mut App)) -> Window {
     let builder = Harness::builder().with_size(vec2(1280.0, 800.0)).renderer(Rasteriser::default());
     let mut window = builder.build_ui_state(drawing(Some(shipped(scene)), |_| {}), Lazy(None));
-    wait(&mut window, "the scene", |app| app.session.opened.is_some());
+    wait(&mut window, "the scene", |app| app.opened().is_some());
     let app = window.state_mut();
-    app.session.camera.resolution = [60, 60];
-    app.session.budget.max_spp = Some(spp);
+    app.camera_mut().resolution = [60, 60];
+    app.budget_mut().max_spp = Some(spp);
     change(app);
     wait(&mut window, "the picture", |app| {
-        let shown = app.results.shown.as_ref().is_some_and(|frame| frame.spp == spp && frame.width == 60);
-        let beside = app.second_view().is_none() || app.results.second_frame.as_ref().is_some_and(|frame| frame.spp == spp);
+        let shown = app.shown_frame().as_ref().is_some_and(|frame| frame.spp == spp && frame.width == 60);
+        let beside = app.second_view().is_none() || app.second_frame().as_ref().is_some_and(|frame| frame.spp == spp);
         shown
             && beside
-            && (app.instruments.path.pixel.is_none()
-                || app.instruments.path.histogram().is_some_and(|histogram| histogram.samples.len() == spp as usize))
+            && (app.path_inspector().pixel.is_none()
+                || app.path_inspector().histogram().is_some_and(|histogram| histogram.samples.len() == spp as usize))
     });
     // What is on its way arrives.
     for _ in 0..30 {
@@ -58,6 +58,6 @@ fn the_instruments_look_as_they_did() {
         app.instruments.path.look_at([38, 45]);
     };
     compare(&mut at_rest("glass_and_mirror", 16, inspected), "pixel");
-    let scored = |app: &mut App| app.session.look.view = noisefall_render::render::view::View::ZScore;
+    let scored = |app: &mut App| app.look_mut().view = noisefall_render::render::view::View::ZScore;
     compare(&mut at_rest("furnace", 64, scored), "z_score");
 }

@@ -81,7 +81,7 @@ fn event(window: &mut Window, random: &mut SmallRng, at: &mut Pos2) {
 /// Takes back what no machine could stand, or what a test must not do: huge pictures, slow scenes, dialogs of the system.
 fn tame(window: &mut Window) {
     let app = window.state_mut();
-    for side in &mut app.session.camera.resolution {
+    for side in &mut app.camera_mut().resolution {
         *side = (*side).min(160);
     }
     (app.dialogs.save, app.dialogs.open, app.background.adviser) = (None, None, None);
@@ -123,9 +123,9 @@ fn soak() {
         tame(&mut window);
         if number % 500 == 499 {
             // The scene may have become another one.
-            window.state_mut().background.loader.open(Some(shipped("cornell_spheres")));
-            wait(&mut window, "the scene", |app| !app.background.loader.is_busy());
-            window.state_mut().session.camera.resolution = [96, 64];
+            window.state_mut().loader_mut().open(Some(shipped("cornell_spheres")));
+            wait(&mut window, "the scene", |app| !app.loader().is_busy());
+            window.state_mut().camera_mut().resolution = [96, 64];
         }
         if number % 1000 == 700 {
             // Whatever the controls say by now, the window comes to show it.
@@ -135,9 +135,9 @@ fn soak() {
                     .background
                     .worker
                     .request()
-                    .is_some_and(|request| request.settings == app.session.settings && request.camera == app.session.camera);
-                let fits = asked || app.session.camera.check().is_err();
-                fits && app.results.shown.as_ref().is_some_and(|frame| frame.generation == app.background.worker.generation())
+                    .is_some_and(|request| request.settings == app.settings() && request.camera == app.camera());
+                let fits = asked || app.camera().check().is_err();
+                fits && app.shown_frame().as_ref().is_some_and(|frame| frame.generation == app.worker().generation())
             });
         }
         if number == WARM {
@@ -148,8 +148,8 @@ fn soak() {
     println!("memory: {} kB after {WARM} events, {} kB after {EVENTS}", warm / 1000, end / 1000);
     assert!(end < warm + warm / 20, "memory grew from {warm} to {end} bytes");
     let app = window.state();
-    let shown = app.results.shown.as_ref().expect("there is a picture");
-    assert_eq!(shown.generation, app.background.worker.generation(), "a stale frame is shown");
+    let shown = app.shown_frame().as_ref().expect("there is a picture");
+    assert_eq!(shown.generation, app.worker().generation(), "a stale frame is shown");
 }
 
 /// The fewest bytes in use, besides the texture of letters, while the picture of the scene as it opens is at rest: until there are as few as this,
@@ -158,20 +158,20 @@ fn settled_memory(window: &mut Window, enough: usize) -> usize {
     const PATIENCE: Duration = Duration::from_secs(5);
     window.event(egui::Event::PointerGone);
     // What camera rays meet is kept for as long as the scene is.
-    window.state_mut().session.look = DisplaySettings::default();
-    window.state_mut().background.loader.open(Some(shipped("cornell_spheres")));
-    wait(window, "the scene", |app| !app.background.loader.is_busy());
+    *window.state_mut().look_mut() = DisplaySettings::default();
+    window.state_mut().loader_mut().open(Some(shipped("cornell_spheres")));
+    wait(window, "the scene", |app| !app.loader().is_busy());
     // Threads have buffers that are as large as they were needed once: new threads, new buffers.
     for threads in [2, 1] {
         window.state_mut().session.threads = threads;
-        wait(window, "threads", |app| app.background.worker.threads() == threads);
+        wait(window, "threads", |app| app.worker().threads() == threads);
     }
     let app = window.state_mut();
     // At rest there is one frame, and not one more for each that is on its way.
     let budget = noisefall_render::render::Budget { max_spp: Some(8), ..Default::default() };
     (app.session.budget, app.window.tab, app.session.comparison) = (budget, None, None);
     wait(window, "the picture", |app| {
-        app.results.shown.as_ref().is_some_and(|frame| frame.generation == app.background.worker.generation() && frame.spp == 8)
+        app.shown_frame().as_ref().is_some_and(|frame| frame.generation == app.worker().generation() && frame.spp == 8)
     });
     let (start, mut least) = (Instant::now(), usize::MAX);
     while start.elapsed() < PATIENCE && least > enough {

@@ -45,17 +45,17 @@ fn rows_of_the_panel_stay_where_they_are() {
     let before = rows(&window);
     type Change = fn(&mut App);
     let changes: [(&str, Change); 11] = [
-        ("a comparison", |app| app.start_comparison(RenderSettings { seed: 3, ..app.session.settings })),
-        ("a fixed roulette", |app| app.session.settings.roulette = Roulette::fixed(0.5)),
-        ("no roulette", |app| app.session.settings.roulette = Roulette::Off),
-        ("no sharing", |app| app.session.settings.reuse = Reuse::Off),
-        ("paths from both ends", |app| app.session.settings.estimator = Estimator::Bidirectional),
-        ("an estimator by trial", |app| app.session.settings.estimator = Estimator::Auto),
-        ("a cap", |app| app.session.settings.max_bounces = Some(3)),
-        ("a lens", |app| app.session.camera.lens = Some(Lens { radius: 0.1, focus: 3.0 })),
-        ("a parallel projection", |app| app.session.camera.projection = Projection::orthographic(3.0)),
-        ("a camera that cannot be", |app| app.session.camera.up = DVec3::ZERO),
-        ("a region", |app| app.session.budget.region = Some(noisefall_render::render::Region::between([1, 1], [20, 20]))),
+        ("a comparison", |app| app.start_comparison(RenderSettings { seed: 3, ..app.settings() })),
+        ("a fixed roulette", |app| app.settings_mut().roulette = Roulette::fixed(0.5)),
+        ("no roulette", |app| app.settings_mut().roulette = Roulette::Off),
+        ("no sharing", |app| app.settings_mut().reuse = Reuse::Off),
+        ("paths from both ends", |app| app.settings_mut().estimator = Estimator::Bidirectional),
+        ("an estimator by trial", |app| app.settings_mut().estimator = Estimator::Auto),
+        ("a cap", |app| app.settings_mut().max_bounces = Some(3)),
+        ("a lens", |app| app.camera_mut().lens = Some(Lens { radius: 0.1, focus: 3.0 })),
+        ("a parallel projection", |app| app.camera_mut().projection = Projection::orthographic(3.0)),
+        ("a camera that cannot be", |app| app.camera_mut().up = DVec3::ZERO),
+        ("a region", |app| app.budget_mut().region = Some(noisefall_render::render::Region::between([1, 1], [20, 20]))),
     ];
     for (what, change) in changes {
         change(window.state_mut());
@@ -69,19 +69,19 @@ fn rows_of_the_panel_stay_where_they_are() {
 #[test]
 fn the_ideal_line_follows_the_curve_that_grows() {
     let mut window = window("cornell_spheres");
-    window.state_mut().window.tab = Some(InstrumentTab::Convergence);
+    *window.state_mut().tab_mut() = Some(InstrumentTab::Convergence);
     let sampled = |window: &mut Window, seed: u32| {
-        window.state_mut().session.settings.seed = seed;
+        window.state_mut().settings_mut().seed = seed;
         wait(window, "its curve", |app| {
-            let curve = app.instruments.history.curves.iter().find(|curve| curve.settings.seed == seed);
+            let curve = app.curves().curves.iter().find(|curve| curve.settings.seed == seed);
             let is_long = |curve: &&Curve| curve.moments.iter().filter(|moment| moment.noise.is_some()).count() >= 3;
-            let is_shown = app.instruments.history.current.is_some_and(|settings| settings.seed == seed);
+            let is_shown = app.curves().current.is_some_and(|settings| settings.seed == seed);
             curve.filter(is_long).is_some() && is_shown
         });
     };
     for seed in [0, 1, 0, 1] {
         sampled(&mut window, seed);
-        let history = &window.state().instruments.history;
+        let history = &window.state().curves();
         let curve = history.curves.iter().find(|curve| curve.settings.seed == seed).expect("it is there");
         let (x, y) = *curve.errors(history.over, |moment| moment.noise).last().expect("it has figures");
         let [(from, high), (to, low)] = history.guide()[..] else { panic!("it has two ends") };
@@ -94,7 +94,7 @@ fn the_ideal_line_follows_the_curve_that_grows() {
 #[test]
 fn the_number_under_the_pointer_is_that_of_the_view_and_has_its_unit() {
     let mut window = window("furnace");
-    wait(&mut window, "samples", |app| app.results.status.spp >= 4);
+    wait(&mut window, "samples", |app| app.status().spp >= 4);
     click(&mut window, "Pin this");
     window.hover_at(Pos2::new(472.0, 600.0));
     for (view, says, unit) in [
@@ -109,7 +109,7 @@ fn the_number_under_the_pointer_is_that_of_the_view_and_has_its_unit() {
         (Shown::Materials, "Material ", ""),
         (Shown::Radiance, "RGB ", "W·sr⁻¹·m⁻²"),
     ] {
-        window.state_mut().session.look.view = view;
+        window.state_mut().look_mut().view = view;
         let is_said = |window: &Window| {
             let labels = window.get_all_by_role(Role::Label);
             let mut texts = labels.filter_map(|label| label.accesskit_node().value());
@@ -127,9 +127,9 @@ fn the_number_under_the_pointer_is_that_of_the_view_and_has_its_unit() {
 #[test]
 fn the_number_over_side_b_is_that_of_the_view_too() {
     let mut window = window("cornell_spheres");
-    let other = RenderSettings { seed: 5, ..window.state().session.settings };
+    let other = RenderSettings { seed: 5, ..window.state().settings() };
     window.state_mut().start_comparison(other);
-    window.state_mut().session.look.view = Shown::SampleCount;
+    window.state_mut().look_mut().view = Shown::SampleCount;
     wait(&mut window, "both", |app| app.results.second_values.numbers.is_some() && app.results.textures[1].is_some());
     window.hover_at(Pos2::new(572.0, 400.0));
     window.run_steps(3);
@@ -140,7 +140,7 @@ fn the_number_over_side_b_is_that_of_the_view_too() {
 fn dense() -> Window {
     let builder = Harness::builder().with_size(vec2(640.0, 400.0)).with_pixels_per_point(2.0).renderer(Blind);
     let mut window = builder.build_ui_state(drawing(Some(shipped("furnace")), |_| {}), Lazy(None));
-    wait(&mut window, "a picture", |app| app.results.shown.is_some());
+    wait(&mut window, "a picture", |app| app.shown_frame().is_some());
     window
 }
 
@@ -182,9 +182,9 @@ fn escape_leaves_the_dialogs_of_paths_at_once() {
 #[test]
 fn every_figure_of_the_line_below_has_a_tooltip() {
     let mut window = window("furnace");
-    wait(&mut window, "figures", |app| app.results.status.spp >= 4 && app.results.comparison.is_some());
-    window.state_mut().session.budget.paused = true;
-    wait(&mut window, "rest", |app| app.results.status.state == State::Paused);
+    wait(&mut window, "figures", |app| app.status().spp >= 4 && app.measured_error().is_some());
+    window.state_mut().budget_mut().paused = true;
+    wait(&mut window, "rest", |app| app.status().state == State::Paused);
     window.run_steps(3);
     let labels = |window: &Window| {
         let labels = window.get_all_by_role(Role::Label);

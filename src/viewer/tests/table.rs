@@ -8,7 +8,7 @@ use crate::viewer::instruments::tabs::InstrumentTab;
 fn inspecting(scene: &str, reuse: Reuse, pixel: [u32; 2]) -> Window {
     let mut window = window(scene);
     let app = window.state_mut();
-    app.session.settings = RenderSettings { reuse, ..app.session.settings };
+    app.session.settings = RenderSettings { reuse, ..app.settings() };
     app.window.tab = Some(InstrumentTab::Path);
     app.instruments.path.look_at(pixel);
     show_sample(&mut window, 0);
@@ -16,10 +16,10 @@ fn inspecting(scene: &str, reuse: Reuse, pixel: [u32; 2]) -> Window {
 }
 
 fn show_sample(window: &mut Window, sample: u32) {
-    window.state_mut().instruments.path.sample = sample;
+    window.state_mut().path_inspector_mut().sample = sample;
     wait(window, "its path", |app| {
-        let is_asked = app.background.worker.request().is_some_and(|request| request.settings == app.session.settings);
-        is_asked && app.instruments.path.replay().is_some_and(|(number, _)| number == sample)
+        let is_asked = app.worker().request().is_some_and(|request| request.settings == app.settings());
+        is_asked && app.path_inspector().replay().is_some_and(|(number, _)| number == sample)
     });
     window.run_steps(3);
 }
@@ -98,13 +98,13 @@ fn a_channel_is_chosen() {
         labels.into_iter().rfind(|(_, rect)| (rect.left() - left).abs() < 0.5).expect("the sum").0
     };
     let brightest = {
-        wait(&mut window, "samples", |app| app.instruments.path.histogram().is_some());
-        window.state().instruments.path.histogram().expect("they are there").brightest
+        wait(&mut window, "samples", |app| app.path_inspector().histogram().is_some());
+        window.state().path_inspector().histogram().expect("they are there").brightest
     };
     show_sample(&mut window, brightest);
     for (channel, label) in ["Red", "Green", "Blue"].into_iter().enumerate() {
         click(&mut window, label);
-        let (_, replay) = window.state().instruments.path.replay().expect("it is there");
+        let (_, replay) = window.state().path_inspector().replay().expect("it is there");
         let exact = f64::from(replay.radiance[channel]);
         let shown: f64 = sum(&window).parse().expect("a number");
         assert!((shown - exact).abs() <= 0.001 + 0.05 * exact, "{label}: {shown} {exact}");

@@ -43,14 +43,14 @@ fn no_event_without_an_edit_restarts_any_shipped_scene() {
             std::fs::write(file, bytes).expect("it is written");
         }
         let mut window = open(Some(path.clone()));
-        wait(&mut window, scene.name, |app| app.session.opened.is_some());
+        wait(&mut window, scene.name, |app| app.opened().is_some());
         let session = &mut window.state_mut().session;
         (session.camera.resolution, session.budget) = ([32, 20], Budget { max_spp: Some(1), ..Budget::default() });
-        wait(&mut window, scene.name, |app| app.results.shown.as_ref().is_some_and(|frame| frame.width == 32));
+        wait(&mut window, scene.name, |app| app.shown_frame().as_ref().is_some_and(|frame| frame.width == 32));
         window.run_steps(2);
-        let camera = window.state().session.camera;
+        let camera = window.state().camera();
         never_restarts(&mut window, use_all_tools);
-        assert_eq!(window.state().session.camera, camera, "{}", scene.name);
+        assert_eq!(window.state().camera(), camera, "{}", scene.name);
         never_restarts(&mut window, |w| {
             w.state_mut().save_scene_to(&path);
             wait(w, scene.name, |app| app.saving.is_none());

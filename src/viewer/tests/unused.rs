@@ -12,7 +12,7 @@ use crate::viewer::panels::outliner::{Action, New};
 
 /// Whether no edit is on its way.
 fn is_settled(app: &App) -> bool {
-    !app.background.worker.is_editing() && app.session.waiting_edit.is_none()
+    !app.worker().is_editing() && app.session.waiting_edit.is_none()
 }
 
 /// Changes what no image shows and waits until it is compiled.
@@ -38,7 +38,7 @@ fn a_material_that_nothing_uses_is_added_edited_and_deleted_without_a_restart() 
     keeps_samples(&mut window, |w| w.state_mut().act_on(Subject::Material("material".to_owned()), Action::Delete));
     assert!(!description(&window).materials.contains_key("material"));
     // The scene that renders is the edited one all the same.
-    let opened = window.state().session.opened.as_ref().expect("it is open");
+    let opened = window.state().opened().as_ref().expect("it is open");
     assert!(opened.scene.source.contains("checker"));
 }
 

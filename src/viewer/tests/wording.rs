@@ -36,10 +36,10 @@ fn the_last_step_says_what_it_did_to_what() {
     assert_eq!(last_step(&window), "addition of sphere");
     window.state_mut().act_on(Subject::Object(AMBER_BALL), Action::Delete);
     assert_eq!(last_step(&window), "removal of amber ball");
-    window.state_mut().session.settings.seed = 9;
+    window.state_mut().settings_mut().seed = 9;
     window.run_steps(3);
     assert_eq!(last_step(&window), "change of seed");
-    window.state_mut().session.settings.sampler = Sampler::Stratified;
+    window.state_mut().settings_mut().sampler = Sampler::Stratified;
     window.run_steps(3);
     assert_eq!(last_step(&window), "change of sampler");
 }

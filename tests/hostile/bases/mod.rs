@@ -37,7 +37,7 @@ pub enum Reader {
     /// A file of samples.
     Samples,
     /// An image that carries its scene.
-    Carried,
+    Embedded,
     /// A camera path.
     Cameras,
     /// The measurements of a study.

@@ -33,7 +33,7 @@ pub(super) fn spawn<L: Lanes>(l: L, work: &Work, batch: &mut Batch) {
         } else {
             work.rays.through(l, x, y)
         };
-        let (o, d) = if work.rays.move_in_time() { work.rays.carried(l, (o, d), work.time(l, slot)) } else { (o, d) };
+        let (o, d) = if work.rays.move_in_time() { work.rays.moved_by_camera(l, (o, d), work.time(l, slot)) } else { (o, d) };
         Path { o, d, throughput: V::splat(l, [1.0; 3]), slot }.push(inside, &mut batch.paths[0].paths);
         if work.has_media() {
             MediumStack { media: l.u(work.rays.media) }.push(inside, &mut batch.paths[0].media);

@@ -19,7 +19,7 @@ use serde_json::Value;
 use super::{denoise, frame::Frame};
 use noisefall_base::file::open_regular;
 use noisefall_kernel::measure::SampleNoise;
-use noisefall_scene::{image::carried_text, sampling::Sampler};
+use noisefall_scene::{image::embedded_text, sampling::Sampler};
 
 const CHANNELS: [&str; 4] = ["variance.R", "variance.G", "variance.B", "variance.block"];
 /// Key of the one attribute with all figures, in its own group of attributes. The order within a group is arbitrary, and the same
@@ -80,7 +80,7 @@ pub(super) fn add_figures(frame: &Frame, attributes: &mut ImageAttributes) {
 
 /// The metadata of an image file. All is unknown unless it is an EXR by this program, except whether it is denoised.
 pub fn provenance(path: &Path) -> Provenance {
-    let text = open_regular(path).ok().and_then(carried_text).unwrap_or_default();
+    let text = open_regular(path).ok().and_then(embedded_text).unwrap_or_default();
     let settings = serde_json::from_str::<Value>(&text).unwrap_or_default();
     Provenance { is_denoised: denoise::is_denoised(&settings), ..of_exr(path, &settings["settings"]).unwrap_or_default() }
 }

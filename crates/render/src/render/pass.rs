@@ -37,8 +37,8 @@ impl Threads {
         film.sharing = job.scene.sharing(job.rays, job.settings);
         let mut count = PassCount::default();
         loop {
-            let next = next_stop(film, spp);
-            count = count.merge(self.to_stop(job, film, next, interrupted));
+            let next = next_meeting(film, spp);
+            count = count.merge(self.to_meeting(job, film, next, interrupted));
             if next == spp || !film.tiles_in_focus().all(|tile| tile.spp >= next) {
                 return count;
             }
@@ -46,7 +46,7 @@ impl Threads {
     }
 
     /// Brings a film to `spp` samples per pixel, from doubling to doubling of the samples of its blocks.
-    fn to_stop(&self, job: PassJob, film: &mut Film, spp: u32, interrupted: &(dyn Fn() -> bool + Sync)) -> PassCount {
+    fn to_meeting(&self, job: PassJob, film: &mut Film, spp: u32, interrupted: &(dyn Fn() -> bool + Sync)) -> PassCount {
         // All tiles meet where their samples have doubled, for how far they have moved is seen over the whole picture.
         let mut count = PassCount::default();
         loop {
@@ -56,7 +56,7 @@ impl Threads {
                     return count;
                 }
             }
-            count = count.merge(self.to_next_doubling(job, film, spp, interrupted));
+            count = count.merge(self.sample_tiles(job, film, spp, interrupted));
             // After an interruption some blocks may be ahead. What is recorded of them waits until all have doubled.
             let is_there = film.tiles_in_focus().all(|tile| tile.has_reached(spp));
             let is_done = film.tiles_in_focus().all(|tile| tile.distance_to(spp) == 0);
@@ -68,7 +68,7 @@ impl Threads {
     }
 
     /// Brings a film to `spp` samples per pixel, or to the next power of two.
-    fn to_next_doubling(&self, job: PassJob, film: &mut Film, spp: u32, interrupted: &(dyn Fn() -> bool + Sync)) -> PassCount {
+    fn sample_tiles(&self, job: PassJob, film: &mut Film, spp: u32, interrupted: &(dyn Fn() -> bool + Sync)) -> PassCount {
         let resolution = film.resolution;
         let splats = film.splats.take();
         let mut tiles: Vec<&mut Tile> = film.tiles_in_focus().filter(|tile| tile.spp < spp).collect();
@@ -78,7 +78,7 @@ impl Threads {
             let tiles = tiles.into_par_iter().with_max_len(1);
             let sample = |tile: &mut Tile| {
                 let splats = splats.as_ref().map(|film| (film, job.rays.filter));
-                let count = self.sample_tile(job, resolution, &mut Towards { tile, spp, splats }, interrupted);
+                let count = self.sample_tile(job, resolution, &mut TileInPass { tile, spp, splats }, interrupted);
                 if tile.is_adaptive() {
                     tile.note_average(spp);
                 }
@@ -103,19 +103,19 @@ fn full(resolution: [u32; 2]) -> PassCount {
 }
 
 /// A tile of the film on its way to a number of samples per pixel, or to the next power of two.
-struct Towards<'a> {
+struct TileInPass<'a> {
     tile: &'a mut Tile,
     spp: u32,
     splats: Option<(&'a SplatFilm, Filter)>,
 }
 
-impl SampledTile for Towards<'_> {
+impl SampledTile for TileInPass<'_> {
     fn area(&self) -> Area {
         self.tile.area()
     }
 
     fn next(&self) -> Option<NextSamples> {
-        let Towards { tile, spp, .. } = self;
+        let TileInPass { tile, spp, .. } = self;
         let next = || {
             if tile.is_adaptive() { NextSamples::OfBlocks(Box::new(tile.missing(*spp))) } else { NextSamples::OfTile(tile.spp) }
         };
@@ -159,7 +159,7 @@ impl SampledTile for Towards<'_> {
 
 /// Where all blocks of an adaptive film meet on the way to `spp`: what is recorded of their noise depends on the samples that all have
 /// by then, which must not depend on how the way is cut into passes.
-fn next_stop(film: &mut Film, spp: u32) -> u32 {
+fn next_meeting(film: &mut Film, spp: u32) -> u32 {
     let least = film.tiles_in_focus().map(|tile| tile.spp).min().unwrap_or(spp);
     if film.is_adaptive() { least.saturating_add(1).checked_next_power_of_two().map_or(spp, |next| next.min(spp)) } else { spp }
 }

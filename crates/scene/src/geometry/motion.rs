@@ -24,7 +24,7 @@ impl Motion {
         (transform.point_to_world(o), transform.vector_to_world(d).normalized())
     }
 
-    /// The point at time 0 that is carried to `p`.
+    /// The point at time 0 that is moved to `p`.
     #[inline(always)]
     pub fn carry_back<L: Lanes>(&self, l: L, p: V<L>, time: F<L>) -> V<L> {
         LaneTransform::new(l, &StaticTransform::IDENTITY, &self.0, time).point_to_local(p)
@@ -34,10 +34,10 @@ impl Motion {
     #[inline(always)]
     pub fn carry_vector<L: Lanes>(&self, l: L, v: V<L>, time: F<L>) -> (V<L>, F<L>) {
         let transform = LaneTransform::new(l, &StaticTransform::IDENTITY, &self.0, time);
-        let carried = transform.vector_to_world(v);
+        let moved = transform.vector_to_world(v);
         let [a, b, c] = transform.axes;
-        let longer = (carried.length_squared() / v.length_squared()).sqrt();
-        (carried, longer / a.dot(b.cross(c)).abs())
+        let longer = (moved.length_squared() / v.length_squared()).sqrt();
+        (moved, longer / a.dot(b.cross(c)).abs())
     }
 
     /// Whether the transform is invertible at all times; tests many of them.

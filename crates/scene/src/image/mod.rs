@@ -9,8 +9,8 @@
 //! | PFM | `pfm.rs` | linear; grey or in three channels |
 //!
 //! Opacity (alpha) is linear in all formats. It is read on its own, by [`read_opacity_of`], and ignored otherwise.
-mod carried;
 mod decoded;
+mod embedded;
 mod exr;
 mod hdr;
 mod pfm;
@@ -23,7 +23,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-pub use self::carried::{SETTINGS_KEY, carried_text};
+pub use self::embedded::{SETTINGS_KEY, embedded_text};
 use noisefall_base::{
     declare::NamedFile,
     file::open_regular,

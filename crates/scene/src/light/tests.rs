@@ -1,10 +1,10 @@
 //! Light samples against their pdfs.
 use glam::DVec3;
-use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use super::{
     Background, Emission, Lamp, LightCoordinates, Lights, Lobe, ReferencePoint, Side, background::constant::ConstantRadiance,
 };
+use crate::chi_squared::chi_squared_with;
 use crate::{
     geometry::{MISS, Motion, Nearest, PrimitiveRef, Shape, Shapes},
     sampling::hash::hash_one,
@@ -94,8 +94,8 @@ fn directions_to_lights_are_distributed_as_their_pdf() {
             alone.iter().enumerate().map(lit).sum::<f64>() + f64::from(lights.pdf(One, &shapes, &at, d, &place(U(MISS))).0)
         };
         let cell = 2.0 / ACROSS as f64 * std::f64::consts::TAU / AROUND as f64 / (SUB * SUB) as f64;
-        let (mut statistic, mut bins, mut whole) = (0.0, 0.0, 0.0);
-        for (bin, count) in counts.iter().enumerate() {
+        let mut all = Vec::new();
+        for bin in 0..counts.len() {
             let mut expected = 0.0;
             for sub in 0..SUB * SUB {
                 let z = -1.0 + 2.0 * ((bin / AROUND) as f64 + ((sub / SUB) as f64 + 0.5) / SUB as f64) / ACROSS as f64;
@@ -104,20 +104,16 @@ fn directions_to_lights_are_distributed_as_their_pdf() {
                 let r = (1.0 - z * z).sqrt();
                 expected += density(vector(r * cos, r * sin, z)) * cell;
             }
-            whole += expected;
-            let expected = expected * f64::from(SAMPLES);
-            if expected > 8.0 {
-                // Edges of cones run through bins: the quadrature knows them to a part in its points along a side.
-                let quadrature = 0.01 * expected;
-                statistic += (count - expected).powi(2) / (expected + quadrature * quadrature);
-                bins += 1.0;
-            }
+            all.push(expected);
         }
+        let whole: f64 = all.iter().sum();
         // What faces away is chosen but has no directions: the pdf integrates to the probability that a sample exists.
         let exists = drawn / f64::from(SAMPLES);
         assert!((whole - exists).abs() < 4.0 * (exists * (1.0 - exists) / f64::from(SAMPLES)).sqrt() + 1e-3, "{whole} {exists}");
-        let p = 1.0 - ChiSquared::new(bins - 1.0).unwrap().cdf(statistic);
-        assert!(p > 1e-4, "transmits: {transmits}, p = {p}, {statistic} of {bins}");
+        all.iter_mut().for_each(|expected| *expected *= f64::from(SAMPLES));
+        // Edges of cones run through bins: the quadrature knows them to a part in its points along a side.
+        let p = chi_squared_with(&counts, &all, 0.01);
+        assert!(p > 1e-4, "transmits: {transmits}, p = {p}");
     }
 }
 

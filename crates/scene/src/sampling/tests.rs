@@ -1,7 +1,7 @@
 //! Samplers and warps: distributions against pdfs, strata, and coordinates that do not depend on the order of evaluation.
-use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use super::{Dimension, Directions, Sampler, Stream, warp};
+use crate::chi_squared::chi_squared;
 use noisefall_base::math::{F, One, U, colour};
 
 /// Every test statistic here must have at least this probability; seeds are fixed.
@@ -14,12 +14,6 @@ fn stream(sampler: Sampler, seed: u32, pixel: u32, index: u32) -> Stream<One> {
 fn point(sampler: Sampler, pixel: u32, index: u32, dimension: Dimension) -> [f64; 2] {
     let (x, y) = stream(sampler, 7, pixel, index).two(dimension);
     [x.0.into(), y.0.into()]
-}
-
-/// Probability of a chi² as large as that of counts against expectations.
-fn chi_squared(observed: &[f64], expected: &[f64]) -> f64 {
-    let statistic: f64 = observed.iter().zip(expected).map(|(o, e)| (o - e) * (o - e) / e).sum();
-    1.0 - ChiSquared::new(observed.len() as f64 - 1.0).unwrap().cdf(statistic)
 }
 
 #[test]

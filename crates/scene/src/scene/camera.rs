@@ -18,7 +18,7 @@ pub struct Camera {
     /// Field of view across the width of the image, degrees, of projections that have one.
     pub fov: f64,
     /// The projection.
-    #[serde(default, alias = "orthographic", deserialize_with = "Projection::carried")]
+    #[serde(default, alias = "orthographic", deserialize_with = "Projection::deserialize")]
     pub projection: Projection,
     /// How far the image plane is shifted to the right and up, in widths of the image.
     #[serde(default)]

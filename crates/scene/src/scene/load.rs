@@ -3,8 +3,8 @@ use std::{io::Read, path::Path};
 
 use super::{
     Scene,
-    carried::load_carried,
     diagnostic::{SceneError, SourceText},
+    embedded::load_embedded,
     parse::parse_watched,
     shipped::ShippedScene,
 };
@@ -25,8 +25,8 @@ pub fn load(path: &Path) -> Result<Scene, SceneError> {
 
 /// The same, with progress and cancellation.
 pub fn load_watched(path: &Path, progress: &Progress) -> Result<Scene, SceneError> {
-    if let Some(carried) = load_carried(path) {
-        return carried;
+    if let Some(embedded) = load_embedded(path) {
+        return embedded;
     }
     if let Some(shipped) = ShippedScene::of(path) {
         return shipped.load(progress);

@@ -138,7 +138,7 @@ impl CameraRays {
 
     /// Moves a ray of the camera from time 0 to `time`.
     #[inline(always)]
-    pub fn carried<L: Lanes>(&self, l: L, (o, d): (V<L>, V<L>), time: F<L>) -> (V<L>, V<L>) {
+    pub fn moved_by_camera<L: Lanes>(&self, l: L, (o, d): (V<L>, V<L>), time: F<L>) -> (V<L>, V<L>) {
         self.motion.carry(l, o, d, time)
     }
 

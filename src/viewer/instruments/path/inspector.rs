@@ -4,7 +4,7 @@ use noisefall_kernel::integrator::{Replay, pixel_samples, replay, seen_by_camera
 use noisefall_render::render::{RenderRequest, sharing::resolved};
 
 use super::{cells::Channel, histogram::Histogram};
-use crate::viewer::background::background_task::BackgroundTask;
+use crate::viewer::background::search::{self, Patience, Search};
 
 /// More samples do not change what a histogram looks like.
 const MOST_SAMPLES: u32 = 4096;
@@ -18,50 +18,14 @@ struct Question {
     number: u32,
 }
 
-impl Question {
-    /// Whether both are about the samples of the same pixel of the same picture.
+impl search::Question for Question {
+    fn is_same(&self, other: &Question) -> bool {
+        self == other
+    }
+
+    /// Both are about the samples of the same pixel of the same image.
     fn is_near(&self, other: &Question) -> bool {
         (&self.request, self.pixel) == (&other.request, other.pixel)
-    }
-}
-
-/// A background search, its last question and its last answer.
-struct Search<T> {
-    found: Option<(Question, T)>,
-    /// The last question.
-    asked: Option<Question>,
-    pending: Option<BackgroundTask<Option<T>>>,
-    /// The renderer failed at the last question.
-    failed: bool,
-}
-
-impl<T> Default for Search<T> {
-    fn default() -> Search<T> {
-        Search { found: None, asked: None, pending: None, failed: false }
-    }
-}
-
-impl<T: Send + 'static> Search<T> {
-    /// Receives an answer, and searches for that of a new question. Until then an answer near to it stays; a `patient` question also
-    /// waits for a running search that is near to it.
-    fn ask(
-        &mut self,
-        ctx: &egui::Context,
-        question: &Question,
-        patient: bool,
-        find: impl FnOnce(&Question, &dyn Fn() -> bool) -> Option<T> + Send + 'static,
-    ) {
-        if let (Some(result), Some(asked)) = (BackgroundTask::take(&mut self.pending), &self.asked) {
-            self.failed = result.is_err();
-            self.found = result.ok().flatten().map(|found| (asked.clone(), found));
-        }
-        self.found = self.found.take().filter(|(found, _)| found.is_near(question));
-        let waits = |asked: &Question| patient && self.pending.is_some() && asked.is_near(question);
-        if self.asked.as_ref().is_none_or(|asked| asked != question && !waits(asked)) {
-            (self.asked, self.failed) = (Some(question.clone()), false);
-            let question = question.clone();
-            self.pending = Some(BackgroundTask::start(ctx, move |cancelled| find(&question, cancelled)));
-        }
     }
 }
 
@@ -74,9 +38,9 @@ pub struct PathInspector {
     /// The channel that the table of terms shows.
     pub channel: Channel,
     /// With whether the camera sees each of its vertices.
-    replay: Search<(Replay, Vec<bool>)>,
+    replay: Search<Question, (Replay, Vec<bool>)>,
     /// With the radiance of the samples.
-    histogram: Search<(Histogram, Vec<[f32; 3]>)>,
+    histogram: Search<Question, (Histogram, Vec<[f32; 3]>)>,
 }
 
 impl PathInspector {
@@ -94,22 +58,22 @@ impl PathInspector {
 
     /// The path of the chosen sample; of the one before while that is traced. With the number of the sample.
     pub fn replay(&self) -> Option<(u32, &Replay)> {
-        self.replay.found.as_ref().map(|(question, (replay, _))| (question.number, replay))
+        self.replay.found().map(|(question, (replay, _))| (question.number, replay))
     }
 
     /// Whether the camera sees a vertex of that path.
     pub fn is_seen(&self, vertex: usize) -> bool {
-        self.replay.found.as_ref().is_some_and(|(_, (_, seen))| seen.get(vertex).copied().unwrap_or(false))
+        self.replay.found().is_some_and(|(_, (_, seen))| seen.get(vertex).copied().unwrap_or(false))
     }
 
     /// Of the first samples of the pixel.
     pub fn histogram(&self) -> Option<&Histogram> {
-        self.histogram.found.as_ref().map(|(_, (histogram, _))| histogram)
+        self.histogram.found().map(|(_, (histogram, _))| histogram)
     }
 
     /// The first samples of the pixel.
     pub fn samples(&self) -> Option<&[[f32; 3]]> {
-        self.histogram.found.as_ref().map(|(_, (_, samples))| samples.as_slice())
+        self.histogram.found().map(|(_, (_, samples))| samples.as_slice())
     }
 
     /// Receives finished results, and starts tasks for missing ones. The image has this many samples per pixel.
@@ -121,9 +85,11 @@ impl PathInspector {
             return;
         };
         let question = |number| Question { request: request.clone(), pixel, number };
-        self.replay.ask(&self.ctx, &question(self.sample), false, |question, _| Some(path_of(question)));
-        // While a picture grows it would never end to be asked for more samples.
-        self.histogram.ask(&self.ctx, &question(count_of(spp)), true, histogram_of);
+        let path = |question| move |_: &(dyn Fn() -> bool + Sync)| Some(path_of(&question));
+        self.replay.ask(&self.ctx, &question(self.sample), Patience::Cancels, path);
+        // The number of samples grows while they are traced.
+        let histogram = |question| move |cancelled: &(dyn Fn() -> bool + Sync)| histogram_of(&question, cancelled);
+        self.histogram.ask(&self.ctx, &question(count_of(spp)), Patience::Waits, histogram);
     }
 
     /// What the renderer failed at, in words.

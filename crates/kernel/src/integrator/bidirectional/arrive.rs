@@ -36,7 +36,7 @@ pub(super) fn arrive_from_lights<L: Lanes, O: Observer<L>>(
     let Batch { paths, first_hits, hits, bounce, .. } = batch;
     hits.iter_mut().for_each(HitQueues::clear);
     let (first, paths) = (*bounce == 0, &paths[(*bounce & 1) as usize]);
-    let end = &mut state.ends[0];
+    let end = &mut state.light_subpath;
     for at in paths.registers(l) {
         let nearest = first_hits.get(l, at.start, work.scene.shapes.have_elements());
         let arrival = Arrival::from_either_end(l, work, paths, at, nearest);
@@ -74,7 +74,7 @@ pub(super) fn arrive_from_camera<L: Lanes, O: Observer<L>>(
     let Batch { paths, first_hits, hits, radiance, bounce, .. } = batch;
     hits.iter_mut().for_each(HitQueues::clear);
     let (first, paths) = (*bounce == 0, &paths[(*bounce & 1) as usize]);
-    let end = &mut state.ends[1];
+    let end = &mut state.camera_subpath;
     for at in paths.registers(l) {
         let nearest = first_hits.get(l, at.start, work.scene.shapes.have_elements());
         let arrival = Arrival::from_either_end(l, work, paths, at, nearest);

@@ -62,7 +62,7 @@ pub(super) fn shade_camera_paths<L: Lanes, O: Observer<L>>(
             if connects && at.start % UNINTERRUPTED == 0 && interrupted() {
                 return Err(Interrupted);
             }
-            let vertex = state.ends[1].read(l, hits, at);
+            let vertex = state.camera_subpath.read(l, hits, at);
             if stage.sees_lights() && !is_joined {
                 queue_light_sample(l, work, *stage, hits, at, &vertex, reflection, merged, &mut state.direct);
             }
@@ -91,7 +91,7 @@ pub(super) fn shade_camera_paths<L: Lanes, O: Observer<L>>(
             let is_only_strategy = scattered.delta & !scattered.reversible;
             partial.c = is_only_strategy.pick(l.f(0.0), partial.c);
             let slot = vertex.hit.slot;
-            let end = &mut state.ends[1];
+            let end = &mut state.camera_subpath;
             end.put_partial(keep, slot, partial);
             end.put_before(keep, slot, vertex.hit.n, transmits(l, *stage), are_self_lit(l, *stage, hits, at));
             Path { o: scattered.o, d: scattered.d, throughput: survival.throughput, slot }.push(keep, &mut next.paths);

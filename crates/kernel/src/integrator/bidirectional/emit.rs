@@ -47,7 +47,7 @@ pub(super) fn emit<L: Lanes, O: Observer<L>>(
         }
         let starts = inside & ray.inverse_density.above(0.0) & flux.max_component().above(0.0);
         observer.emitted(starts, &ray);
-        let end = &mut state.ends[0];
+        let end = &mut state.light_subpath;
         put(starts, slot, flux, ray.inverse_density, &mut state.fluxes);
         let (x, y, z) = (ray.light.as_real_bits(), ray.place.primitive.as_real_bits(), ray.place.element.as_real_bits());
         put(starts, slot, V { x, y, z }, l.f(0.0), &mut state.sources);

@@ -53,7 +53,7 @@ pub(super) fn shade_light_paths<L: Lanes, O: Observer<L>>(
     for stage in &work.scene.surfaces.stages {
         let hits = &hits[*stage as usize];
         for at in hits.registers(l) {
-            let mut vertex = state.ends[0].read(l, hits, at);
+            let mut vertex = state.light_subpath.read(l, hits, at);
             if *bounce == 0 && others == CompetingStrategies::All {
                 vertex.partial = at_first_surface(l, work, rays, state, *stage, are_self_lit(l, *stage, hits, at), &vertex);
             }
@@ -62,7 +62,7 @@ pub(super) fn shade_light_paths<L: Lanes, O: Observer<L>>(
             if stage.sees_lights() && is_joined {
                 queue_join(l, work, *stage, hits, at, &vertex, light, *bounce, merged, &mut state.joins, observer);
                 if is_kept {
-                    let place = state.ends[0].place(l, vertex.hit.slot);
+                    let place = state.light_subpath.place(l, vertex.hit.slot);
                     state.vertices.push(l, work, *stage, hits, at, &vertex, light, place, *bounce);
                 }
             }
@@ -80,7 +80,7 @@ pub(super) fn shade_light_paths<L: Lanes, O: Observer<L>>(
             let pdfs = [scattered.pdf, scattered.reverse];
             let partial = vertex.partial.scatter(scattered.delta, pdfs, cos, others, merged);
             let slot = vertex.hit.slot;
-            state.ends[0].put_partial(keep, slot, partial);
+            state.light_subpath.put_partial(keep, slot, partial);
             Path { o: scattered.o, d: scattered.d, throughput: survival.throughput, slot }.push(keep, &mut next.paths);
             if work.has_media() {
                 MediumStack { media: scattered.media }.push(keep, &mut next.media);

@@ -11,8 +11,8 @@ use noisefall_scene::material::Stage;
 
 /// The numbers and queues of paths from both ends. Allocated when the first batch of them is traced.
 pub struct LightPaths {
-    /// Of the paths from the lights, then of those from the camera.
-    pub ends: [PathState; 2],
+    pub light_subpath: PathState,
+    pub camera_subpath: PathState,
     /// Flux of the paths from the lights where they start, and the reciprocal of the light density there.
     pub fluxes: Vec<[f32; 4]>,
     /// Their lights, and the places there: primitives and triangles.
@@ -30,7 +30,8 @@ pub struct LightPaths {
 impl Default for LightPaths {
     fn default() -> Self {
         LightPaths {
-            ends: Default::default(),
+            light_subpath: PathState::default(),
+            camera_subpath: PathState::default(),
             fluxes: vec![[0.0; 4]; SLOTS],
             sources: vec![[0.0; 4]; SLOTS],
             vertices: LightVertices::default(),

@@ -2,7 +2,7 @@
 use super::{
     light::sampled_light,
     terms::{EmitterHit, Reflection, SampledLight, Surface, Vertex},
-    throughput::{BLACK, WHITE, carried},
+    throughput::{self, BLACK, WHITE},
 };
 use crate::integrator::{
     batch::Batch,
@@ -86,7 +86,7 @@ impl Follower {
         } else {
             V::splat(One, WHITE)
         };
-        let throughput = carried(work, batch, batch.bounce, &path);
+        let throughput = throughput::of(work, batch, batch.bounce, &path);
         let emission = hit_emitter::<VARIED>(work, &path, interaction).map(|(radiance, place)| {
             let weight = emitter_hit_weight_of(work, batch, at, &path, place);
             let contribution = V::splat(One, throughput) * transmittance * radiance * weight;
@@ -177,7 +177,7 @@ where
         survival: survival.probability.0,
         survives: survival.alive.0,
         goes_on: goes_on.0,
-        throughput: if goes_on.0 { carried(work, batch, batch.bounce + 1, &path) } else { BLACK },
+        throughput: if goes_on.0 { throughput::of(work, batch, batch.bounce + 1, &path) } else { BLACK },
     }
 }
 

@@ -6,7 +6,7 @@ pub(super) const BLACK: [f32; 3] = [0.0; 3];
 pub(super) const WHITE: [f32; 3] = [1.0; 3];
 
 /// The throughput of a path before a bounce.
-pub(super) fn carried(work: &Work, batch: &Batch, bounce: u32, path: &Path<One>) -> [f32; 3] {
+pub(super) fn of(work: &Work, batch: &Batch, bounce: u32, path: &Path<One>) -> [f32; 3] {
     let throughput = path.throughput.lane(0);
     if bounce == 1 && work.shares() {
         return batch.shared.weighted(path.slot.0 as usize, throughput);

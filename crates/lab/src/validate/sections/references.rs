@@ -21,7 +21,7 @@ const MOST_RMS: f64 = 1.2;
 const LONGEST: u64 = 64 << 20;
 const UNREAD: &str = "its block means cannot be read";
 
-macro_rules! carried {
+macro_rules! embedded {
     ($name:literal) => {
         [
             $name,
@@ -36,12 +36,12 @@ type Block = [[f64; 2]; 3];
 
 /// The references in the program: scenes with block means, from `references` beside `src`.
 const CARRIED: [[&str; 3]; 6] = [
-    carried!("cornell_box"),
-    carried!("cornell_spheres"),
-    carried!("dof_spheres"),
-    carried!("furnace_enclosure"),
-    carried!("glass_mirror"),
-    carried!("veach_mis"),
+    embedded!("cornell_box"),
+    embedded!("cornell_spheres"),
+    embedded!("dof_spheres"),
+    embedded!("furnace_enclosure"),
+    embedded!("glass_mirror"),
+    embedded!("veach_mis"),
 ];
 
 /// A scene, the block means of its image, and its name in messages.

@@ -1,6 +1,5 @@
 //! Samples of rough dielectrics against their pdfs.
 use rand::{Rng, SeedableRng, rngs::SmallRng};
-use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use super::super::{
     beckmann::Beckmann,
@@ -8,6 +7,7 @@ use super::super::{
     rough_dielectric::RoughDielectricBsdf,
     tests::dielectric_fixtures::{COSINES, Direction, ROUGHNESSES, combine, dot, interfaces, rough, rows_of, view, wide},
 };
+use crate::chi_squared::chi_squared;
 use noisefall_base::math::{F, One, V};
 
 /// All test statistics of one test together must have at least this probability; seeds are fixed.
@@ -19,16 +19,11 @@ fn narrow(d: Direction) -> V<One> {
 
 /// Fails if counts are too unlikely under expectations; sparse bins are merged.
 fn check_counts(observed: &[f64], expected: &[f64], tests: usize, name: &str) {
-    let few = |(_, e): &(&f64, &f64)| **e < 8.0;
-    let term = |(o, e): (&f64, &f64)| (o - e) * (o - e) / e;
-    let pairs = || observed.iter().zip(expected);
-    let (o, e) = pairs().filter(few).fold((0.0, 0.0), |(a, b), (o, e)| (a + o, b + e));
-    let rest = if e > 8.0 { term((&o, &e)) } else { 0.0 };
-    let many = pairs().filter(|pair| !few(pair)).count();
-    let statistic = pairs().filter(|pair| !few(pair)).map(term).sum::<f64>() + rest;
+    let rare = || observed.iter().zip(expected).filter(|(_, e)| **e < 8.0);
+    let [o, e] = [rare().map(|(o, _)| o).sum::<f64>(), rare().map(|(_, e)| e).sum()];
     assert!(e > 8.0 || o < 40.0, "{name}: {o} samples for {e} expected");
-    let p = 1.0 - ChiSquared::new((many as f64 - 1.0 + f64::from(e > 8.0)).max(1.0)).unwrap().cdf(statistic);
-    assert!(p > SIGNIFICANCE / tests as f64, "{name}: p = {p}, {statistic} of {many}");
+    let p = chi_squared(observed, expected);
+    assert!(p > SIGNIFICANCE / tests as f64, "{name}: p = {p}");
 }
 
 /// A grid over the half vectors, finer where facets are denser, as narrow as the lobes of the smoothest facets.

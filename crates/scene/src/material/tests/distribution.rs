@@ -2,13 +2,13 @@
 use std::f64::consts::TAU;
 
 use rand::{Rng, SeedableRng, rngs::SmallRng};
-use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use super::{
     super::Bsdf,
     cases::{Any, COSINES, Case, cases},
     viewer,
 };
+use crate::chi_squared::chi_squared;
 use noisefall_base::math::{F, One, V};
 
 /// Probability of the worst statistic of all cases together.
@@ -74,24 +74,6 @@ impl Grid {
         let pdf = bsdf.eval(lanes(self.wo), lanes([0, 1, 2].map(|i| 2.0 * cos * h[i] - self.wo[i]))).1;
         f64::from(pdf.0) * 4.0 * cos * slope * z.powi(3) * self.alpha * w.cosh()
     }
-}
-
-/// Probability of a chi² as large as that of counts against expectations; sparse bins are merged.
-fn chi_squared(observed: &[f64], expected: &[f64]) -> f64 {
-    let (mut statistic, mut bins, mut rest) = (0.0, 0.0, [0.0; 2]);
-    for (o, e) in observed.iter().zip(expected) {
-        if *e < 10.0 {
-            rest = [rest[0] + o, rest[1] + e];
-        } else {
-            statistic += (o - e) * (o - e) / e;
-            bins += 1.0;
-        }
-    }
-    if rest[1] > 1.0 {
-        statistic += (rest[0] - rest[1]).powi(2) / rest[1];
-        bins += 1.0;
-    }
-    if bins < 2.0 { 1.0 } else { 1.0 - ChiSquared::new(bins - 1.0).unwrap().cdf(statistic) }
 }
 
 #[test]

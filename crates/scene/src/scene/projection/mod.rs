@@ -77,16 +77,16 @@ impl Projection {
     }
 
     /// Reads a projection. Images of earlier versions store only the width of an orthographic projection, or nothing.
-    pub(super) fn carried<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Projection, D::Error> {
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Projection, D::Error> {
         #[derive(Deserialize)]
         #[serde(untagged)]
-        enum Carried {
+        enum Embedded {
             Now(Projection),
             Width(Option<f64>),
         }
-        Ok(match Carried::deserialize(deserializer)? {
-            Carried::Now(projection) => projection,
-            Carried::Width(width) => width.map_or_else(Projection::default, Projection::orthographic),
+        Ok(match Embedded::deserialize(deserializer)? {
+            Embedded::Now(projection) => projection,
+            Embedded::Width(width) => width.map_or_else(Projection::default, Projection::orthographic),
         })
     }
 }

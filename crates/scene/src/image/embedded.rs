@@ -16,7 +16,7 @@ use super::{PNG, Source, looks_like};
 pub const SETTINGS_KEY: &str = "noisefall";
 
 /// The text of a PNG or EXR file, if it has one. Reads only headers.
-pub fn carried_text(file: File) -> Option<String> {
+pub fn embedded_text(file: File) -> Option<String> {
     let mut file = BufReader::new(file);
     let is_png = looks_like(file.fill_buf().ok()?) == Some(PNG);
     if is_png { of_png(&mut file) } else { of_exr(&mut file) }

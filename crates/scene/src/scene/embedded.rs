@@ -4,12 +4,12 @@ use std::path::Path;
 use serde::Deserialize;
 
 use super::{Camera, RenderSettings, Scene, diagnostic::SceneError, parse::parse, shipped::ShippedScene};
-use crate::image::{carried_text, looks_like};
+use crate::image::{embedded_text, looks_like};
 use noisefall_base::{declare::check, file::open_regular, progress::Progress};
 
 /// The metadata of an image.
 #[derive(Deserialize)]
-struct Carried {
+struct Embedded {
     /// The text of the scene file.
     scene: String,
     camera: Camera,
@@ -17,28 +17,28 @@ struct Carried {
 }
 
 /// The scene in an image file, with the camera and settings of the image; `None` if the file is no image or has no scene.
-pub fn load_carried(path: &Path) -> Option<Result<Scene, SceneError>> {
+pub fn load_embedded(path: &Path) -> Option<Result<Scene, SceneError>> {
     let start = &mut [0; 8];
     std::io::Read::read_exact(&mut open_regular(path).ok()?, start).ok()?;
     looks_like(start)?;
-    let carried: Carried = serde_json::from_str(&carried_text(open_regular(path).ok()?)?).ok()?;
-    Some(open(path, carried))
+    let embedded: Embedded = serde_json::from_str(&embedded_text(open_regular(path).ok()?)?).ok()?;
+    Some(open(path, embedded))
 }
 
-fn open(path: &Path, carried: Carried) -> Result<Scene, SceneError> {
+fn open(path: &Path, embedded: Embedded) -> Result<Scene, SceneError> {
     // The files of a scene in the program are not beside the image.
-    let scene = match ShippedScene::of_text(&carried.scene) {
+    let scene = match ShippedScene::of_text(&embedded.scene) {
         Some(shipped) => shipped.load(&Progress::default()),
-        None => parse(&path.display().to_string(), carried.scene),
+        None => parse(&path.display().to_string(), embedded.scene),
     };
     let mut scene = scene.map_err(|error| {
         error.with_help("the image carries this scene: its textures and meshes are looked for beside the image")
     })?;
     let unusable = |what: String| SceneError::of_file(path, what, "open the scene file instead of the image");
-    carried.camera.check().map_err(|error| unusable(format!("the camera of the image cannot be used: {error}")))?;
-    if let Some(problem) = check(&mut carried.settings.clone()).into_iter().next() {
+    embedded.camera.check().map_err(|error| unusable(format!("the camera of the image cannot be used: {error}")))?;
+    if let Some(problem) = check(&mut embedded.settings.clone()).into_iter().next() {
         return Err(unusable(format!("a setting of the image cannot be used: {}", problem.message)));
     }
-    (scene.camera, scene.settings) = (carried.camera, carried.settings);
+    (scene.camera, scene.settings) = (embedded.camera, embedded.settings);
     Ok(scene)
 }
