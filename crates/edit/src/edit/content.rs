@@ -4,6 +4,7 @@ use std::sync::Arc;
 use super::{check::check, origin::Origins, tree::Tree};
 use noisefall_base::declare::{Path, Problem};
 use noisefall_scene::scene::description::SceneDescription;
+use noisefall_writer::updated;
 
 /// A scene, and the parts of a file that it was read from.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,6 +26,11 @@ impl Content {
     pub fn new(text: String, description: SceneDescription) -> Content {
         let origins = Origins::of(&description);
         Content { description: description.clone(), base: Arc::new(Base { text, description }), origins }
+    }
+
+    /// The text of the scene file.
+    pub fn text(&self) -> String {
+        updated(&self.base.text, &self.base.description, &self.description, &self.origins)
     }
 
     /// All names that are not defined, and values out of range.

@@ -1,7 +1,7 @@
 //! A scene that is being edited.
 use std::path::{Path as FilePath, PathBuf};
 
-use super::{change::Edit, content::Content, save, tree::Tree};
+use super::{change::Edit, content::Content, tree::Tree};
 use noisefall_base::{
     declare::{OwnedValue, Path, Problem},
     file::{WriteError, replace},
@@ -124,7 +124,7 @@ impl Document {
 
     /// The text of the scene file: the text that was read, with the changes.
     pub fn text(&self) -> String {
-        save::text(&self.content)
+        self.content.text()
     }
 
     /// Writes the scene to its file, or to another one, which becomes its file. The file is replaced whole or not at all.

@@ -29,13 +29,12 @@
 //! |---|---|
 //! | `document.rs`, `content.rs` | the document and its content |
 //! | `change.rs`, `title.rs`, `apply.rs` | the edits; in words; applying them |
-//! | `tree.rs`, `walk.rs` | a snapshot of a part of a description; following a visitor to a path |
 //! | `set.rs`, `put.rs`, `take.rs`, `choose.rs` | the visitors that change a description |
 //! | `check.rs`, `references.rs` | the reader's checks; names in use |
 //! | `history.rs` | undo and redo |
-//! | `origin.rs`, `save/` | the part of the file that each object comes from; writing the file |
+//! | the crate `writer` | snapshots of a description, the part of the file that each object comes from, and the text of the file |
 //! | `kind.rs`, `meaning.rs` | changes of kind that change other parameters too; what materials keep under another key |
-//! | `names.rs`, `add.rs`, `pose.rs`, `rest.rs` | free names; new shapes and lamps; moving objects; dropping them to the floor |
+//! | `names.rs`, `add.rs`, `pose.rs`, `drop_to_floor.rs` | free names; new shapes and lamps; moving objects; dropping them to the floor |
 //! | `import.rs` | meshes and skies from files |
 //! | `view.rs` | the camera and the settings of a view |
 //! | `outside.rs` | files that were changed outside |
@@ -57,23 +56,21 @@ mod kept_path;
 mod kind;
 mod meaning;
 mod names;
-mod origin;
 mod outside;
 mod pose;
 mod put;
 mod recovery;
 mod references;
-mod save;
 mod set;
 mod take;
 mod templates;
 #[cfg(test)]
 mod tests;
 mod title;
-mod tree;
 mod trial;
 mod view;
-mod walk;
+
+use noisefall_writer::{origin, tree, walk};
 
 pub use self::trial::write_and_read;
 pub use self::{
@@ -81,14 +78,12 @@ pub use self::{
     content::Content,
     document::{Document, Version, Written},
     history::{Gesture, History},
-    origin::Origin,
     outside::Outside,
     recovery::{Recovery, WindowView},
-    save::new_text,
     templates::{TEMPLATES, Template},
-    tree::Tree,
 };
 #[doc(inline)]
 pub use noisefall_base::declare::{OwnedValue, Path};
 #[doc(inline)]
 pub use noisefall_scene::shape::Placement;
+pub use noisefall_writer::{new_text, origin::Origin, tree::Tree};

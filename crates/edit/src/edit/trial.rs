@@ -1,7 +1,7 @@
 //! Random scenes, written and read: for tests and for the validation.
 use rand::{Rng, RngCore};
 
-use super::{content::Content, origin::Origins, references::references, save, tree::Tree};
+use super::{content::Content, origin::Origins, references::references, tree::Tree};
 use noisefall_base::declare::{Declare, Dice, Family, Path, write};
 use noisefall_scene::scene::{describe, description::SceneDescription};
 
@@ -62,12 +62,12 @@ pub fn write_and_read(random: &mut dyn RngCore) -> Result<(), String> {
     let text = file_text(random, &file);
     let mut content = Content::new(text.clone(), read(&text)?);
     same(&content.description, &file, &text)?;
-    if save::text(&content) != text {
+    if content.text() != text {
         return Err(format!("writing a file without changes altered it:\n{text}"));
     }
     content.origins = random_origins(random, &file, &scene);
     content.description = scene;
-    let written = save::text(&content);
+    let written = content.text();
     let again = read(&written).map_err(|error| format!("{error}\nwritten into\n{text}"))?;
     same(&again, &content.description, &written).map_err(|error| format!("{error}\nwritten into\n{text}"))
 }
@@ -81,7 +81,7 @@ fn file_text(random: &mut dyn RngCore, scene: &SceneDescription) -> String {
     let empty = SceneDescription::default();
     let bare = "format = 1\ncamera = { eye = [0.0, 0.0, 4.0], look_at = [0, 0, 0], fov = 40, resolution = [640, 480] }\n";
     let origins = Origins::of(&empty);
-    save::text(&Content { description: scene.clone(), origins, ..Content::new(bare.to_owned(), empty) })
+    Content { description: scene.clone(), origins, ..Content::new(bare.to_owned(), empty) }.text()
 }
 
 /// Matches some objects, materials and textures with random ones of the file.

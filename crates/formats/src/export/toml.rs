@@ -4,8 +4,8 @@ use std::path::Path;
 use super::{ExportError, ExportSource, Prepared, files::ExportedFiles};
 use crate::import::Remarks;
 use noisefall_base::{declare::for_each_file, memory::Size};
-use noisefall_edit::edit::new_text;
 use noisefall_scene::scene::LARGEST_FILE;
+use noisefall_writer::new_text;
 
 /// Places the files, and makes the text that names them.
 pub fn prepare(source: ExportSource, path: &Path) -> Result<Prepared, ExportError> {

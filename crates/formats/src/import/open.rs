@@ -2,8 +2,8 @@
 use std::{path::Path, sync::Arc};
 
 use super::{ImportOptions, Imported, Remarks, is_foreign, read};
-use noisefall_edit::edit::new_text;
 use noisefall_scene::scene::{self, Scene, SceneError, SceneText, description::SceneDescription};
+use noisefall_writer::new_text;
 
 /// A scene that was read from a file of any format.
 pub struct Opened {

@@ -4,7 +4,7 @@ use std::{fs, path::Path as FilePath};
 use rand::{SeedableRng, rngs::SmallRng};
 
 use super::*;
-use crate::edit::{content::Content, origin::Origins, save, tree::Answer, trial::write_and_read};
+use crate::edit::{content::Content, origin::Origins, tree::Answer, trial::write_and_read};
 use noisefall_scene::scene::describe;
 
 /// A validation under stress tries more.
@@ -42,7 +42,7 @@ fn scenes_that_come_with_the_program_are_written_anew() {
         let bare = "format = 1\n[camera]\neye = [0, 0, 4]\nlook_at = [0, 0, 0]\nfov = 40\nresolution = [640, 480]\n";
         let origins = Origins::of(&empty);
         let content = Content { description, origins, ..Content::new(bare.to_owned(), empty) };
-        let written = save::text(&content);
+        let written = content.text();
         let again = describe(&name, written.clone()).unwrap_or_else(|error| panic!("{}\n{written}", error.report()));
         assert!(bits(&again).is_identical(&bits(&content.description)), "{name}:\n{written}");
     }

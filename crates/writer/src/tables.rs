@@ -1,11 +1,11 @@
 //! Updates the tables of a file.
 use toml_edit::{InlineTable, Item, Key, Table as TomlTable, TableLike, Value};
 
+use super::origin::Origins;
 use super::{
     outline::{Entry, Node, Table},
     values::{replace, written, written_node, written_table},
 };
-use crate::edit::origin::Origins;
 
 /// Updates a file from its old content to its new content.
 pub struct Update<'o> {

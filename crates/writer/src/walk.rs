@@ -2,6 +2,7 @@
 use noisefall_base::declare::{Path, Step};
 
 /// The methods of a visitor that keep the walk in its field `walk` at the table that is visited, and pass over tables beside the path.
+#[macro_export]
 macro_rules! follows_walk {
     () => {
         fn enter(&mut self, parameter: &Parameter, _: noisefall_base::declare::Form) {
@@ -25,7 +26,7 @@ macro_rules! follows_walk {
         }
     };
 }
-pub(super) use follows_walk;
+pub use follows_walk;
 
 /// Position of a visitor relative to a target path.
 pub struct Walk<'p> {

@@ -3,11 +3,11 @@ use std::collections::BTreeMap;
 
 use toml_edit::DocumentMut;
 
+use super::origin::Origins;
 use super::{
     outline::{Entry, Table},
     tables::{Level, Update},
 };
-use crate::edit::origin::Origins;
 use noisefall_scene::scene::description::SceneDescription;
 
 /// Items that are written at a time. While they are written they take some ten kilobytes each, and as text a few hundred bytes.

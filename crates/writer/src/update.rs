@@ -1,42 +1,26 @@
-//! Writes a scene into the text of its file. Changes only the values that differ, and keeps comments, order and number formats.
-//!
-//! | file | holds |
-//! |---|---|
-//! | `outline.rs` | the required and the optional content of a file for a description |
-//! | `tables.rs`, `lists.rs`, `named.rs` | update a table, a list or a table of named tables in the file |
-//! | `objects.rs` | the same for the objects, in any order |
-//! | `values.rs` | values in the style of a person |
-//! | `new_text.rs` | the text of a new file |
-mod lists;
-mod named;
-mod new_text;
-mod objects;
-mod outline;
-mod tables;
-mod values;
-
+//! The text of a file that is updated.
+use noisefall_scene::scene::description::SceneDescription;
 use toml_edit::DocumentMut;
 
-pub use self::new_text::new_text;
-use self::{
+use super::{
     objects::spread,
+    origin::Origins,
     outline::Table,
     tables::{Level, Update},
 };
-use super::{content::Content, origin::Origins};
-/// The text of a scene file.
-pub fn text(content: &Content) -> String {
-    let base = &content.base;
-    let now = Table::of(&content.description);
-    let was = Table::of(&base.description);
-    if content.origins == Origins::of(&base.description) && now.is_identical(&was) {
-        return base.text.clone();
+
+/// The text of a file that described `was`, changed so that it describes `now`. `origins` are the parts of the file from which those of `now`
+/// come.
+pub fn updated(text: &str, was: &SceneDescription, now: &SceneDescription, origins: &Origins) -> String {
+    let (new, old) = (Table::of(now), Table::of(was));
+    if *origins == Origins::of(was) && new.is_identical(&old) {
+        return text.to_owned();
     }
     // The text was read before: this cannot fail.
-    let mut document: DocumentMut = base.text.parse().unwrap_or_default();
+    let mut document: DocumentMut = text.parse().unwrap_or_default();
     spread(document.as_table_mut());
-    Update { origins: &content.origins }.table(document.as_table_mut(), &was, &now, Level::Root);
-    like(&base.text, document.to_string())
+    Update { origins }.table(document.as_table_mut(), &old, &new, Level::Root);
+    like(text, document.to_string())
 }
 
 /// The text with the byte order mark and the line ends of another.
@@ -53,8 +37,8 @@ fn like(original: &str, text: String) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{like, new_text};
-    use crate::edit::Document;
+    use super::like;
+    use crate::new_text;
     use noisefall_scene::{
         scene::{
             BUILT_IN, describe,
@@ -71,7 +55,7 @@ mod tests {
             assert_eq!(read, *description, "{text}");
             text
         };
-        let text = written(Document::untitled(BUILT_IN).expect("it is a scene").description());
+        let text = written(&describe("untitled.toml", BUILT_IN.to_owned()).expect("it is a scene"));
         assert!(text.starts_with("format = 1") && text.lines().count() < 2 * BUILT_IN.lines().count(), "{text}");
         let mut description = SceneDescription::default();
         for name in ["a \"quoted\" name", "ü\n", "a.b"] {

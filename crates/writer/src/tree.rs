@@ -4,7 +4,7 @@ use noisefall_base::declare::{Choice, Declare, Form, OwnedValue, Parameter, Para
 
 /// A value, a table or a list with all that is in it: the answers that a visitor gets, in their order.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Tree(pub(super) Vec<Answer>);
+pub struct Tree(pub Vec<Answer>);
 
 /// An answer of a description to a visitor.
 #[derive(Clone, Debug, PartialEq)]

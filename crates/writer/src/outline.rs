@@ -1,7 +1,7 @@
 //! The content of a file for a description: values by key, and which of them equal the reader's defaults.
 use std::collections::BTreeMap;
 
-use crate::edit::tree::{Answer, Tree};
+use super::tree::{Answer, Tree};
 use noisefall_base::declare::{Choice, Declare, Form, OwnedValue, Parameter, Parameters, Value};
 use noisefall_scene::scene::description::SceneDescription;
 
