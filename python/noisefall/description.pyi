@@ -722,11 +722,11 @@ class Render:
     """The settings that the scene opens with."""
 
     adaptive: bool | None = None
-    """Whether noisier pixels get more samples. Not used if pixels share anything, or with paths from lights."""
+    """Whether noisy blocks get more samples. Has no effect if pixels share anything, or with light paths."""
     count_crossings: bool | None = None
     """Whether passing a surface that is not opaque counts as a bounce for `max_bounces`."""
     directions: Literal['uniform', 'cosine', 'bsdf'] | None = None
-    """How directions are sampled at diffuse surfaces."""
+    """How the next direction is sampled at diffuse surfaces."""
     estimator: Literal['path', 'light', 'mis', 'caustics', 'forward', 'bidirectional', 'auto'] | None = None
     """How light is estimated. All estimators converge to the same image; they differ in noise."""
     exposure: float | None = None
@@ -736,11 +736,11 @@ class Render:
     merging: bool | None = None
     """Whether the estimator `bidirectional` merges vertices that are near each other (Georgiev et al. 2012). Finds caustics in mirrors. Biased, but consistent."""
     reuse: Literal['auto', 'on', 'bright', 'both', 'off'] | None = None
-    """What neighbouring pixels share: path suffixes (Bekaert, Sbert and Halton 2002), bright samples, or both. Less noise, no bias."""
+    """What neighbouring pixels share: path suffixes (Bekaert, Sbert and Halton 2002), bright samples, or both. Less noise, no bias, but the noise of neighbouring pixels is correlated."""
     roulette: Literal['off', 'throughput'] | Roulette | Mapping[str, Any] | None = None
     """Ends paths at random and weights the survivors, so that the mean does not change."""
     sampler: Literal['independent', 'stratified', 'sobol', 'bluenoise'] | None = None
-    """How the samples of a pixel are distributed in the unit cube. This determines how fast the noise falls."""
+    """Sample pattern of a pixel. It determines how fast the error falls."""
     seed: int | None = None
     """Seed of the random numbers. Another seed gives different noise with the same mean."""
     spp: int | None = None

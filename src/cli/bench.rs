@@ -92,7 +92,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let trial = start.elapsed();
     if settings.estimator != estimator {
         let [measured, asked] = [settings.estimator, estimator].map(Estimator::name);
-        tell(&format!("note: paths from lights, as of `{asked}`, are not measured; this is `{measured}`"));
+        tell(&format!("note: bench cannot measure `{asked}`; measuring `{measured}`"));
     }
     let job = PassJob { scene: &scene, rays: &rays, settings: &settings };
     let start = Instant::now();

@@ -46,8 +46,8 @@ pub struct KeepOptions {
     /// time
     #[arg(long, value_name = "SECONDS", value_parser = parse::seconds)]
     every: Option<Duration>,
-    /// Continue a render even if its scene or the program has changed. Its first samples are then of another image, and the file
-    /// says so
+    /// Continue a render even if its scene or the program has changed. The result mixes both versions and is labelled
+    /// biased
     #[arg(long, requires = "resume")]
     anyway: bool,
 }

@@ -86,7 +86,7 @@ struct Arguments {
 enum Command {
     /// Render a scene to a PNG or EXR file, without a window
     Render(Box<render::Arguments>),
-    /// Join samples that were rendered separately into one image, with the bits of one render
+    /// Merge partial renders into one bit-identical image
     Merge(merge::Arguments),
     /// Measure the error of image A against reference B
     Compare(compare::Arguments),

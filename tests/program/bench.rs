@@ -33,7 +33,7 @@ fn bench_tells_time_and_rays_by_stage_and_bounce() {
     assert!(wrong.status.code() == Some(2) && text(&wrong.stderr).contains("must end in .svg"), "{}", text(&wrong.stderr));
     let caustic = scene("glass_ball_caustic");
     let done = shell.run(&["bench", &caustic, "--size", "16x12", "--spp", "1", "--json"]);
-    assert!(text(&done.stderr).contains("are not measured; this is `mis`"), "{}", text(&done.stderr));
+    assert!(text(&done.stderr).contains("bench cannot measure `bidirectional`; measuring `mis`"), "{}", text(&done.stderr));
     let figures: Value = serde_json::from_str(&text(&done.stdout)).expect("a line of JSON");
     assert!(fits_part(&figures, "bench", &schema) && figures["estimator"] == "mis", "{figures}");
 }

@@ -37,7 +37,7 @@ impl Arguments {
     fn open(&self) -> Result<Begun, Failure> {
         let path = self.scene.as_deref().or(self.sequence.scene()).unwrap_or(Path::new("")).to_owned();
         if is_kept_file(&path) {
-            return Err(format!("{0}: this is a kept render; `render --resume {0}` continues it", path.display()));
+            return Err(format!("{0}: this is a checkpoint; `render --resume {0}` continues it", path.display()));
         }
         let Opened { scene, remarks, description } = self.options.open_for(&path, self.size)?;
         let camera = Camera { resolution: self.size.unwrap_or(scene.camera.resolution), ..scene.camera };

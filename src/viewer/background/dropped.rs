@@ -163,7 +163,7 @@ pub mod tests {
             let reference = file("reference.hdr", &hdr(size[0], size[1]));
             assert_eq!(of(&reference), Ok(DroppedFile::Reference(reference.clone())), "{size:?}");
         }
-        let texture = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/window.png");
+        let texture = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/icon.png");
         assert_eq!(of(&texture), Ok(DroppedFile::Texture(texture.clone())));
     }
 

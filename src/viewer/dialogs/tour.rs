@@ -37,7 +37,7 @@ const PAGES: [Page; 5] = [
                transport equation as 1/√N, or faster with Sobol points: four times the samples halve the noise, or better. The curve below shows the error live. The status \
                line shows the samples and the noise so far.",
         shows: Some(InstrumentTab::Convergence),
-        tries: ("Start over", TourRequest::Restart),
+        tries: ("Restart", TourRequest::Restart),
         without_glass: None,
     },
     Page {
@@ -57,13 +57,13 @@ const PAGES: [Page; 5] = [
         without_glass: None,
     },
     Page {
-        title: "Paths can start at both ends",
-        text: "The glass focuses light to a caustic. Paths from the lamp reach it easily; a path from the camera meets the lamp through \
-               glass only by chance. A strategy (s, t) takes s vertices from the lamp and t from the camera. Bidirectional path \
+        title: "Bidirectional path tracing",
+        text: "The glass focuses light to a caustic. Light paths reach it easily; camera paths rarely hit a small light through \
+               glass. A strategy (s, t) takes s vertices from the lamp and t from the camera. Bidirectional path \
                tracing combines all strategies, each weighted by its pdf over the sum of all pdfs. The image stays the same. \
                Caustics have less noise, but simple scenes take more time.",
         shows: Some(InstrumentTab::Compare),
-        tries: ("Compare MIS with both ends", TourRequest::CompareBothEnds),
+        tries: ("Compare MIS with bidirectional", TourRequest::CompareBothEnds),
         without_glass: Some((
             "Paths can also start at the lamps. A strategy (s, t) takes s vertices from a lamp and t from the camera. Bidirectional \
              path tracing combines all strategies. This pays off for caustics, the light that glass focuses, and this scene has no \

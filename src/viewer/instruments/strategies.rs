@@ -47,7 +47,7 @@ pub fn meaning(Strategy { s, t, .. }: Strategy) -> String {
         (0, 2) => "the camera sees a light".to_owned(),
         (0, _) => "the path from the camera hits a light".to_owned(),
         (1, _) => "the path from the camera samples a light".to_owned(),
-        (_, 1) => "the path from a light is joined with the camera".to_owned(),
+        (_, 1) => "the light path is connected to the camera".to_owned(),
         _ => "vertices of both paths are connected".to_owned(),
     };
     format!("s = {s}, t = {t}: {how}")
@@ -61,7 +61,7 @@ mod tests {
     fn every_strategy_is_told_by_its_ends() {
         let told = |s, t| meaning(Strategy { s, t, weighted: false });
         assert!(told(0, 2).ends_with("sees a light") && told(0, 3).ends_with("hits a light"));
-        assert!(told(1, 2).ends_with("samples a light") && told(2, 1).ends_with("joined with the camera"));
+        assert!(told(1, 2).ends_with("samples a light") && told(2, 1).ends_with("connected to the camera"));
         assert_eq!(told(2, 3), "s = 2, t = 3: vertices of both paths are connected");
     }
 }

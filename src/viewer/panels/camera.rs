@@ -107,7 +107,8 @@ fn lens(ui: &mut egui::Ui, camera: &mut Camera, speed: f64) {
             ui.horizontal(|ui| {
                 let focus = number::field(ui, &mut lens.focus, 3, 1e-9..=1e12).speed(speed).suffix(" m");
                 ui.add(focus).labelled_by(label);
-                if ui.button("Look-at point").on_hover_text("Focuses on the point in the middle of the image.").clicked() {
+                if ui.button("Focus on look-at point").on_hover_text("Focuses on the point in the middle of the image.").clicked()
+                {
                     lens.focus = distance;
                 }
             });

@@ -16,7 +16,7 @@ const PRESETS: [(Preset, &str, &str); 2] = [
     (
         Preset::Teaching,
         "Teaching",
-        "The textbook estimator: pixels share nothing, sampling is not adaptive, nothing is merged, and no trial chooses the estimator. The other settings stay as they are.",
+        "Turns off sharing, adaptive sampling, merging and Auto. The other settings stay as they are.",
     ),
     (
         Preset::Fastest,

@@ -20,7 +20,7 @@ pub fn side_choice(ui: &mut Ui, edits_second: Option<&mut bool>) {
     let edits_second = edits_second.unwrap_or(&mut only_first);
     ui.add_enabled_ui(is_comparing, |ui| {
         controls(ui, "side", |ui| {
-            row(ui, "Settings of", "Side of the comparison that the rows below show and change.", |ui, _| {
+            row(ui, "Editing side", "Side of the comparison that the rows below show and change.", |ui, _| {
                 choices(ui, edits_second, &[(false, "A", "The image itself."), (true, "B", "The image it is compared with.")]);
             });
         });

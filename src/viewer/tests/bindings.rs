@@ -93,7 +93,7 @@ fn every_number_of_the_camera_is_its_own() {
     assert_eq!(window.state().camera().lens, Some(Lens { radius: 0.25, focus: distance }), "in focus is what is looked at");
     set(&mut window, "Focus", 0, 7.0);
     // Not by the pointer: beside a number that has just become shorter the button moves.
-    window.get_by_label("Look-at point").click_accesskit();
+    window.get_by_label("Focus on look-at point").click_accesskit();
     window.run_steps(3);
     assert_eq!(window.state().camera().lens, Some(Lens { radius: 0.25, focus: distance }));
     let width = expected.width_at_look_at();

@@ -26,7 +26,7 @@ fn the_choice_by_trial_says_what_it_has_chosen_and_why() {
     wait(&mut window, "the trial", |_| scene.estimator_by_trial.get().is_some());
     window.run_steps(3);
     let best = scene.estimator_by_trial.get().expect("it has been tried").title();
-    assert!(shows(&window, &format!("{best}: least error in a trial")), "the panel names {best}");
+    assert!(shows(&window, &format!("{best}: lowest error in a trial")), "the panel names {best}");
     assert!(shows(&window, &format!("{best} (Auto)")), "the line below names {best}");
     // Nothing stops paths now, so they are not connected, and the trial no longer counts.
     restarts(&mut window, "endless paths", |w| choose(w, "Roulette", "Off"));
@@ -39,7 +39,9 @@ fn an_estimator_that_the_scene_does_not_allow_says_what_renders_instead() {
     restarts(&mut window, "paths from lights", |w| choose(w, "Estimator", "Forward"));
     wait(&mut window, "samples", |app| app.status().spp >= 1);
     window.run_steps(3);
-    assert!(shows(&window, "MIS: the scene has smooth meshes, bump or normal maps") && shows(&window, "MIS, not Forward"));
+    assert!(
+        shows(&window, "MIS: the scene has smooth meshes, bump or normal maps") && shows(&window, "MIS (Forward unavailable)")
+    );
 }
 
 #[test]
@@ -109,6 +111,6 @@ fn the_path_inspector_lists_the_strategies_of_a_sample() {
     wait(&mut window, "its sample", |app| app.path_inspector().replay().is_some_and(|(_, replay)| replay.both_ends.is_some()));
     window.run_steps(2);
     assert!(
-        shows(&window, "L = Σ w C over the strategies with t ≥ 2.") && shows(&window, "joined at") && shows(&window, "Sample")
+        shows(&window, "L = Σ w C over the strategies with t ≥ 2.") && shows(&window, "connected at") && shows(&window, "Sample")
     );
 }

@@ -117,7 +117,7 @@ fn the_tour_shows_noise_bounces_and_roulette_and_is_not_shown_again() {
         ("This image is an estimate", InstrumentTab::Convergence),
         ("Light bounces", InstrumentTab::Bounces),
         ("Roulette ends paths without bias", InstrumentTab::Compare),
-        ("Paths can start at both ends", InstrumentTab::Compare),
+        ("Bidirectional path tracing", InstrumentTab::Compare),
         ("Your turn", InstrumentTab::Compare),
     ] {
         assert!(window.query_by_label(title).is_some(), "{title}");
@@ -131,7 +131,7 @@ fn the_tour_shows_noise_bounces_and_roulette_and_is_not_shown_again() {
             assert_eq!(app.settings().roulette, Roulette::BY_THROUGHPUT);
         }
         if title.starts_with("Paths") {
-            click(&mut window, "Compare MIS with both ends");
+            click(&mut window, "Compare MIS with bidirectional");
             let app = window.state();
             let other = app.compared_with().map(|compare| compare.other.estimator);
             assert_eq!((app.settings().estimator, other), (Estimator::Mis, Some(Estimator::Bidirectional)));

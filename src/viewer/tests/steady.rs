@@ -14,7 +14,7 @@ use crate::viewer::{
 /// The heights at which the rows of the panel stand.
 fn rows(window: &Window) -> Vec<(&'static str, f32)> {
     const ROWS: [&str; 15] = [
-        "Settings of",
+        "Editing side",
         "Preset",
         "Estimator",
         "Sharing",

@@ -108,7 +108,10 @@ fn threads_and_tour_do_what_they_say() {
     window.state_mut().preferences = Preferences::default();
     window.state_mut().start_tour();
     window.run_steps(3);
-    restarts(&mut window, "a start over", |w| click(w, "Start over"));
+    restarts(&mut window, "the button of the tour, and not that of the toolbar", |w| {
+        w.query_all_by_label("Restart").last().expect("a button").click();
+        w.run_steps(2);
+    });
     click(&mut window, "Next");
     click(&mut window, "Show bounce 2 alone");
     assert_eq!((window.state().session.bounces.k, window.state().session.bounces.up_to), (2, false));

@@ -145,6 +145,6 @@ impl ShadowQueues {
 
 #[inline(always)]
 fn media<L: Lanes>(l: L, queue: &Queue, at: Register<L>) -> U<L> {
-    // Lanes past the end may say anything, even media of an earlier scene.
+    // Lanes past the end hold stale values, even media of an earlier scene.
     at.live.pick(MediumStack::read(l, queue, at.start).media, l.u(0))
 }

@@ -154,7 +154,7 @@ pub(super) fn read_vertex<L: Lanes, K: Shade>(
         return (ShadingVertex::plain(l, hit), None);
     }
     let mut detail = Detail::read(l, &queues.details, start);
-    // Lanes past the end may say anything: they take a material of this kind, whose rows can be read as such.
+    // Lanes past the end hold stale values: they take a material of this kind, whose rows can be read as such.
     detail.surface = live.pick(detail.surface, l.u(detail.surface.to_array()[0]));
     let mut vertex = ShadingVertex::detailed(hit, &detail);
     if !(K::CHARTED && work.scene.surfaces.charted) {

@@ -56,7 +56,7 @@ impl Shared {
     /// The lanes that share their first surface, and its albedo.
     #[inline(always)]
     pub fn first<L: Lanes>(&self, l: L, slot: U<L>) -> (M<L>, V<L>) {
-        // Lanes past the end may say anything.
+        // Lanes past the end hold stale values.
         let slot = slot & (SLOTS as u32 - 1);
         let [r, g, b, _] = l.rows(&self.albedos, slot);
         (l.rows(&self.points, slot)[3].above(0.0), V { x: r, y: g, z: b })

@@ -204,7 +204,7 @@ impl Blocks {
     /// Corners and sample indices of the blocks of slots.
     #[inline(always)]
     fn rows<L: Lanes>(&self, l: L, slot: U<L>) -> [U<L>; 2] {
-        // Lanes past the end may say anything.
+        // Lanes past the end hold stale values.
         let block = (slot >> (2 * BLOCK.trailing_zeros())) & (BLOCKS as u32 - 1);
         let [corner, sample, _, _] = l.rows(&self.rows, block);
         [corner.bits(), sample.bits()]

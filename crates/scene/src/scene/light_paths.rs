@@ -100,7 +100,7 @@ impl Scene {
             return mis(format!("the scene has {}", obstacle.word().title));
         }
         let best = self.estimator_by_trial.get().filter(|_| is_auto)?;
-        Some(EstimatorInForce { estimator: *best, reason: "least error in a trial".to_owned() })
+        Some(EstimatorInForce { estimator: *best, reason: "lowest error in a trial".to_owned() })
     }
 }
 

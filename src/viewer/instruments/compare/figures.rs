@@ -40,7 +40,9 @@ pub fn show(
     } else if let Some([more, less]) = head_start(&sides) {
         // More samples of the same points can be more efficient.
         ui.weak(match less.is_running {
-            true => format!("No verdict yet: {} catches up with the {:.0} s of {}.", less.letter, more.seconds, more.letter),
+            true => {
+                format!("No verdict yet: {} is catching up; {} has rendered {:.0} s.", less.letter, more.letter, more.seconds)
+            }
             false => format!("No verdict: {} had more time. Restart (Ctrl+R) to give both the same.", more.letter),
         });
     } else if sides.iter().all(|side| side.efficiency.is_some()) {
@@ -137,7 +139,7 @@ fn incomparable(sides: &[Side; 2]) -> Option<String> {
     let biased = sides.iter().find(|side| side.trouble.is_some() && side.truth.is_none())?;
     let letter = biased.letter;
     Some(format!(
-        "{letter} does not converge to the solution, so its efficiency says nothing. The layout Difference shows what is missing."
+        "{letter} does not converge to the solution, so its efficiency cannot be compared. The layout Difference shows what is missing."
     ))
 }
 

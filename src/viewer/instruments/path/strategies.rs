@@ -9,12 +9,12 @@ use crate::viewer::widgets::style::elided;
 /// Columns, and what they say.
 const COLUMNS: [(&str, &str); 6] = [
     ("s, t", "Number of vertices from the light and from the camera. The tooltip lists them."),
-    ("joined at", "The last vertices of both paths. With s = 0, the path from the camera hits the light itself."),
+    ("connected at", "The last vertices of both paths. With s = 0, the path from the camera hits the light itself."),
     (
         "p",
         "Pdf of the vertices per area, m⁻² each, and per steradian for light from far away. Delta directions and roulette count as 1.",
     ),
-    ("C", "The estimate of this strategy alone: the light of the path over its pdf"),
+    ("C", "Unweighted contribution of this strategy, f/p"),
     ("w", "Weight of multiple importance sampling"),
     ("term", "w C; 0 if something lies between both paths"),
 ];
@@ -37,9 +37,8 @@ pub fn show(ui: &mut Ui, both: &BothEnds, radiance: [f32; 3], objects: &[Object]
         cell(ui, short(radiance[channel]), true).on_hover_text(colour(radiance));
         ui.end_row();
         if !joined.is_empty() {
-            ui.weak("t = 1").on_hover_text(
-                "The path from the light is joined with the camera. It adds light where the image shows its last vertex.",
-            );
+            ui.weak("t = 1")
+                .on_hover_text("The light path is connected to the camera. It adds light where the image shows its last vertex.");
             ui.end_row();
         }
         joined.iter().for_each(|term| row(ui, both, term, objects, channel));

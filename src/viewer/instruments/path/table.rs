@@ -39,7 +39,7 @@ const COLUMNS: [(&str, &str); 9] = [
     ("L_e", "Emitted radiance, W·sr⁻¹·m⁻²"),
     ("τ", "Transmittance of media towards the lamp, times its texture; 0 if the lamp is occluded"),
     ("w", "Weight of multiple importance sampling"),
-    ("p", "Pdf of the direction to the lamp, per solid angle; of a lamp without surface, the probability of choosing it"),
+    ("p", "Pdf of the direction to the lamp, per solid angle; for punctual lights, the selection probability"),
     ("term", "β f cos θ L_e τ w / p. Terms in brackets are shared among neighbouring pixels."),
 ];
 

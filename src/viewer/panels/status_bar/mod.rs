@@ -94,7 +94,7 @@ impl StatusBar<'_> {
         let text = if chosen == Estimator::Auto {
             RichText::new(if is_narrow(ui) { title.to_owned() } else { format!("{title} (Auto)") })
         } else {
-            RichText::new(format!("{title}, not {}", chosen.title())).color(ui.warning())
+            RichText::new(format!("{title} ({} unavailable)", chosen.title())).color(ui.warning())
         };
         ui.label(text).on_hover_text(format!("{in_force}.\n{doc}"));
         ui.separator();
@@ -160,7 +160,7 @@ impl StatusBar<'_> {
         };
         ui.label(format!("noise {bound}{text}")).on_hover_text(format!(
             "Estimated relative error: the root of relMSE, the mean of (x − r)²/(r² + 0.01 · mean r²) over pixels x with true radiance r. It is \
-             estimated from the change of the image as the sample count doubles. It is not known before enough samples have found light.{tail}",
+             estimated from the change of the image as the sample count doubles. It is unavailable until enough samples have hit a light.{tail}",
         ));
     }
 

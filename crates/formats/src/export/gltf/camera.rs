@@ -53,7 +53,7 @@ impl Export<'_> {
             self.remark("`shift`", "none", "the image shows another part of the scene");
         }
         if camera.filter != CameraDescription::default().filter {
-            self.remark("`filter`", "nothing", "the program chooses the filter");
+            self.remark("`filter`", "nothing", "glTF has no pixel filter");
         }
         if let Some(most) = self.description.render.settings.max_bounces {
             self.remark(format!("`max_bounces` {most}"), "nothing", "paths of more bounces add light");

@@ -89,7 +89,7 @@ impl PathState {
     }
 }
 
-/// Slots of lanes past the end may say anything.
+/// Slots of lanes past the end are stale.
 #[inline(always)]
 pub fn inside<L: Lanes>(slot: U<L>) -> U<L> {
     slot & (SLOTS as u32 - 1)

@@ -44,7 +44,7 @@ pub struct StrategyTerm {
     /// Pdf of the vertices with respect to area, in m⁻² each, and per steradian for light from far away, summed over the paths of all pixels
     /// that could find the same. Delta directions, roulette, opacity and blends count as 1. `None` for a background that the camera sees.
     pub pdf: Option<f64>,
-    /// The estimate of this strategy alone: the light of the path over its pdf.
+    /// Unweighted contribution of this strategy, f/p.
     pub unweighted: [f32; 3],
     /// Weight of multiple importance sampling.
     pub weight: f32,

@@ -216,7 +216,7 @@ fn a_scale_has_the_unit_of_its_view_and_what_is_missing_is_asked_for() {
         assert_eq!((scale.unit, scale.ends[1]), (unit, high), "{view:?}");
     }
     let missing = [View::ZScore, View::Difference, View::Depth].map(|view| legend(view, &sources(&frame, &[])).title);
-    let starts = ["No reference", "No image of this size", "Coming"];
+    let starts = ["No reference", "No image of this size", "Rendering view"];
     assert!(missing.iter().zip(starts).all(|(title, start)| title.starts_with(start)), "{missing:?}");
 }
 

@@ -113,7 +113,7 @@ trait Quantity {
 
     /// Advice where its data is missing.
     fn missing() -> &'static str {
-        "Coming …"
+        "Rendering view…"
     }
 
     /// See [`View::vector`].

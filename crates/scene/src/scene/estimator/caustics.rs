@@ -10,7 +10,7 @@ impl Weighting for Caustics {
     const WORD: Word = Word {
         name: "caustics",
         title: "Caustics",
-        doc: "MIS, with paths from lights only for the caustics of mirrors and clear glass. Cheaper than Bidirectional.",
+        doc: "MIS, plus light tracing for the caustics of mirrors and clear glass. Cheaper than Bidirectional.",
     };
     const STRATEGIES: &'static str =
         "those of `mis`, and light paths through mirrors and clear glass, joined with the camera; balance heuristic";

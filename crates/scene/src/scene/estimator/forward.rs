@@ -12,7 +12,7 @@ impl Weighting for Forward {
     const WORD: Word = Word {
         name: "forward",
         title: "Forward",
-        doc: "Paths start at lights, and every point that they reach is joined with the camera. Good for caustics, noisy for other light.",
+        doc: "Traces light paths, and connects each of their vertices to the camera. Good for caustics, noisy for other light.",
     };
     const STRATEGIES: &'static str = "light paths, joined with the camera at each vertex; those of `mis` at mirrors and clear glass that the camera sees; balance heuristic";
     const COMPARISON: &'static str = "Forward tracing";

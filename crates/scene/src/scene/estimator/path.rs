@@ -12,7 +12,7 @@ impl Weighting for Path {
     const WORD: Word = Word {
         name: "path",
         title: "Path",
-        doc: "Paths find light only by hitting an emitter; lamps without surface are sampled. The simplest estimator; very noisy for small lights.",
+        doc: "Finds lights only by hitting them; punctual lights are sampled. The simplest estimator; very noisy for small lights.",
     };
     const STRATEGIES: &'static str = "camera paths that hit a light; samples of lamps without surface";
     const COMPARISON: &'static str = "Path sampling";

@@ -18,7 +18,7 @@ pub struct RenderSettings {
     pub merging: bool,
     /// The sequence of random numbers.
     pub sampler: Sampler,
-    /// How directions are sampled at diffuse surfaces.
+    /// How the next direction is sampled at diffuse surfaces.
     pub directions: Directions,
     /// How paths end.
     pub roulette: Roulette,

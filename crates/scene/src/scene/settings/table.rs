@@ -33,7 +33,7 @@ impl RenderSettings {
 
     /// How directions are sampled.
     pub const DIRECTIONS: Setting = Setting::new(
-        Parameter::new("directions", "How directions are sampled at diffuse surfaces.")
+        Parameter::new("directions", "How the next direction is sampled at diffuse surfaces.")
             .symbol("p(ω)")
             .aliases("sampling importance_sampling distribution"),
         access!(directions, word),
@@ -43,10 +43,7 @@ impl RenderSettings {
 
     /// The sequence of random numbers.
     pub const SAMPLER: Setting = Setting::new(
-        Parameter::new(
-            "sampler",
-            "How the samples of a pixel are distributed in the unit cube. This determines how fast the noise falls.",
-        ),
+        Parameter::new("sampler", "Sample pattern of a pixel. It determines how fast the error falls."),
         access!(sampler, word),
         |settings| settings.sampler.title().to_owned(),
     )
@@ -100,7 +97,7 @@ impl RenderSettings {
     pub const REUSE: Setting = Setting::new(
         Parameter::new(
             "reuse",
-            "What neighbouring pixels share: path suffixes (Bekaert, Sbert and Halton 2002), bright samples, or both. Less noise, no bias.",
+            "What neighbouring pixels share: path suffixes (Bekaert, Sbert and Halton 2002), bright samples, or both. Less noise, no bias, but the noise of neighbouring pixels is correlated.",
         )
         .title("Sharing")
         .aliases("sharing share"),
@@ -116,7 +113,7 @@ impl RenderSettings {
     pub const ADAPTIVE: Setting = Setting::new(
         Parameter::new(
             "adaptive",
-            "Whether noisier pixels get more samples. Not used if pixels share anything, or with paths from lights.",
+            "Whether noisy blocks get more samples. Has no effect if pixels share anything, or with light paths.",
         ),
         access!(adaptive, flag),
         |settings| if settings.adaptive { "adaptive" } else { "not adaptive" }.to_owned(),
