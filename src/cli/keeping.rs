@@ -27,6 +27,7 @@ use noisefall_scene::scene::description::SceneDescription;
 use crate::kept_scene::{choices, reopen};
 
 use super::{
+    headings,
     loading::with_bar,
     messages::{Failure, tell},
     options as parse,
@@ -40,15 +41,15 @@ const EVERY: Duration = Duration::from_secs(60);
 pub struct KeepOptions {
     /// Keep the render in a file (.nf) from which --resume continues it to the same bits. Of a sequence: keep the frame in progress in
     /// a file such as frame-####.nf, which is removed when the frame is finished
-    #[arg(long, value_name = "FILE", conflicts_with = "pixel", requires = "output")]
+    #[arg(help_heading = headings::KEEP, long, value_name = "FILE", conflicts_with = "pixel", requires = "output")]
     checkpoint: Option<PathBuf>,
     /// Time between two checkpoints [default: 60]. Slow checkpoints are written less often, so that they take at most 1 % of the
     /// time
-    #[arg(long, value_name = "SECONDS", value_parser = parse::seconds)]
+    #[arg(help_heading = headings::KEEP, long, value_name = "SECONDS", value_parser = parse::seconds)]
     every: Option<Duration>,
     /// Continue a render even if its scene or the program has changed. The result mixes both versions and is labelled
     /// biased
-    #[arg(long, requires = "resume")]
+    #[arg(help_heading = headings::KEEP, long, requires = "resume")]
     anyway: bool,
 }
 

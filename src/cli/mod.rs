@@ -11,6 +11,7 @@ mod figures;
 mod flip;
 mod folder;
 mod frame_keeping;
+mod headings;
 mod keeping;
 mod layers;
 #[cfg(feature = "reports")]

@@ -5,19 +5,19 @@ use noisefall_base::{declare::Words, quote::either};
 use noisefall_kernel::measure::Floor;
 use noisefall_render::render::{Display, ToneMap, WhiteBalance, image_file::Format};
 
-use super::replay::Which;
+use super::{headings, replay::Which};
 
 /// Display transform of a PNG.
 #[derive(clap::Args)]
 pub struct DisplayOptions {
     /// Exposure of a PNG in stops; each stop doubles the brightness [default: that of the scene]
-    #[arg(long, value_name = "STOPS", value_parser = exposure, allow_negative_numbers = true)]
+    #[arg(help_heading = headings::IMAGE, long, value_name = "STOPS", value_parser = exposure, allow_negative_numbers = true)]
     exposure: Option<f32>,
     /// White balance of a PNG: the colour temperature of the light that appears white, in kelvin, and optionally its tint, positive
     /// for green light, such as 2700 or 4000,10 [default: 6504, no change]
-    #[arg(long, value_name = "KELVIN[,TINT]", value_parser = white_balance, allow_negative_numbers = true)]
+    #[arg(help_heading = headings::IMAGE, long, value_name = "KELVIN[,TINT]", value_parser = white_balance, allow_negative_numbers = true)]
     white_balance: Option<WhiteBalance>,
-    #[arg(long, value_name = "MAP", help = format!("Tone map of a PNG: {}", one_of::<ToneMap>()), value_parser = tone,
+    #[arg(help_heading = headings::IMAGE, long, value_name = "MAP", help = format!("Tone map of a PNG: {}", one_of::<ToneMap>()), value_parser = tone,
           default_value = ToneMap::default().name())]
     tone: ToneMap,
 }
@@ -91,6 +91,7 @@ pub fn which(text: &str) -> Result<Which, String> {
     }
 }
 
+#[cfg(any(feature = "reports", test))]
 pub fn whole(text: &str) -> Result<u32, String> {
     text.parse().map_err(|_| format!("expected a whole number from 0 to {}", u32::MAX))
 }

@@ -8,6 +8,7 @@ use noisefall_base::file::numbered;
 use noisefall_scene::scene::{Camera, CameraSequence};
 
 use super::{
+    headings,
     messages::{Failure, tell},
     options as parse,
     output::Output,
@@ -20,17 +21,17 @@ pub const UNFINISHED: &str = "the sequence is not finished; the same command wit
 #[derive(clap::Args)]
 pub struct SequenceOptions {
     /// Render N frames of a full turn around the camera's look-at point; -o is then a name such as frame-####.png
-    #[arg(long, value_name = "N", value_parser = parse::frames, group = "sequence", requires = "output")]
+    #[arg(help_heading = headings::KEEP, long, value_name = "N", value_parser = parse::frames, group = "sequence", requires = "output")]
     turntable: Option<u32>,
     /// Render the frames of a camera path, a TOML file; -o is then a name such as frame-####.png
-    #[arg(long, value_name = "FILE", group = "sequence", requires = "output")]
+    #[arg(help_heading = headings::KEEP, long, value_name = "FILE", group = "sequence", requires = "output")]
     cameras: Option<PathBuf>,
     /// Render only the frames A to B - 1 of the sequence; the first one is 1
-    #[arg(long, value_name = "A..B", value_parser = parse::frame_range, requires = "sequence")]
+    #[arg(help_heading = headings::KEEP, long, value_name = "A..B", value_parser = parse::frame_range, requires = "sequence")]
     frames: Option<Range<u32>>,
     /// Continue the render that --checkpoint kept in FILE; give no scene, because the file has it. Without FILE: skip frames of a
     /// sequence whose file exists, and continue those that have a checkpoint
-    #[arg(long, value_name = "FILE", num_args = 0..=1)]
+    #[arg(help_heading = headings::KEEP, long, value_name = "FILE", num_args = 0..=1)]
     resume: Option<Option<PathBuf>>,
 }
 

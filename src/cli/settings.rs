@@ -1,7 +1,9 @@
 //! Options of the settings of a render: one for each row of their table, with one value or a list of values.
 use clap::{Arg, ArgMatches, Args, Command, Error, FromArgMatches};
-use noisefall_base::{declare::Accepted, quote::either};
+use noisefall_base::declare::Accepted;
 use noisefall_scene::scene::{RenderSettings, Setting};
+
+use super::headings;
 
 /// Settings in place of those of the scene.
 #[derive(Default)]
@@ -18,9 +20,11 @@ impl SettingOptions {
 
 impl Args for SettingOptions {
     fn augment_args(command: Command) -> Command {
-        let option = |setting: &Setting| Arg::new(setting.key()).long(setting.option()).value_name(value_name(setting));
-        command
-            .args(RenderSettings::TABLE.iter().map(|setting| option(setting).help(help(setting)).value_parser(parser(*setting))))
+        let option = |setting: &Setting| {
+            let option = Arg::new(setting.key()).long(setting.option()).value_name(value_name(setting));
+            option.help(help(setting)).help_heading(headings::SAMPLING).value_parser(parser(*setting))
+        };
+        command.args(RenderSettings::TABLE.iter().map(option))
     }
 
     fn augment_args_for_update(command: Command) -> Command {
@@ -59,7 +63,7 @@ pub fn help(setting: &Setting) -> String {
     let doc = setting.parameter.doc.trim_end_matches('.');
     match setting.accepted() {
         accepted @ (Accepted::Words(_) | Accepted::Other(_) | Accepted::Flag) => {
-            format!("{doc}: {}", either(&accepted.alternatives()))
+            format!("{doc} [{}]", accepted.alternatives().join(", "))
         }
         Accepted::Count | Accepted::OptionalCount => doc.to_owned(),
     }

@@ -5,6 +5,7 @@ use clap::ArgGroup;
 use noisefall_render::render::{image_file::Format, layers::Layer, tev::DEFAULT_ADDRESS};
 
 use crate::cli::{
+    headings,
     keeping::KeepOptions,
     layers::{Layers, parse as layers_of},
     live,
@@ -27,24 +28,24 @@ pub struct Arguments {
     #[arg(required_unless_present = "resume")]
     pub scene: Option<PathBuf>,
     /// Image to write: .png (sRGB, as displayed) or .exr (linear radiance); - for standard output
-    #[arg(short, long, required_unless_present = "pixel")]
+    #[arg(help_heading = headings::OUTPUT, short, long, required_unless_present = "pixel")]
     pub output: Option<PathBuf>,
     /// Format of an image on standard output: png or exr. Files get the format of their extension
-    #[arg(long, value_name = "FORMAT", value_parser = parse::format, requires = "output", conflicts_with = "pixel")]
+    #[arg(help_heading = headings::OUTPUT, long, value_name = "FORMAT", value_parser = parse::format, requires = "output", conflicts_with = "pixel")]
     pub format: Option<Format>,
     /// Stop after N samples per pixel [default: the scene's number, or 256]. If several of --spp, --time and --noise are given,
     /// the last one counts
-    #[arg(long, value_name = "N", value_parser = parse::samples, overrides_with_all = ["time", "noise"])]
+    #[arg(help_heading = headings::STOP, long, value_name = "N", value_parser = parse::samples, overrides_with_all = ["time", "noise"])]
     pub spp: Option<u32>,
     /// Render samples A to B - 1 of each pixel. -o FILE.nf writes them for `noisefall merge`; -o FILE.exr or .png writes their image
-    #[arg(long, value_name = "A..B", value_parser = parse::sample_range, requires = "output", conflicts_with = "spp")]
+    #[arg(help_heading = headings::KEEP, long, value_name = "A..B", value_parser = parse::sample_range, requires = "output", conflicts_with = "spp")]
     pub samples: Option<Range<u32>>,
     /// Stop after this rendering time
-    #[arg(long, value_name = "SECONDS", value_parser = parse::seconds, overrides_with_all = ["spp", "noise"])]
+    #[arg(help_heading = headings::STOP, long, value_name = "SECONDS", value_parser = parse::seconds, overrides_with_all = ["spp", "noise"])]
     pub time: Option<Duration>,
     /// Stop at an estimated relative noise, such as 0.01 for 1 %: the root of relMSE, the mean of (x − r)²/(r² + 0.01 · mean r²).
     /// Such a stop depends on the samples: it adds a bias below 2.5 % of the target in tests
-    #[arg(long, value_name = "RELATIVE", value_parser = parse::noise, overrides_with_all = ["spp", "time"])]
+    #[arg(help_heading = headings::STOP, long, value_name = "RELATIVE", value_parser = parse::noise, overrides_with_all = ["spp", "time"])]
     pub noise: Option<f64>,
     #[command(flatten)]
     pub settings: SettingOptions,
@@ -52,39 +53,39 @@ pub struct Arguments {
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = parse::threads)]
     pub threads: u16,
     /// Resolution in pixels
-    #[arg(long, value_name = "WxH", value_parser = parse::resolution, allow_hyphen_values = true)]
+    #[arg(help_heading = headings::IMAGE, long, value_name = "WxH", value_parser = parse::resolution, allow_hyphen_values = true)]
     pub size: Option<[u32; 2]>,
     #[command(flatten)]
     pub options: SceneOptions,
     #[command(flatten)]
     pub display: DisplayOptions,
-    #[arg(long, value_name = "LIST", help = format!("Layers of an EXR: all, or a list of {}", parse::one_of::<Layer>()),
+    #[arg(help_heading = headings::IMAGE, long, value_name = "LIST", help = format!("Layers of an EXR: all, or a list of {}", parse::one_of::<Layer>()),
           value_parser = layers_of, requires = "output")]
     pub layers: Option<Layers>,
     /// Denoise the image, which biases it: non-local means over two halves of the samples. The file says so
-    #[arg(long, requires = "output")]
+    #[arg(help_heading = headings::IMAGE, long, requires = "output")]
     pub denoise: bool,
     #[command(flatten)]
     pub sequence: SequenceOptions,
     #[command(flatten)]
     pub keep: KeepOptions,
     /// Show the image in the viewer tev while it is rendered: linear radiance, at most once a second
-    #[arg(long, value_name = "HOST:PORT", num_args = 0..=1, default_missing_value = DEFAULT_ADDRESS, value_parser = live::address,
+    #[arg(help_heading = headings::OUTPUT, long, value_name = "HOST:PORT", num_args = 0..=1, default_missing_value = DEFAULT_ADDRESS, value_parser = live::address,
           conflicts_with = "pixel")]
     pub tev: Option<String>,
     /// Replay one path through this pixel instead of rendering
-    #[arg(long, value_name = "X,Y", value_parser = parse::pixel, allow_hyphen_values = true, conflicts_with = "output")]
+    #[arg(help_heading = headings::PATHS, long, value_name = "X,Y", value_parser = parse::pixel, allow_hyphen_values = true, conflicts_with = "output")]
     pub pixel: Option<[u32; 2]>,
     /// Sample to replay: a number, `lit` for the first that finds light, or with --csv a range such as 0-9999 [default: 0]
-    #[arg(long, value_name = "N", value_parser = parse::which, requires = "pixel", conflicts_with = "output")]
+    #[arg(help_heading = headings::PATHS, long, value_name = "N", value_parser = parse::which, requires = "pixel", conflicts_with = "output")]
     pub sample: Option<Which>,
     /// Print the path as LaTeX: the nested sum with its numbers
-    #[arg(long, requires = "pixel", conflicts_with_all = ["json", "csv"])]
+    #[arg(help_heading = headings::PATHS, long, requires = "pixel", conflicts_with_all = ["json", "csv"])]
     pub latex: bool,
     /// Table of samples of the pixel to write, with running mean and variance; - for standard output
-    #[arg(long, value_name = "FILE", requires = "pixel", conflicts_with = "json")]
+    #[arg(help_heading = headings::PATHS, long, value_name = "FILE", requires = "pixel", conflicts_with = "json")]
     pub csv: Option<PathBuf>,
     /// Print one line of JSON at the end; on standard error if the image goes to standard output
-    #[arg(long)]
+    #[arg(help_heading = headings::OUTPUT, long)]
     pub json: bool,
 }
