@@ -55,7 +55,7 @@ fn every_setting_is_a_figure_and_stands_in_the_heading_of_a_path() {
                 _ => json!(value),
             };
             assert_eq!(line[key], figure, "{key}: {line}");
-            // What is decided by trial is told as it was decided.
+            // A heading tells the decision of a trial, not the setting that asked for it.
             let is_decided = match key {
                 "estimator" => settings.estimator.traces_light_paths() || settings.estimator == Estimator::Auto,
                 "merging" => true,

@@ -1,7 +1,7 @@
 //! The answer to the last question, found on another thread, and one to a question near it meanwhile.
 use super::background_task::BackgroundTask;
 
-/// What a search is about.
+/// The subject of a search.
 pub trait Question: Clone {
     /// Whether both have the same answer.
     fn is_same(&self, other: &Self) -> bool;

@@ -89,7 +89,7 @@ fn obstacle<'a>(setting: Setting, settings: &RenderSettings, findings: &Findings
     is_uncapped.then_some("There is no bounce cap.")
 }
 
-/// What a setting that is on does to the render.
+/// A remark on a setting that is on.
 fn note(setting: Setting, settings: &RenderSettings, findings: &Findings<'_>) -> Option<String> {
     if setting == RenderSettings::MERGING {
         return settings.merges().then(|| "biased".to_owned());

@@ -27,15 +27,14 @@ pub struct Plan {
 }
 
 impl Lists {
-    /// The same with the values that a setting has in these, in place of its other values. An empty list is
-    /// the scene's value.
+    /// Sets the list of a setting to its values in these settings. An empty list stands for the scene's value.
     pub fn with(mut self, setting: Setting, values: impl IntoIterator<Item = RenderSettings>) -> Lists {
         self.0.retain(|(known, _)| *known != setting);
         self.0.push((setting, values.into_iter().collect()));
         self
     }
 
-    /// The same with the lists that `others` has in place of its own.
+    /// Replaces each list that `others` has, too.
     pub fn replaced_by(self, others: Lists) -> Lists {
         others.0.into_iter().fold(self, |lists, (setting, values)| lists.with(setting, values))
     }

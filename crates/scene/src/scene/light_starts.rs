@@ -21,7 +21,7 @@ type LightStart = Result<u32, Obstacle>;
 /// The rays with which paths start at the lights of a scene.
 pub struct LightStarts {
     rays: LightRays,
-    /// What stops only some estimators.
+    /// An obstacle that stops only some estimators.
     obstacle: Option<Obstacle>,
 }
 

@@ -1,8 +1,8 @@
-//! What neighbouring pixels may share, and what they share.
+//! Sharing between neighbouring pixels: the setting, and the sharing in force.
 use serde::{Deserialize, Serialize};
 
 noisefall_base::declare::words! {
-    /// What neighbouring pixels share.
+    /// The sharing that is asked for.
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
     #[serde(rename_all = "lowercase")]
     pub enum Reuse {
@@ -17,7 +17,7 @@ noisefall_base::declare::words! {
     }
 }
 
-/// What neighbouring pixels share in a render. Written as `false`, `true`, `bright`, `both` and `merged` in tables, and as a number
+/// Sharing between neighbouring pixels in a render. Written as `false`, `true`, `bright`, `both` and `merged` in tables, and as a number
 /// in files of renders.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Sharing {
@@ -54,7 +54,7 @@ impl Sharing {
         }
     }
 
-    /// What a setting asks for; nothing if that is undecided.
+    /// The sharing that a setting asks for; nothing if that is undecided.
     pub fn asked(reuse: Reuse) -> Sharing {
         match reuse {
             Reuse::On => Sharing::Suffixes,

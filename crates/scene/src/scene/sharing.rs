@@ -1,4 +1,4 @@
-//! What neighbouring pixels share in a scene.
+//! Decides which sharing between pixels a scene allows.
 use super::{CameraRays, RenderSettings, Reuse, Scene, Sharing};
 
 impl RenderSettings {

@@ -150,7 +150,7 @@ impl History {
 /// share.
 /// The words are those of the panel.
 pub fn name(settings: &RenderSettings, of_scene: &RenderSettings, sharing: Sharing) -> String {
-    // What pixels share is told by what they did share, whatever was asked for.
+    // The legend names the sharing in force, whatever was asked for.
     let told = settings.differing(of_scene).filter(|setting| *setting != RenderSettings::REUSE);
     let mut parts: Vec<String> = told.map(|setting| setting.words(settings)).collect();
     if settings == of_scene {

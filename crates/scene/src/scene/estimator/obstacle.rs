@@ -1,4 +1,4 @@
-//! What estimators with light paths cannot have. Where it is there, they work like `mis`, and say why.
+//! Obstacles to light paths. Estimators that need them work like `mis` where there is one, and say why.
 use noisefall_base::declare::{Word, Words};
 
 use super::Estimator;
@@ -60,12 +60,12 @@ impl Obstacle {
 }
 
 impl Estimator {
-    /// What the estimator cannot have.
+    /// The obstacles that stop the estimator.
     pub fn obstacles(self) -> impl Iterator<Item = Obstacle> {
         Obstacle::ALL.into_iter().filter(move |obstacle| obstacle.stops(self))
     }
 
-    /// What it does, by which strategies, and where another one runs instead: the tooltip of its entry.
+    /// Its purpose, its strategies, and where another one runs instead: the tooltip of its entry.
     pub fn explanation(self) -> String {
         let Word { doc, .. } = self.word();
         let obstacles: Vec<&str> = self.obstacles().map(|obstacle| obstacle.word().title).collect();

@@ -27,7 +27,7 @@ pub struct RenderSettings {
     /// Whether crossing a surface by its opacity counts as a bounce for the cap.
     #[serde(default)]
     pub count_crossings: bool,
-    /// What neighbouring pixels share.
+    /// Sharing between neighbouring pixels.
     pub reuse: Reuse,
     /// Whether pixels get more samples where a pilot found more noise. Not where they share paths.
     pub adaptive: bool,

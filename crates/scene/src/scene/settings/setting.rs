@@ -2,7 +2,7 @@
 use super::RenderSettings;
 use noisefall_base::declare::{Accepted, Datum, Parameter, Parameters, SettingValue};
 
-/// What a setting changes in the image.
+/// The effect of a setting on the image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Changes {
     /// How the image is estimated. All values converge to the same image.
@@ -18,7 +18,7 @@ pub enum Changes {
 pub struct Setting {
     /// Key, title, symbol, sentence and aliases.
     pub parameter: Parameter,
-    /// What it changes.
+    /// The part of the image that it changes.
     pub changes: Changes,
     /// The option for a list of values. Empty for settings that are never compared.
     pub list: &'static str,

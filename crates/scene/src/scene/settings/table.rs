@@ -74,7 +74,7 @@ impl RenderSettings {
     .counts([Self::FIRST_CAP, Self::HIGHEST_CAP])
     .noun("cap");
 
-    /// What counts as a bounce.
+    /// Whether crossings count as bounces.
     pub const COUNT_CROSSINGS: Setting = Setting::new(
         Parameter::new("count_crossings", "Whether passing a surface that is not opaque counts as a bounce for `max_bounces`."),
         access!(count_crossings, flag),
@@ -93,7 +93,7 @@ impl RenderSettings {
     .noun("roulette")
     .always_told();
 
-    /// What neighbouring pixels share.
+    /// Sharing between neighbouring pixels.
     pub const REUSE: Setting = Setting::new(
         Parameter::new(
             "reuse",
