@@ -736,7 +736,7 @@ class Render:
     merging: bool | None = None
     """Whether the estimator `bidirectional` merges vertices that are near each other (Georgiev et al. 2012). Finds caustics in mirrors. Biased, but consistent."""
     reuse: Literal['auto', 'on', 'bright', 'both', 'off'] | None = None
-    """What neighbouring pixels share: path suffixes (Bekaert, Sbert and Halton 2002), bright samples, or both. Less noise, no bias, but the noise of neighbouring pixels is correlated."""
+    """What neighbouring pixels share: path suffixes (Bekaert, Sbert and Halton 2002), outliers, or both. Less noise, no bias, but the noise of neighbouring pixels is correlated."""
     roulette: Literal['off', 'throughput'] | Roulette | Mapping[str, Any] | None = None
     """Ends paths at random and weights the survivors, so that the mean does not change."""
     sampler: Literal['independent', 'stratified', 'sobol', 'bluenoise'] | None = None

@@ -14,7 +14,7 @@ from . import _noisefall, description
 from .image import Image
 from .path import Path
 
-Estimator = Literal["path", "light", "mis", "caustics", "forward", "bidirectional", "auto"]
+Estimator = Literal["path", "light", "mis", "caustics", "light_tracing", "bidirectional", "auto"]
 Directions = Literal["uniform", "cosine", "bsdf"]
 Sampler = Literal["independent", "stratified", "sobol", "bluenoise"]
 Reuse = Literal["auto", "on", "bright", "both", "off"]

@@ -8,7 +8,7 @@ use noisefall::{CameraRays, RenderSettings, Scene};
 use noisefall_kernel::integrator::{pixel_samples, replay};
 use noisefall_render::render::{
     path_text::{self, PathId},
-    sharing::resolved,
+    path_reuse::resolved,
 };
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::{exceptions::PyValueError, prelude::*};

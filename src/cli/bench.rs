@@ -16,7 +16,7 @@ use noisefall_render::render::{
     profile::{CountedRays, PathStage, Profile, StageCost, settings_of},
     threads::{PassJob, Threads},
 };
-use noisefall_scene::scene::{Camera, Estimator, RenderSettings, Sharing};
+use noisefall_scene::scene::{Camera, Estimator, PathReuse, RenderSettings};
 use serde_json::{Value, json};
 
 use super::{
@@ -30,7 +30,7 @@ use super::{
 const NOTES: &str = "\
 Times of stages are wall-clock times summed over threads, so waiting on a busy machine counts; more samples even that out. The trial \
 that decides what pixels share is not part of them. The table of bounces leaves out camera rays, path reuse and film; its rays per \
-sample include shadow rays. Path reuse includes bright samples. The choice of lights is part of shading.
+sample include shadow rays. Path reuse includes outliers. The choice of lights is part of shading.
 
 The image is discarded, and sampling is uniform even if the scene asks for adaptive sampling. Paths from lights are not measured: \
 if the scene asks for them, `mis` is measured.
@@ -65,12 +65,12 @@ pub struct Arguments {
 struct Measured {
     profile: Profile,
     build: Duration,
-    /// Time of the trials that decide the estimator and the sharing.
+    /// Time of the trials that decide the estimator and the path reuse.
     trial: Duration,
     elapsed: Duration,
     threads: usize,
     spp: u32,
-    sharing: Sharing,
+    path_reuse: PathReuse,
 }
 
 pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
@@ -99,8 +99,8 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let Ok(profile) = threads.profile(job, arguments.spp, &|| stop.load(Ordering::Relaxed)) else {
         return Ok(ExitCode::from(INTERRUPTED));
     };
-    let (elapsed, sharing) = (start.elapsed(), scene.sharing(&rays, &settings));
-    let measured = Measured { profile, build, trial, elapsed, threads: threads.count(), spp: arguments.spp, sharing };
+    let (elapsed, path_reuse) = (start.elapsed(), scene.path_reuse(&rays, &settings));
+    let measured = Measured { profile, build, trial, elapsed, threads: threads.count(), spp: arguments.spp, path_reuse };
     if let Some(output) = &arguments.output {
         replace(output, measured.plot(&scene.title).as_bytes()).map_err(|error| error.to_string())?;
     }
@@ -160,7 +160,7 @@ impl Measured {
              stage            time  ns per sample   rays per sample   ns per ray\n",
             profile.samples,
             self.spp,
-            self.sharing.name(),
+            self.path_reuse.words(),
             self.elapsed.as_secs_f64(),
             self.threads,
             self.build.as_secs_f64(),
@@ -210,8 +210,7 @@ impl Measured {
             ("simd", json!(SimdLevel::best().name())),
             ("threads", json!(self.threads)),
             ("spp", json!(self.spp)),
-            ("shares", json!(self.sharing.correlates())),
-            ("sharing", json!(self.sharing.name())),
+            ("path_reuse", json!(self.path_reuse.name())),
             ("samples", json!(self.profile.samples)),
             ("build_seconds", json!(self.build.as_secs_f64())),
             ("trial_seconds", json!(self.trial.as_secs_f64())),

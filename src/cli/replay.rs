@@ -4,9 +4,9 @@ use std::path::Path;
 use noisefall_base::file::replace;
 use noisefall_kernel::integrator::{pixel_samples, replay};
 use noisefall_render::render::{
+    path_reuse::resolved,
     path_samples::{self, SampleTable},
     path_text::{self, PathId},
-    sharing::resolved,
 };
 use noisefall_scene::scene::{Camera, CameraRays, RenderSettings, Scene};
 

@@ -16,8 +16,8 @@ use noisefall_render::{
         checkpoint::{counters, keep_scene, kept_header},
         image_file,
         pass::Failure as RenderFailure,
+        path_reuse::resolved,
         replay_command::replay_command,
-        sharing::resolved,
         split::{SampleFilm, SampleRanges, SplitError, write},
         threads::{PassJob, Threads},
     },
@@ -121,7 +121,7 @@ impl SampleJob {
         let image = ImageFacts {
             title: self.scene.title.clone(),
             exposure: self.scene.exposure,
-            shares: self.scene.sharing(&rays, &settings).correlates(),
+            shares: self.scene.path_reuse(&rays, &settings).correlates(),
         };
         let header = Header {
             kind: Kind::Samples,

@@ -138,9 +138,9 @@ impl Job<'_> {
             return None;
         };
         tell(&format!("note: {}", denoise::LABEL));
-        let Frame { width, height, full_resolution, spp, sharing, elapsed, .. } = *frame;
+        let Frame { width, height, full_resolution, spp, path_reuse, elapsed, .. } = *frame;
         let counts = frame.counts.clone();
-        Some(Frame { width, height, full_resolution, radiance, spp, counts, sharing, elapsed, ..Frame::default() })
+        Some(Frame { width, height, full_resolution, radiance, spp, counts, path_reuse, elapsed, ..Frame::default() })
     }
 
     /// Whether it is the scene's own camera, whose image the scene may know.

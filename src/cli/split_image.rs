@@ -11,7 +11,7 @@ use noisefall_render::{
     },
     render_file::{Counters, Header},
 };
-use noisefall_scene::{sampling::Sampler, scene::Sharing};
+use noisefall_scene::{sampling::Sampler, scene::PathReuse};
 use serde_json::{Value, json};
 
 use super::{
@@ -46,8 +46,8 @@ impl SplitImage<'_> {
     pub fn picture(&self) -> Result<SplitPicture, Failure> {
         // For the figures it makes no difference what exactly is shared.
         let shares = self.header.image.as_ref().is_some_and(|image| image.shares);
-        let sharing = if shares { Sharing::Suffixes } else { Sharing::Nothing };
-        let picture = SplitPicture::new(self.header.camera.resolution, self.samples.clone(), sharing);
+        let path_reuse = if shares { PathReuse::Suffixes } else { PathReuse::Off };
+        let picture = SplitPicture::new(self.header.camera.resolution, self.samples.clone(), path_reuse);
         picture.map_err(|error| error.to_string())
     }
 

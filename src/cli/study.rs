@@ -32,7 +32,7 @@ Renders each scene several times with each combination of the lists, and compare
 scene's [truth], else the image NAME.ref.exr beside NAME.toml, else a converged render, which is made first and kept in DIR.
 
 Default lists: --estimators path,light,mis --directions uniform,cosine,bsdf --samplers \
-independent,stratified,sobol --roulette off,0.8,throughput --max-bounces none. Sharing and adaptive sampling follow the scene.
+independent,stratified,sobol --roulette off,0.8,throughput --max-bounces none. Path reuse and adaptive sampling follow the scene.
 
 DIR gets study.csv with a line per measurement, and report.html with error against time and samples, slopes, efficiencies and the best \
 settings of each scene. Measurements in DIR are not repeated, so the same command continues an interrupted study.

@@ -1,5 +1,5 @@
 //! Notes on settings that a render does not use.
-use noisefall_render::render::{sharing::resolved, threads::Threads};
+use noisefall_render::render::{path_reuse::resolved, threads::Threads};
 use noisefall_scene::scene::{CameraRays, RenderSettings, Reuse, Scene};
 
 use super::messages::tell;

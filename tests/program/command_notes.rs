@@ -90,9 +90,9 @@ fn options_without_effect_are_named() {
         text(&done.stderr)
     };
     for (options, note) in [
-        (&["-o", "a.png", "--adaptive", "on", "--reuse", "on"][..], "note: `adaptive` is not used: pixels have shared paths"),
+        (&["-o", "a.png", "--adaptive", "on", "--reuse", "on"][..], "note: `adaptive` is not used: pixels have reused suffixes"),
         (&["-o", "a.png", "--adaptive", "on", "--estimator", "bidirectional"], "note: `adaptive` is not used: paths from lights"),
-        (&["-o", "a.png", "--reuse", "both", "--estimator", "forward"], "note: `reuse` is not used: paths from lights"),
+        (&["-o", "a.png", "--reuse", "both", "--estimator", "light_tracing"], "note: `reuse` is not used: paths from lights"),
         (&["-o", "a.png", "--merging", "on", "--estimator", "mis"], "note: `merging` is not used: it belongs to the estimator"),
         (&["-o", "a.exr", "--tone", "aces"], "affect a PNG only"),
         (&["-o", "a.png", "-D", "a=1", "--at", "2", "--variant", "b"], "note: -D affects scenes of Mitsuba only; --at affects"),

@@ -24,7 +24,7 @@ use rand::{Rng, SeedableRng, rngs::SmallRng};
 /// The bits of a small picture, with every way to share that the scene allows.
 pub fn picture(scene: &Scene, threads: &Threads) -> Vec<[u32; 3]> {
     let camera = Camera { resolution: [16, 12], ..scene.camera };
-    let settings = RenderSettings { reuse: Reuse::On, ..scene.settings };
+    let settings = RenderSettings { reuse: Reuse::Suffixes, ..scene.settings };
     let mut film = Film::new(camera.resolution);
     threads.pass(PassJob { scene, rays: &scene.rays(&camera), settings: &settings }, &mut film, 2, &|| false);
     let frame = Frame::of_film(&film, 0, camera.resolution, camera.resolution);

@@ -82,7 +82,7 @@ fn the_chapter_of_the_furnace_finds_what_is_known_of_it() {
     let settings: BTreeSet<[String; 2]> =
         lines.records().map(|line| [reuse, adaptive].map(|at| line.as_ref().expect("a line")[at].to_owned())).collect();
     assert!(settings.iter().all(|[reuse, adaptive]| reuse != "auto" && adaptive == "off"), "{settings:?}");
-    assert!(tables.contains_key("equal_time_sharing"));
+    assert!(tables.contains_key("equal_time_path_reuse"));
     assert!(read("bias_of_roulette.tex").contains("\\begin{tabular}{lrrrrrl}"));
     // The corner of the first image with a cap has radiance 1.
     let corner = || {

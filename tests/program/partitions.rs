@@ -6,14 +6,14 @@ use noisefall_render::{
     render::{
         checkpoint::{keep_scene, kept_header},
         image_file::{Contents, Format},
-        sharing::resolved,
+        path_reuse::resolved,
         split::{Join, SampleFile, SampleFilm, SampleRanges, SplitPicture, write},
     },
     render_file::{Header, ImageFacts, Kind, Target},
 };
 use noisefall_scene::{
     sampling::Sampler,
-    scene::{Reuse, Sharing},
+    scene::{PathReuse, Reuse},
 };
 use rand::{Rng, SeedableRng, rngs::SmallRng, seq::SliceRandom};
 use std::sync::Arc;
@@ -40,7 +40,7 @@ impl Image {
         let settings = RenderSettings {
             sampler: samplers[random.random_range(0..samplers.len())],
             adaptive: random.random_bool(0.4),
-            reuse: [Reuse::Auto, Reuse::On, Reuse::Bright, Reuse::Both, Reuse::Off][random.random_range(0..5)],
+            reuse: [Reuse::Auto, Reuse::Suffixes, Reuse::Outliers, Reuse::Both, Reuse::Off][random.random_range(0..5)],
             seed: random.random_range(0..1000),
             ..scene.settings
         };
@@ -65,9 +65,9 @@ impl Image {
         film
     }
 
-    fn sharing(&self) -> Sharing {
+    fn path_reuse(&self) -> PathReuse {
         let rays = self.scene.rays(&self.camera);
-        self.scene.sharing(&rays, &resolved(&self.scene, &rays, &self.settings))
+        self.scene.path_reuse(&rays, &resolved(&self.scene, &rays, &self.settings))
     }
 
     fn header(&self, samples: [u32; 2]) -> Header {
@@ -75,7 +75,7 @@ impl Image {
         let kept = keep_scene(&scene, Path::new("a.toml"), None);
         let threads = Threads::new(1, SimdLevel::best()).expect("a thread");
         let header = kept_header(&RenderRequest { scene, camera, settings }, kept, None, Target::default(), &threads);
-        let image = Some(ImageFacts { shares: self.sharing().correlates(), ..ImageFacts::default() });
+        let image = Some(ImageFacts { shares: self.path_reuse().correlates(), ..ImageFacts::default() });
         Header { kind: Kind::Samples, samples: vec![samples], image, ..header.expect("a header") }
     }
 
@@ -87,7 +87,7 @@ impl Image {
     }
 
     fn picture(&self, samples: SampleRanges) -> SplitPicture {
-        SplitPicture::new(self.camera.resolution, samples, self.sharing()).expect("there is memory")
+        SplitPicture::new(self.camera.resolution, samples, self.path_reuse()).expect("there is memory")
     }
 }
 
@@ -178,7 +178,7 @@ fn exact_sums_have_the_image_of_a_film() {
             a.as_flattened().iter().zip(b.as_flattened()).all(|(a, b)| is_near(f64::from(*a), f64::from(*b)))
         };
         assert!(near(&exact.radiance, &plain.radiance), "{:?}", image.settings);
-        assert_eq!((&exact.counts, exact.spp, exact.sharing), (&plain.counts, plain.spp, plain.sharing));
+        assert_eq!((&exact.counts, exact.spp, exact.path_reuse), (&plain.counts, plain.spp, plain.path_reuse));
         let (exact, plain) = (exact.noise.expect("its noise"), plain.noise.expect("its noise"));
         assert!(near(&exact.variance, &plain.variance), "{:?}", image.settings);
         assert!(exact.blocks.iter().zip(&plain.blocks).all(|(a, b)| is_near(*a, *b)), "{:?} {:?}", exact.blocks, plain.blocks);

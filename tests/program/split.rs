@@ -53,7 +53,7 @@ fn parts_join_to_the_file_of_one_render() {
 #[test]
 fn parts_with_paths_from_lights_join_to_the_file_of_one_render() {
     let shell = Shell::new();
-    for estimator in ["forward", "bidirectional"] {
+    for estimator in ["light_tracing", "bidirectional"] {
         let of = ["--estimator", estimator];
         part(&shell, "glass_ball_caustic", "0..7", "whole.exr", &of);
         for (samples, name) in [("0..3", "a.nf"), ("3..4", "b.nf"), ("4..7", "c.nf")] {

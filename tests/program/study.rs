@@ -111,7 +111,7 @@ fn two_studies_in_one_folder_at_once_lose_no_line() {
 }
 
 #[test]
-fn sharing_and_adaptive_samples_are_listed_and_scenes_of_one_title_told_apart() {
+fn path_reuse_and_adaptive_samples_are_listed_and_scenes_of_one_title_told_apart() {
     let shell = Shell::new();
     fs::copy(scene("cornell_box"), shell.path("other.toml")).expect("a scene");
     let few =
@@ -126,12 +126,12 @@ fn sharing_and_adaptive_samples_are_listed_and_scenes_of_one_title_told_apart() 
     let mut table = csv::Reader::from_path(shell.path("out/study.csv")).expect("measurements");
     let header = table.headers().expect("names").clone();
     let column = |name: &str| header.iter().position(|column| column == name).expect("a column");
-    let columns = ["reuse", "shares", "adaptive", "spp", "bias_standard_error"].map(column);
+    let columns = ["reuse", "path_reuse", "adaptive", "spp", "bias_standard_error"].map(column);
     let rows: Vec<[String; 5]> =
         table.records().map(|row| columns.map(|at| row.as_ref().expect("a line")[at].to_owned())).collect();
-    for (reuse, shares) in [("on", "true"), ("off", "false")] {
+    for (reuse, in_force) in [("suffixes", "suffixes"), ("off", "off")] {
         for adaptive in ["on", "off"] {
-            assert!(rows.iter().any(|row| row[..3] == [reuse, shares, adaptive]), "{reuse} {adaptive}: {rows:?}");
+            assert!(rows.iter().any(|row| row[..3] == [reuse, in_force, adaptive]), "{reuse} {adaptive}: {rows:?}");
         }
     }
     // The standard error is known from the second sample on, and falls.
@@ -140,7 +140,9 @@ fn sharing_and_adaptive_samples_are_listed_and_scenes_of_one_title_told_apart() 
     let report = fs::read_to_string(shell.path("out/report.html")).expect("a report");
     assert!(report.contains("(other.toml)</h2>") && report.contains("cornell_box.toml)</h2>"), "{report}");
     assert!(
-        report.contains("<th>sharing</th>") && report.contains("<th>adaptive</th>") && report.contains("sharing on, adaptive on")
+        report.contains("<th>path reuse</th>")
+            && report.contains("<th>adaptive</th>")
+            && report.contains("path reuse suffixes, adaptive on")
     );
 }
 

@@ -12,8 +12,8 @@ use noisefall_scene::{
 };
 
 use crate::{
+    path_reuse::ROOM,
     picture::{assert_all_within, scene, settings},
-    sharing::ROOM,
     statistics::Moments,
 };
 

@@ -72,7 +72,7 @@ pub fn sum(terms: &[StrategyTerm]) -> [f32; 3] {
 fn the_terms_of_the_strategies_add_up_to_the_samples_of_the_renderer_bit_for_bit() {
     let scene = scene(ROOM);
     let rays = scene.rays(&scene.camera);
-    for estimator in [Estimator::Bidirectional, Estimator::Forward, Estimator::Caustics] {
+    for estimator in [Estimator::Bidirectional, Estimator::LightTracing, Estimator::Caustics] {
         let settings = settings(&scene, estimator);
         assert!(scene.traces_light_paths(&settings));
         let mut batch = Batch::default();

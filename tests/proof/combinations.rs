@@ -46,7 +46,7 @@ features! {
     RoughGlass,
     TintedGlass,
     Lens,
-    Sharing,
+    PathReuse,
 }
 
 use Feature::*;
@@ -179,7 +179,7 @@ fn with(set: &[Feature]) -> Scene {
     ))
 }
 
-/// Means of the four quarters of the image, by sample. Pixels may share paths; samples do not.
+/// Means of the four quarters of the image, by sample. Pixels may reuse paths; samples do not.
 fn quarters(scene: &Scene, settings: &RenderSettings, spp: u32) -> Vec<Moments> {
     let rays = scene.rays(&scene.camera);
     let [width, height] = scene.camera.resolution;
@@ -210,7 +210,7 @@ fn path_light_and_mis_agree_wherever_two_features_meet() {
     let mut names = Vec::new();
     for set in sets() {
         let scene = with(&set);
-        let reuse = if set.contains(&Sharing) { Reuse::On } else { Reuse::Off };
+        let reuse = if set.contains(&PathReuse) { Reuse::Suffixes } else { Reuse::Off };
         let of = |estimator: Estimator| {
             let settings = RenderSettings { reuse, sampler: Sampler::Independent, max_bounces: Some(6), ..settings(estimator) };
             quarters(&scene, &settings, if estimator == Estimator::Path { 2048 } else { 768 })
@@ -218,7 +218,7 @@ fn path_light_and_mis_agree_wherever_two_features_meet() {
         let mis = of(Estimator::Mis);
         // Of light from far away, forward tracing finds so little that its means are not normally distributed.
         let is_far = set.contains(&ImageSky) || set.contains(&ConstantSky);
-        let is_left_out = |estimator: &Estimator| *estimator == Estimator::Mis || is_far && *estimator == Estimator::Forward;
+        let is_left_out = |estimator: &Estimator| *estimator == Estimator::Mis || is_far && *estimator == Estimator::LightTracing;
         for estimator in Estimator::ALL.into_iter().filter(|estimator| !is_left_out(estimator)) {
             for (quarter, (a, b)) in of(estimator).iter().zip(&mis).enumerate() {
                 deviations.push((a.mean - b.mean) / (a.variance / a.count + b.variance / b.count).sqrt());

@@ -14,7 +14,7 @@ use noisefall_scene::{
 };
 
 const RESOLUTION: [u32; 2] = [75, 50];
-const SHARING: [Reuse; 4] = [Reuse::Off, Reuse::On, Reuse::Bright, Reuse::Both];
+const PATH_REUSE: [Reuse; 4] = [Reuse::Off, Reuse::Suffixes, Reuse::Outliers, Reuse::Both];
 /// Enough samples for adaptive sampling to distribute them.
 const SPP: u32 = 8;
 
@@ -78,7 +78,7 @@ fn assert_goes_on(scene: &Scene, settings: &RenderSettings, what: &str) {
 #[test]
 fn the_film_is_the_same_for_every_number_of_threads_and_every_simd_level() {
     let scene = built_in();
-    for (sampler, reuse) in Sampler::ALL.into_iter().flat_map(|sampler| SHARING.map(|reuse| (sampler, reuse))) {
+    for (sampler, reuse) in Sampler::ALL.into_iter().flat_map(|sampler| PATH_REUSE.map(|reuse| (sampler, reuse))) {
         assert_same_everywhere(&scene, &settings(sampler, reuse), &format!("{}, {reuse:?}", sampler.name()));
     }
 }
@@ -86,7 +86,7 @@ fn the_film_is_the_same_for_every_number_of_threads_and_every_simd_level() {
 #[test]
 fn an_interrupted_pass_goes_on_as_if_nothing_had_happened() {
     let scene = built_in();
-    for reuse in SHARING {
+    for reuse in PATH_REUSE {
         assert_goes_on(&scene, &settings(Sampler::Sobol, reuse), &format!("{reuse:?}"));
     }
 }
@@ -95,7 +95,7 @@ fn an_interrupted_pass_goes_on_as_if_nothing_had_happened() {
 fn replayed_samples_add_up_to_the_film() {
     let scene = built_in();
     let rays = scene.rays(&camera(&scene));
-    for (sampler, reuse) in Sampler::ALL.into_iter().flat_map(|sampler| SHARING.map(|reuse| (sampler, reuse))) {
+    for (sampler, reuse) in Sampler::ALL.into_iter().flat_map(|sampler| PATH_REUSE.map(|reuse| (sampler, reuse))) {
         let settings = settings(sampler, reuse);
         let film = film(&scene, 2, SimdLevel::best(), &settings, 3);
         let frame = Frame::of_film(&film, 0, RESOLUTION, RESOLUTION);
@@ -117,7 +117,7 @@ fn from_both_ends(estimator: Estimator) -> RenderSettings {
     RenderSettings { estimator, adaptive: false, ..settings(Sampler::Sobol, Reuse::Off) }
 }
 
-const BOTH_ENDS: [Estimator; 2] = [Estimator::Forward, Estimator::Bidirectional];
+const BOTH_ENDS: [Estimator; 2] = [Estimator::LightTracing, Estimator::Bidirectional];
 
 #[test]
 fn paths_from_lights_bring_the_same_light_for_every_number_of_threads_and_every_simd_level() {

@@ -54,7 +54,8 @@ fn they_agree_on_every_shipped_scene() {
         let mut found: Vec<(Estimator, Vec<Mean>)> = Vec::new();
         // Of light from far away, forward tracing finds so little that its means are not normally distributed.
         let is_far = scene.lights.background.is_some();
-        let is_left_out = |estimator: &Estimator| *estimator == Estimator::Auto || is_far && *estimator == Estimator::Forward;
+        let is_left_out =
+            |estimator: &Estimator| *estimator == Estimator::Auto || is_far && *estimator == Estimator::LightTracing;
         for estimator in Estimator::ALL.into_iter().filter(|estimator| !is_left_out(estimator)) {
             let settings =
                 RenderSettings { estimator, sampler: Sampler::Independent, seed: settings(estimator).seed, ..scene.settings };
@@ -64,7 +65,7 @@ fn they_agree_on_every_shipped_scene() {
         for (i, (a, of_a)) in found.iter().enumerate() {
             for (b, of_b) in &found[i + 1..] {
                 // Hardly any light from far away hits what the camera sees.
-                let is_rarely_found = [a, b].contains(&&Estimator::Forward);
+                let is_rarely_found = [a, b].contains(&&Estimator::LightTracing);
                 for (i, (mean_a, mean_b)) in of_a.iter().zip(of_b).enumerate() {
                     let is_known = are_known(*mean_a, *mean_b);
                     compared += usize::from(!is_rarely_found);
@@ -193,8 +194,8 @@ fn they_agree_among_hundreds_of_lamps() {
     };
     let path = of(Estimator::Path);
     let mut deviations = Vec::new();
-    // Nearly all paths of `forward` start at the shell and pass the scene by: its means are not normally distributed.
-    for estimator in beside_path().filter(|estimator| *estimator != Estimator::Forward) {
+    // Nearly all paths of `light_tracing` start at the shell and pass the scene by: its means are not normally distributed.
+    for estimator in beside_path().filter(|estimator| *estimator != Estimator::LightTracing) {
         deviations.extend(path.iter().zip(of(estimator)).map(|(a, b)| b.z_from(*a)));
         let whole = deviations[deviations.len() - 1];
         println!("whole picture: {:.5}, {} deviates by {whole:.2} σ", path[path.len() - 1].mean, estimator.name());

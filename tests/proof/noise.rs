@@ -7,7 +7,7 @@ use noisefall_kernel::measure::{Floor, relative};
 use noisefall_render::render::{
     film::Film,
     frame::Frame,
-    sharing::resolved,
+    path_reuse::resolved,
     threads::{PassJob, Threads},
 };
 use noisefall_scene::{

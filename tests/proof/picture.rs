@@ -32,7 +32,7 @@ pub fn settings(estimator: Estimator) -> RenderSettings {
     }
 }
 
-/// The estimators whose paths start at the camera, some of them at lights, too. `forward` finds no view as small as a point, and `auto` is
+/// The estimators whose paths start at the camera, some of them at lights, too. `light_tracing` finds no view as small as a point, and `auto` is
 /// one of the others.
 pub const WITH_CAMERA_PATHS: [Estimator; 5] =
     [Estimator::Path, Estimator::Light, Estimator::Mis, Estimator::Caustics, Estimator::Bidirectional];

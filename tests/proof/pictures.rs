@@ -25,7 +25,7 @@ fn hash(scene: &Scene, threads: &Threads, sampler: Sampler, estimator: Estimator
     let resolution = [SIZE, (SIZE * height).div_ceil(width)];
     let rays = scene.rays(&Camera { resolution, ..scene.camera });
     // Path reuse is on wherever the scene allows it, because the trial depends on the size of the image.
-    let settings = RenderSettings { sampler, estimator, reuse: Reuse::On, ..scene.settings };
+    let settings = RenderSettings { sampler, estimator, reuse: Reuse::Suffixes, ..scene.settings };
     let mut film = Film::new(resolution);
     threads.pass(PassJob { scene, rays: &rays, settings: &settings }, &mut film, SPP, &|| false);
     let frame = Frame::of_film(&film, 0, resolution, resolution);

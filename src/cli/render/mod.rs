@@ -13,7 +13,7 @@ use std::{
 
 use noisefall_base::math::SimdLevel;
 use noisefall_render::{
-    render::{Budget, RenderRequest, image_file::Format, sharing::resolved, threads::Threads, truth::Reference},
+    render::{Budget, RenderRequest, image_file::Format, path_reuse::resolved, threads::Threads, truth::Reference},
     render_file::Target,
 };
 use noisefall_scene::scene::{Estimator, RenderSettings, Scene};

@@ -29,7 +29,7 @@ fn every_option_takes_the_place_of_the_scenes_setting_and_of_no_other() {
         ("--sampler stratified", RenderSettings { sampler: Sampler::Stratified, ..of_scene }),
         ("--max-bounces 3", RenderSettings { max_bounces: Some(3), ..of_scene }),
         ("--roulette 0.5", RenderSettings { roulette: Roulette::fixed(0.5), ..of_scene }),
-        ("--reuse on", RenderSettings { reuse: Reuse::On, ..of_scene }),
+        ("--reuse suffixes", RenderSettings { reuse: Reuse::Suffixes, ..of_scene }),
         ("--adaptive on", RenderSettings { adaptive: true, ..of_scene }),
         ("--merging on", RenderSettings { merging: true, ..of_scene }),
         ("--count-crossings on", RenderSettings { count_crossings: true, ..of_scene }),

@@ -55,7 +55,11 @@ impl Done<'_> {
             let longest = self.settings.last_bounce();
             notes.push(format!("warning: {cut_paths} paths were cut after {longest} bounces: the image is biased; use roulette"));
         }
-        if self.settings.adaptive && !self.frame.sharing.correlates() && self.frame.counts.is_empty() && !self.has_light_paths() {
+        if self.settings.adaptive
+            && !self.frame.path_reuse.correlates()
+            && self.frame.counts.is_empty()
+            && !self.has_light_paths()
+        {
             notes.push("note: `adaptive` is not used: there are few samples, or a pilot found no gain in it".to_owned());
         }
         if let Some(contradiction) = &self.contradiction {
@@ -118,8 +122,7 @@ impl Done<'_> {
             ("simd", json!(SimdLevel::best().name())),
             ("version", json!(env!("CARGO_PKG_VERSION"))),
             ("commit", json!(noisefall_render::COMMIT)),
-            ("shares", json!(status.sharing.correlates())),
-            ("sharing", json!(status.sharing.name())),
+            ("path_reuse", json!(status.path_reuse.name())),
             ("adapts", json!(status.adapts)),
             ("build_seconds", json!(build_seconds)),
             ("seconds", json!(seconds)),

@@ -3,7 +3,7 @@ use std::time::Duration;
 
 use noisefall_formats::import::Remark;
 use noisefall_render::render::{Target, image_file::Format};
-use noisefall_scene::scene::{Roulette, Sharing, built_in};
+use noisefall_scene::scene::{PathReuse, Roulette, built_in};
 
 use super::*;
 
@@ -19,7 +19,7 @@ fn status(state: State) -> Status {
         elapsed: Duration::from_secs(1),
         rel_mse_estimate: Some(0.0009),
         error_is_lower_bound: false,
-        sharing: Sharing::Suffixes,
+        path_reuse: PathReuse::Suffixes,
         adapts: false,
         invalid_samples: 4,
         first_invalid: None,
@@ -75,20 +75,20 @@ fn every_figure_stands_under_its_name() {
         "scene": "a.toml", "width": 4, "height": 1, "spp": 2, "mean_spp": 2.5, "stopped_by": "time", "threads": 3,
         "simd": SimdLevel::best().name(), "version": env!("CARGO_PKG_VERSION"), "commit": noisefall_render::COMMIT,
         "estimator": "mis", "directions": "bsdf", "sampler": "sobol", "roulette": "throughput", "roulette_start": 4,
-        "max_bounces": 5, "reuse": "auto", "shares": true, "adaptive": "off", "adapts": false, "seed": 8,
+        "max_bounces": 5, "reuse": "auto", "adaptive": "off", "adapts": false, "seed": 8,
         "build_seconds": 0.25, "seconds": 0.5, "paths": 10, "paths_per_second": 20.0, "rays": 77, "mean": [1.0, 2.0, 4.0],
         "rel_mse_estimate": 0.0009, "rel_mse_is_lower_bound": false, "biased": "cap at 5", "cut_paths": 6, "dropped_triangles": 0, "invalid_samples": 4,
         "rmse": 0.125, "rel_mse": 0.0004, "bias": -2.0, "bias_standard_error": null, "bias_in_standard_errors": null,
         "exact_samples": false, "heavy_tails": false, "replay": "noisefall render a.toml --pixel 1,0",
     });
-    (expected["render_seconds"], expected["sharing"]) = (json!(0.5), json!("shared paths"));
+    (expected["render_seconds"], expected["path_reuse"]) = (json!(0.5), json!("suffixes"));
     (expected["merging"], expected["count_crossings"]) = (json!("off"), json!("off"));
     expected["remarks"] = json!(["a.xml:1:1: `hair` → plastic: it looks smooth"]);
     assert_eq!(line, expected);
-    let other = Status { sharing: Sharing::Nothing, adapts: true, cut_paths: 0, ..status(State::Paused) };
+    let other = Status { path_reuse: PathReuse::Off, adapts: true, cut_paths: 0, ..status(State::Paused) };
     let adaptive = RenderSettings { adaptive: true, roulette: Roulette::fixed(0.5), ..RenderSettings::default() };
     let line = said(&other, &frame(1.0), adaptive).json;
-    let keys = ["shares", "adapts", "adaptive", "roulette", "roulette_start", "max_bounces", "biased"];
+    let keys = ["path_reuse", "adapts", "adaptive", "roulette", "roulette_start", "max_bounces", "biased"];
     let values = [json!(false), json!(true), json!("on"), json!("0.5"), Value::Null, Value::Null, Value::Null];
     assert_eq!(keys.map(|key| line[key].clone()), values);
     assert_eq!(line["stopped_by"], "interruption");

@@ -8,7 +8,7 @@ use noisefall_render::render::{
 };
 use noisefall_scene::{
     sampling::Sampler,
-    scene::{Camera, Scene, Sharing},
+    scene::{Camera, PathReuse, Scene},
 };
 
 /// An image that renders are compared with.
@@ -31,7 +31,7 @@ impl GivenReference {
             noise: frame.noise.clone(),
             rel_mse_estimate: frame.rel_mse_estimate,
             seed: Some(settings.seed.into()),
-            is_independent: settings.sampler == Sampler::Independent && frame.sharing == Sharing::Nothing,
+            is_independent: settings.sampler == Sampler::Independent && frame.path_reuse == PathReuse::Off,
             is_denoised: false,
         };
         let reference = Arc::new(Reference::Picture(Arc::new(picture), Arc::new(provenance)));

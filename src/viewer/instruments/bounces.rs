@@ -117,7 +117,7 @@ fn show_series(ui: &mut Ui, bounces: &mut Bounces, Subject { frame, has_light_pa
     let remark = match known {
         Some((frame, _)) => {
             let samples = counted(frame.spp, "sample");
-            let how = if has_light_paths { "by paths from the camera (MIS)" } else { "without sharing" };
+            let how = if has_light_paths { "by paths from the camera (MIS)" } else { "without path reuse" };
             format!("After {samples} per pixel {how}. Shares are fractions of the luminance of the image.")
         }
         None => "Available after one sample per pixel.".to_owned(),

@@ -16,12 +16,12 @@ const PRESETS: [(Preset, &str, &str); 2] = [
     (
         Preset::Teaching,
         "Teaching",
-        "Turns off sharing, adaptive sampling, merging and Auto. The other settings stay as they are.",
+        "Turns off path reuse, adaptive sampling, merging and Auto. The other settings stay as they are.",
     ),
     (
         Preset::Fastest,
         "Fastest",
-        "The estimator and the sharing that short trials find to be the most efficient in this scene, Owen-scrambled Sobol points, \
+        "The estimator and the path reuse that short trials find to be the most efficient in this scene, Owen-scrambled Sobol points, \
          BSDF directions and roulette by throughput.",
     ),
 ];

@@ -2,7 +2,7 @@
 use egui::{ComboBox, RichText, Ui};
 use noisefall_base::declare::OneOf;
 use noisefall_render::render::Status;
-use noisefall_scene::scene::{Estimator, EstimatorInForce, RenderSettings, Roulette, Setting, Sharing};
+use noisefall_scene::scene::{Estimator, EstimatorInForce, PathReuse, RenderSettings, Roulette, Setting};
 
 use super::presets;
 use crate::viewer::widgets::{
@@ -45,7 +45,7 @@ pub fn show(ui: &mut Ui, settings: &mut RenderSettings, findings: &Findings<'_>)
         RenderSettings::TABLE.into_iter().for_each(|setting| setting_row(ui, setting, settings, findings));
     });
     ui.add_space(4.0);
-    let doc = "Tests estimators, samplers, roulettes and sharing for some seconds, and offers the most efficient settings.";
+    let doc = "Tests estimators, samplers, roulettes and path reuse for some seconds, and offers the most efficient settings.";
     ui.button("What should I use here?").on_hover_text(doc).clicked()
 }
 
@@ -60,7 +60,7 @@ fn setting_row(ui: &mut Ui, setting: Setting, settings: &mut RenderSettings, fin
         row_with_note(ui, &label, doc, |ui, label| {
             setting::show(ui, label, setting, settings);
             // Always there, so that no row below moves.
-            let in_force = if findings.status.spp > 0 { findings.status.sharing.name() } else { "…" };
+            let in_force = if findings.status.spp > 0 { findings.status.path_reuse.words() } else { "…" };
             ui.weak(in_force).on_hover_text("What pixels share in this render. Auto decides once per scene.");
         });
     } else if setting == RenderSettings::ROULETTE {
@@ -102,8 +102,8 @@ fn note(setting: Setting, settings: &RenderSettings, findings: &Findings<'_>) ->
 fn not_adaptive(settings: &RenderSettings, findings: &Findings<'_>) -> Option<&'static str> {
     let Findings { status, in_force, .. } = *findings;
     let light_paths = in_force.map_or(settings.estimator, |in_force| in_force.estimator).traces_light_paths();
-    let why = match status.sharing {
-        Sharing::Nothing => light_paths.then_some("paths from lights"),
+    let why = match status.path_reuse {
+        PathReuse::Off => light_paths.then_some("paths from lights"),
         shared => Some(shared.name()),
     };
     why.filter(|_| settings.adaptive && status.spp > 0)

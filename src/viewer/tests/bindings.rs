@@ -24,13 +24,13 @@ fn every_choice_of_the_estimate_sets_what_it_names() {
         sets(&mut window, label, expected);
     }
     for (label, reuse) in [
-        ("Paths", Reuse::On),
+        ("Suffixes", Reuse::Suffixes),
         ("Auto", Reuse::Auto),
-        ("Bright samples", Reuse::Bright),
+        ("Outliers", Reuse::Outliers),
         ("Both", Reuse::Both),
-        ("Nothing", Reuse::Off),
+        ("Off", Reuse::Off),
     ] {
-        choose(&mut window, "Sharing", label);
+        choose(&mut window, "Path reuse", label);
         expected.reuse = reuse;
         assert_eq!(window.state().settings(), expected, "{label}");
     }

@@ -46,13 +46,13 @@ fn the_menu_of_comparisons_changes_what_it_names() {
     let mut window = window("cornell_spheres");
     let of = window.state().settings();
     for (label, other) in [
-        ("Path sampling", RenderSettings { estimator: Estimator::Path, ..of }),
+        ("BSDF sampling", RenderSettings { estimator: Estimator::Path, ..of }),
         ("Light sampling", RenderSettings { estimator: Estimator::Light, ..of }),
         ("Independent samples", RenderSettings { sampler: Sampler::Independent, ..of }),
         ("No roulette", RenderSettings { roulette: Roulette::Off, ..of }),
         ("Roulette of 0.8", RenderSettings { roulette: Roulette::fixed(0.8), ..of }),
-        ("Shared paths", RenderSettings { reuse: Reuse::On, ..of }),
-        ("No sharing", RenderSettings { reuse: Reuse::Off, ..of }),
+        ("Reused suffixes", RenderSettings { reuse: Reuse::Suffixes, ..of }),
+        ("No path reuse", RenderSettings { reuse: Reuse::Off, ..of }),
         ("A cap of 3 bounces", RenderSettings { max_bounces: Some(3), ..of }),
         ("Another seed", RenderSettings { seed: of.seed + 1, ..of }),
     ] {

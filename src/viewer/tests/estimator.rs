@@ -14,8 +14,8 @@ fn shows(window: &Window, text: &str) -> bool {
 fn an_estimator_that_the_scene_allows_is_named_once_in_the_line_below() {
     let mut window = window("cornell_spheres");
     wait(&mut window, "samples", |app| app.status().spp >= 1);
-    restarts(&mut window, "light sampling", |w| choose(w, "Estimator", "Light"));
-    assert!(shows(&window, "Light") && window.query_by_label_contains("Light, not").is_none());
+    restarts(&mut window, "light sampling", |w| choose(w, "Estimator", "Light sampling"));
+    assert!(shows(&window, "Light sampling") && window.query_by_label_contains("Light sampling, not").is_none());
 }
 
 #[test]
@@ -36,11 +36,12 @@ fn the_choice_by_trial_says_what_it_has_chosen_and_why() {
 #[test]
 fn an_estimator_that_the_scene_does_not_allow_says_what_renders_instead() {
     let mut window = window("textures_and_bump");
-    restarts(&mut window, "paths from lights", |w| choose(w, "Estimator", "Forward"));
+    restarts(&mut window, "paths from lights", |w| choose(w, "Estimator", "Light tracing"));
     wait(&mut window, "samples", |app| app.status().spp >= 1);
     window.run_steps(3);
     assert!(
-        shows(&window, "MIS: the scene has smooth meshes, bump or normal maps") && shows(&window, "MIS (Forward unavailable)")
+        shows(&window, "MIS: the scene has smooth meshes, bump or normal maps")
+            && shows(&window, "MIS (Light tracing unavailable)")
     );
 }
 

@@ -41,7 +41,7 @@ fn curves_are_saved_as_table_and_as_drawing() {
     let mut window = with_tab("furnace", "Convergence");
     wait(&mut window, "a curve", |app| app.curves().curves.first().is_some_and(|curve| curve.moments.len() >= 3));
     for (button, name, start) in
-        [("CSV…", "curves.csv", "name,settings,sharing,hidden,spp,seconds"), ("SVG…", "plot.svg", "<svg")]
+        [("CSV…", "curves.csv", "name,settings,path_reuse,hidden,spp,seconds"), ("SVG…", "plot.svg", "<svg")]
     {
         let path = folder.path().join(name);
         click(&mut window, button);
@@ -84,7 +84,7 @@ fn a_comparison_starts_with_one_click_and_both_sides_converge() {
     let mut window = window("cornell_spheres");
     never_restarts(&mut window, |w| {
         click(w, "Compare with…");
-        click(w, "Path sampling");
+        click(w, "BSDF sampling");
     });
     assert_eq!(window.state().tab(), Some(InstrumentTab::Compare));
     let other = window.state().compared_with().expect("it compares").other;
@@ -123,7 +123,7 @@ fn a_comparison_starts_with_one_click_and_both_sides_converge() {
     let before = window.state().second_status().generation;
     window.get_by_role_and_label(Role::Button, "B").click();
     window.run_steps(3);
-    choose(&mut window, "Estimator", "Light");
+    choose(&mut window, "Estimator", "Light sampling");
     wait(&mut window, "the other side anew", |app| app.second_status().generation > before);
     let app = window.state();
     assert_eq!(

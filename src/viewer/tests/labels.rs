@@ -3,7 +3,7 @@ use std::sync::Arc;
 
 use noisefall_kernel::measure::LogRatio;
 use noisefall_render::render::{Frame, Series, pass::SampleId};
-use noisefall_scene::scene::{CompileReport, RenderSettings, Sharing, built_in};
+use noisefall_scene::scene::{CompileReport, PathReuse, RenderSettings, built_in};
 
 use super::*;
 use crate::viewer::background::{
@@ -152,8 +152,8 @@ fn each_side_of_a_comparison_has_its_own_figures_in_their_columns() {
     app.start_comparison(RenderSettings { max_bounces: Some(2), ..app.settings() });
     let texts = said(&mut app, |app, ui| app.instrument(ui, InstrumentTab::Compare));
     for row in [
-        ["A", "MIS, Sobol (Owen), no sharing", "7", "2.5 s", "4.00 %", "5.00 %", "160", "the solution"],
-        ["B", "cap of 2 bounces, no sharing", "9", "3.0 s", "2.00 %", "10.00 %", "33.3", "biased: cap at 2"],
+        ["A", "MIS, Sobol (Owen), no path reuse", "7", "2.5 s", "4.00 %", "5.00 %", "160", "the solution"],
+        ["B", "cap of 2 bounces, no path reuse", "9", "3.0 s", "2.00 %", "10.00 %", "33.3", "biased: cap at 2"],
     ] {
         assert!(texts.windows(row.len()).any(|cells| cells == row), "{row:?} is not in {texts:?}");
     }
@@ -184,7 +184,7 @@ fn lines_are_estimates_points_are_true_and_clear_keeps_the_curve_that_grows() {
             app.instruments.history.record(
                 &settings,
                 generation,
-                Moment { spp, seconds: 1.0, noise, true_error, bias: None, sharing: Sharing::Nothing, is_lower_bound: false },
+                Moment { spp, seconds: 1.0, noise, true_error, bias: None, path_reuse: PathReuse::Off, is_lower_bound: false },
             );
         }
     }
@@ -213,7 +213,7 @@ fn where_no_truth_is_known_the_plot_of_bias_says_what_it_needs() {
             noise: Some(0.5),
             true_error: None,
             bias,
-            sharing: Sharing::Nothing,
+            path_reuse: PathReuse::Off,
             is_lower_bound: false,
         };
         app.instruments.history.record(&scene.settings, 5, moment);

@@ -1,7 +1,7 @@
 //! The path inspector: what it shows is what the renderer took.
 use noisefall_base::math::colour::luminance;
 use noisefall_kernel::integrator::{Batch, TILE, Work, trace};
-use noisefall_render::render::sharing::resolved;
+use noisefall_render::render::path_reuse::resolved;
 
 use super::*;
 use crate::viewer::instruments::tabs::InstrumentTab;

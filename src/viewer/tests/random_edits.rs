@@ -132,7 +132,7 @@ fn answer(window: &mut Window, random: &mut SmallRng) {
     }
 }
 
-/// The image of a few samples per pixel without sharing, which is decided by a trial.
+/// The image of a few samples per pixel without path reuse, which is decided by a trial.
 fn image(window: &mut Window) -> Vec<[f32; 3]> {
     let session = &mut window.state_mut().session;
     session.settings = RenderSettings { reuse: Reuse::Off, adaptive: false, ..RenderSettings::default() };

@@ -1,7 +1,7 @@
 //! Comparisons: no winner out of noise, samples of the side under the pointer, and a way to end.
 use noisefall_base::math::colour::luminance;
 use noisefall_kernel::integrator::pixel_samples;
-use noisefall_render::render::sharing::resolved;
+use noisefall_render::render::path_reuse::resolved;
 use noisefall_scene::scene::RenderSettings;
 
 use super::*;

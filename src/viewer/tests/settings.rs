@@ -1,6 +1,6 @@
 //! Settings: the changes that start a new image, and those that do not.
 use noisefall_base::declare::{Declare, Dice};
-use noisefall_scene::scene::{RenderSettings, Sharing};
+use noisefall_scene::scene::{PathReuse, RenderSettings};
 use rand::{SeedableRng, rngs::SmallRng};
 
 use super::*;
@@ -10,15 +10,15 @@ fn every_setting_of_the_estimate_starts_a_new_picture() {
     let mut window = window("cornell_spheres");
     restarts(&mut window, "stratified", |w| choose(w, "Sampler", "Stratified"));
     assert_eq!(window.state().settings().sampler, Sampler::Stratified);
-    restarts(&mut window, "light sampling alone", |w| choose(w, "Estimator", "Light"));
+    restarts(&mut window, "light sampling alone", |w| choose(w, "Estimator", "Light sampling"));
     assert_eq!(window.state().settings().estimator, Estimator::Light);
-    restarts(&mut window, "paths alone", |w| choose(w, "Estimator", "Path"));
+    restarts(&mut window, "paths alone", |w| choose(w, "Estimator", "BSDF sampling"));
     assert_eq!(window.state().settings().estimator, Estimator::Path);
     restarts(&mut window, "uniform directions", |w| click(w, "Uniform"));
     assert_eq!(window.state().settings().directions, Directions::Uniform);
     restarts(&mut window, "cosine directions", |w| click(w, "Cosine"));
-    restarts(&mut window, "shared paths", |w| choose(w, "Sharing", "Paths"));
-    assert_eq!(window.state().settings().reuse, Reuse::On);
+    restarts(&mut window, "reused suffixes", |w| choose(w, "Path reuse", "Suffixes"));
+    assert_eq!(window.state().settings().reuse, Reuse::Suffixes);
     restarts(&mut window, "adaptive samples", |w| {
         w.get_by_role_and_label(Role::CheckBox, "Adaptive").click();
         w.run_steps(2);
@@ -62,7 +62,7 @@ fn every_setting_has_a_row_an_undo_step_and_words_in_the_legend() {
         let app = window.state();
         let [undo, _] = app.history.names();
         assert_eq!(undo, Some(format!("change of {}", setting.name())));
-        let legend = crate::viewer::instruments::convergence::history::name(&app.settings(), &before, Sharing::Nothing);
+        let legend = crate::viewer::instruments::convergence::history::name(&app.settings(), &before, PathReuse::Off);
         let is_told = legend.contains(&setting.words(&other));
         assert!(is_told || setting == RenderSettings::REUSE, "{setting:?}: {legend}");
     }
@@ -71,13 +71,13 @@ fn every_setting_has_a_row_an_undo_step_and_words_in_the_legend() {
 #[test]
 fn no_row_is_wider_than_the_panel() {
     for (scene, says) in
-        [("cornell_spheres", "shared paths"), ("room_window", "shared paths and bright samples"), ("bright_sky", "no sharing")]
+        [("cornell_spheres", "reused suffixes"), ("room_window", "reused suffixes and outliers"), ("bright_sky", "no path reuse")]
     {
         let mut window = window(scene);
         wait(&mut window, "samples", |app| app.status().spp >= 1);
         window.run_steps(3);
         let note = window.get_by_label(says).rect();
-        let label = window.get_by_label("Sharing").rect();
+        let label = window.get_by_label("Path reuse").rect();
         let toolbar = window.get_by_label("Help").rect();
         assert!(note.right() <= 1280.0, "{scene}: {note:?}");
         assert!(label.left() > toolbar.right(), "{scene}: {label:?} is cut off at {toolbar:?}");
@@ -156,7 +156,7 @@ fn a_reached_target_is_named_and_a_higher_one_goes_on() {
 #[test]
 fn a_setting_has_one_name_on_both_pages_of_the_panel() {
     const NAMES: [&str; 9] =
-        ["Estimator", "Sampler", "Directions", "Sharing", "Adaptive", "Roulette", "Bounce cap", "Seed", "Stop at"];
+        ["Estimator", "Sampler", "Directions", "Path reuse", "Adaptive", "Roulette", "Bounce cap", "Seed", "Stop at"];
     let mut window = window("cornell_spheres");
     for page in [PanelTab::Render, PanelTab::Edit] {
         *window.state_mut().panel_mut() = page;

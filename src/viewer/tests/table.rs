@@ -33,7 +33,7 @@ fn labels(window: &Window) -> Vec<(String, egui::Rect)> {
 #[test]
 fn the_table_fits_a_window_of_1280_points() {
     let mut windows =
-        [("cornell_spheres", [30, 40]), ("cornell_box", [36, 20])].map(|(scene, at)| inspecting(scene, Reuse::On, at));
+        [("cornell_spheres", [30, 40]), ("cornell_box", [36, 20])].map(|(scene, at)| inspecting(scene, Reuse::Suffixes, at));
     for (place, sample) in (0..12).map(|number| (number / 6, number as u32 % 6)) {
         let window = &mut windows[place];
         show_sample(window, sample);
@@ -51,7 +51,7 @@ fn the_table_fits_a_window_of_1280_points() {
 
 #[test]
 fn the_numbers_of_the_last_column_add_up_to_the_sample() {
-    for reuse in [Reuse::Off, Reuse::On] {
+    for reuse in [Reuse::Off, Reuse::Suffixes] {
         let mut window = inspecting("cornell_spheres", reuse, [30, 40]);
         for sample in 0..8 {
             show_sample(&mut window, sample);

@@ -35,7 +35,7 @@ fn settings_that_are_undone_come_back_with_their_samples() {
     let mut window = window("cornell_spheres");
     rendered(&mut window, 40);
     let first = window.state().shown_frame().clone().expect("it is shown");
-    restarts(&mut window, "a stray click", |w| choose(w, "Estimator", "Light"));
+    restarts(&mut window, "a stray click", |w| choose(w, "Estimator", "Light sampling"));
     rendered(&mut window, 41);
     stop_at(&mut window, 40);
     restarts(&mut window, "the way back", undo);

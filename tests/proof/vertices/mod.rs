@@ -13,7 +13,7 @@ use noisefall_scene::{
 };
 
 use self::tally::Tally;
-use crate::{picture::scene, sharing::ROOM};
+use crate::{path_reuse::ROOM, picture::scene};
 
 /// A resolution of two by two tiles, with partial outer tiles.
 const RESOLUTION: [u32; 2] = [48, 40];
@@ -75,7 +75,11 @@ fn all_settings(seed: u32) -> Vec<RenderSettings> {
             let settings = RenderSettings { estimator, roulette, max_bounces, seed, ..RenderSettings::default() };
             all.extend(Sampler::ALL.into_iter().map(|sampler| RenderSettings { sampler, reuse: Reuse::Off, ..settings }));
             let sampler = Sampler::ALL[all.len() / 7 % Sampler::ALL.len()];
-            all.extend([Reuse::On, Reuse::Bright, Reuse::Both].map(|reuse| RenderSettings { sampler, reuse, ..settings }));
+            all.extend([Reuse::Suffixes, Reuse::Outliers, Reuse::Both].map(|reuse| RenderSettings {
+                sampler,
+                reuse,
+                ..settings
+            }));
         }
     }
     all
@@ -266,7 +270,7 @@ fn the_samples_of_a_pixel_are_those_of_the_renderer() {
     let mut batch = Batch::default();
     for (name, scene) in scenes() {
         let rays = rays(&scene);
-        for reuse in [Reuse::Off, Reuse::On, Reuse::Bright, Reuse::Both] {
+        for reuse in [Reuse::Off, Reuse::Suffixes, Reuse::Outliers, Reuse::Both] {
             let estimator = if scene.traces_light_paths(&scene.settings) { Estimator::Mis } else { scene.settings.estimator };
             let settings = RenderSettings { reuse, estimator, ..scene.settings };
             // The range neither starts nor ends at a multiple of the batch.

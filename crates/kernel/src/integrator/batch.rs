@@ -1,9 +1,9 @@
 //! The queues of one thread, which hold the paths of a batch between stages.
 use super::{
-    bright_samples::BrightBuffers,
     crossings::Crossings,
     first_hits::FirstHits,
     light_paths::{paths::LightPaths, splat::Splat},
+    outliers::OutlierBuffers,
     queues::{HitQueues, PathQueues, ShadowQueues},
     shared::Shared,
     slots::SLOTS,
@@ -32,8 +32,8 @@ pub struct Batch {
     pub splats: Vec<Splat>,
     /// Queues of paths from both ends, after the first trace with such paths.
     pub(super) light_paths: Option<Box<LightPaths>>,
-    /// What sharing bright samples needs, after the first trace with it.
-    pub(super) bright: Option<Box<BrightBuffers>>,
+    /// What outlier reuse needs, after the first trace with it.
+    pub(super) bright: Option<Box<OutlierBuffers>>,
     /// Paths cut at [`noisefall_scene::scene::RenderSettings::last_bounce`] in the absence of a cap.
     pub cut_paths: u64,
 }

@@ -1,12 +1,10 @@
 //! The path tracer: batches of paths that run through stages, bounce by bounce.
 //!
-//! `spawn → ( intersect → surface → shade, one BSDF type at a time → shadow )* → reuse → replays of bright samples`. Each stage is a
+//! `spawn → ( intersect → surface → shade, one BSDF type at a time → shadow )* → reuse → reuse of outliers`. Each stage is a
 //! short loop over full registers that reads a dense queue and appends to the next. The bounce is the same for a whole batch, so all that
 //! depends on it (the sampler's dimension, the cap, whether roulette has begun) is decided once per stage and not once per path.
 mod batch;
 mod bidirectional;
-mod bright;
-mod bright_samples;
 mod collision;
 mod coordinates;
 mod crossings;
@@ -23,6 +21,8 @@ mod meet;
 mod missed_light;
 mod normal_mapping;
 mod normal_shadowing;
+mod outlier_reuse;
+mod outliers;
 mod profile;
 pub mod queue;
 mod queues;
@@ -54,13 +54,13 @@ mod work;
 use self::readings::Stream;
 pub use self::{
     batch::Batch,
-    bright::thresholds,
-    bright_samples::{Replays, Thresholds},
     collision::{clear_fraction, is_blind},
     fault::trace,
     features::{Features, features},
     interrupted::Interrupted,
     light_paths::splat::Splat,
+    outlier_reuse::thresholds,
+    outliers::{Replays, Thresholds},
     profile::{CountedRays, Profile, StageCost, trace_profiled},
     replay::{
         BothEnds, EmitterHit, End, LightOutcome, PathPoint, Reflection, Replay, SampledLight, SharedLight, StrategyTerm, Surface,

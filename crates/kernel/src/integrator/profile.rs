@@ -3,8 +3,8 @@ use std::time::{Duration, Instant};
 
 use super::{
     batch::Batch,
-    bright::BrightSharing,
     interrupted::Interrupted,
+    outlier_reuse::OutlierReuse,
     records::Path,
     trace::{Observer, PathStage, trace_in},
     work::Work,
@@ -40,7 +40,7 @@ pub struct Profile {
     pub bounces: Vec<[StageCost; 4]>,
     /// Generation of camera rays.
     pub spawn: StageCost,
-    /// Path reuse, and replays of bright samples.
+    /// Path reuse, and reuse of outliers.
     pub reuse: StageCost,
     /// Adding samples to the film.
     pub film: StageCost,
@@ -113,13 +113,13 @@ struct Clock<'a> {
     profile: &'a mut Profile,
     last: Instant,
     rays: u64,
-    bright: Option<BrightSharing<'a>>,
+    bright: Option<OutlierReuse<'a>>,
 }
 
 impl Observer for Clock<'_> {
-    fn before_sharing(&mut self, _work: &Work, batch: &mut Batch) {
-        if let Some(sharing) = self.bright {
-            sharing.set_aside(batch);
+    fn before_reuse(&mut self, _work: &Work, batch: &mut Batch) {
+        if let Some(path_reuse) = self.bright {
+            path_reuse.set_aside(batch);
         }
     }
 
@@ -151,12 +151,12 @@ pub fn trace_profiled(
     interrupted: &dyn Fn() -> bool,
     profile: &mut Profile,
 ) -> Result<(), Interrupted> {
-    let bright = work.thresholds.map(|thresholds| BrightSharing { work, thresholds });
+    let bright = work.thresholds.map(|thresholds| OutlierReuse { work, thresholds });
     let mut clock = Clock { profile, last: Instant::now(), rays: batch.rays, bright };
     in_lanes!(level, l => trace_in(l, work, batch, interrupted, &mut clock))?;
-    if let Some(sharing) = bright {
+    if let Some(path_reuse) = bright {
         clock.last = Instant::now();
-        sharing.share(level, batch, interrupted)?;
+        path_reuse.share(level, batch, interrupted)?;
         clock.after(PathStage::Reuse, batch);
     }
     Ok(())
@@ -174,7 +174,7 @@ mod tests {
         let scene = parse("room_window.toml", text).expect("a shipped scene compiles");
         let rays = scene.rays(&scene.camera);
         let level = SimdLevel::best();
-        for reuse in [Reuse::Off, Reuse::On, Reuse::Bright, Reuse::Both] {
+        for reuse in [Reuse::Off, Reuse::Suffixes, Reuse::Outliers, Reuse::Both] {
             let settings = RenderSettings { reuse, ..RenderSettings::default() };
             let (mut batch, mut profile) = (Batch::default(), Profile::default());
             let first = Work::tile(&scene, &rays, &settings, [320, 224], [TILE; 2], 3);

@@ -1,4 +1,4 @@
-//! Last stage: shares path suffixes between neighbouring pixels.
+//! Last stage: reuses path suffixes between neighbouring pixels.
 //!
 //! P. Bekaert, M. Sbert and J. Halton, "Accelerating Path Tracing by Re-using Paths", Eurographics Workshop on Rendering 2002.
 //! The path of pixel j hits a diffuse surface at xⱼ and, in a sampled direction, another at yⱼ, which reflects the radiance Lⱼ

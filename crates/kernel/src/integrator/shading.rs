@@ -105,7 +105,7 @@ impl<'a, L: Lanes, K: Shade> Shading<'a, L, K> {
         LightEstimate { shadow, may_contribute, sample, wi, f_cos, weight }
     }
 
-    /// Samples the next direction. Shared paths are weighted later, by the albedo of each pixel that uses them.
+    /// Samples the next direction. Reused suffixes are weighted later, by the albedo of each pixel that uses them.
     #[inline(always)]
     pub fn reflect(&self, l: L, work: &Work, shares: bool) -> Reflected<L> {
         let Shading { hit, vertex, bsdf, coordinates, reflection, .. } = self;

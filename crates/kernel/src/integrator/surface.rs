@@ -69,7 +69,7 @@ pub(super) struct Arrival<L: Lanes> {
     /// Media around the paths.
     media: U<L>,
     /// Lanes that share their first surface with other pixels.
-    sharing: M<L>,
+    path_reuse: M<L>,
     /// The throughput without the albedo of a first surface that is shared.
     shared_throughput: V<L>,
     /// See [`IncidentPaths::keeps_hidden_normals`].
@@ -91,16 +91,16 @@ impl<L: Lanes> Arrival<L> {
             media = paths.media(l, at);
             path.throughput = path.throughput * transmittance(l, work, media, nearest.t);
         }
-        let (sharing, shared_throughput) = (l.first(0), path.throughput);
-        Arrival { start: at.start, nearest, media, sharing, shared_throughput, path, keeps_hidden_normals: false }
+        let (path_reuse, shared_throughput) = (l.first(0), path.throughput);
+        Arrival { start: at.start, nearest, media, path_reuse, shared_throughput, path, keeps_hidden_normals: false }
     }
 
     /// Multiplies the throughput by the albedo of first surfaces that are shared.
     #[inline(always)]
     fn weigh_by_first_surface(&mut self, l: L, shared: &Shared) {
-        let (sharing, albedo) = shared.first(l, self.path.slot);
-        self.sharing = sharing;
-        self.path.throughput = sharing.pick(self.path.throughput * albedo, self.path.throughput);
+        let (path_reuse, albedo) = shared.first(l, self.path.slot);
+        self.path_reuse = path_reuse;
+        self.path.throughput = path_reuse.pick(self.path.throughput * albedo, self.path.throughput);
     }
 }
 
@@ -173,7 +173,7 @@ pub(super) fn queue_hits<L: Lanes, const VARIED: bool>(
     let record = Hit { p: point.p + n * point.error, n, colour, throughput: path.throughput, slot: path.slot };
     let mut plain = record;
     if let Some(shared) = shared {
-        let kept = arrival.sharing & hit & surface::stage(word).is(Stage::Plain as u32);
+        let kept = arrival.path_reuse & hit & surface::stage(word).is(Stage::Plain as u32);
         plain.throughput = kept.pick(arrival.shared_throughput, plain.throughput);
         shared.keep_second(kept, place, &mut plain);
     }

@@ -1,6 +1,7 @@
 //! One sample of every pixel of a tile, with all that the settings ask for.
 use super::{
-    batch::Batch, bidirectional::trace_both_ends, bright::BrightSharing, interrupted::Interrupted, trace::trace_alone, work::Work,
+    batch::Batch, bidirectional::trace_both_ends, interrupted::Interrupted, outlier_reuse::OutlierReuse, trace::trace_alone,
+    work::Work,
 };
 use noisefall_base::math::{SimdLevel, in_few_lanes};
 
@@ -11,7 +12,7 @@ pub fn trace(level: SimdLevel, work: &Work, batch: &mut Batch, interrupted: &dyn
         return in_few_lanes!(level, l => trace_both_ends(l, work, rays, batch, interrupted, &mut ()));
     }
     match work.thresholds {
-        Some(thresholds) => BrightSharing { work, thresholds }.trace(level, batch, interrupted),
+        Some(thresholds) => OutlierReuse { work, thresholds }.trace(level, batch, interrupted),
         None => trace_alone(level, work, batch, interrupted),
     }
 }

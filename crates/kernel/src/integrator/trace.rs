@@ -28,7 +28,7 @@ pub trait Observer {
     fn at_shaded(&mut self, _work: &Work, _batch: &mut Batch) {}
 
     /// Called when all paths have ended, before pixels share them.
-    fn before_sharing(&mut self, _work: &Work, _batch: &mut Batch) {}
+    fn before_reuse(&mut self, _work: &Work, _batch: &mut Batch) {}
 
     /// Called after each stage.
     fn after(&mut self, _stage: PathStage, _batch: &Batch) {}
@@ -47,7 +47,7 @@ pub enum PathStage {
     Shade,
     /// Traces shadow rays.
     Shadow,
-    /// Shares paths and bright samples between pixels.
+    /// Reuses paths and outliers between pixels.
     Reuse,
 }
 
@@ -129,7 +129,7 @@ pub(super) fn trace_in<L: Lanes, O: Observer>(
         }
         batch.bounce += 1;
     }
-    observer.before_sharing(work, batch);
+    observer.before_reuse(work, batch);
     if work.shares() && work.replays.is_none() {
         if !share(l, work, batch, interrupted) {
             return Err(Interrupted);

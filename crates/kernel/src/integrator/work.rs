@@ -3,7 +3,7 @@ use fearless_simd_macros::simd;
 
 use super::Stream;
 use super::{
-    bright_samples::{Replays, Thresholds},
+    outliers::{Replays, Thresholds},
     slots::{BLOCK, BLOCKS, SLOTS, TILE, place_in_groups},
 };
 use noisefall_base::math::{F, Lanes, M, U};
@@ -147,7 +147,7 @@ impl<'a> Work<'a> {
         (slot & (TILE - 1), slot >> TILE.trailing_zeros())
     }
 
-    /// Whether pixels share path suffixes.
+    /// Whether pixels reuse path suffixes.
     #[inline(always)]
     pub(super) fn shares(&self) -> bool {
         self.scene.shares(self.rays, self.settings)

@@ -7,10 +7,10 @@ use noisefall_render::render::{
     Frame,
     film::Film,
     pass::PassCount,
-    sharing::resolved,
+    path_reuse::resolved,
     threads::{PassJob, Threads},
 };
-use noisefall_scene::scene::{Camera, RenderSettings, Scene, Sharing};
+use noisefall_scene::scene::{Camera, PathReuse, RenderSettings, Scene};
 
 /// The errors at one sample count.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -55,7 +55,7 @@ pub struct Run {
     /// Why the estimate is biased; empty if it is not.
     pub bias: String,
     /// What pixels shared, as the settings and the scene decided.
-    pub sharing: Sharing,
+    pub path_reuse: PathReuse,
     /// Whether sampling was adaptive.
     pub adapts: bool,
 }
@@ -116,10 +116,10 @@ pub fn measure(bench: Bench, settings: &RenderSettings, plan: &Plan, reference: 
         Ok((took, count.cut_paths, compare(&frame.radiance, reference, plan.floor), noise))
     })?;
     let rays = bench.scene.rays(bench.camera);
-    let sharing = bench.scene.sharing(&rays, &resolved(bench.scene, &rays, settings));
+    let path_reuse = bench.scene.path_reuse(&rays, &resolved(bench.scene, &rays, settings));
     let cut = (cut_paths > 0).then(|| format!("{cut_paths} paths cut"));
-    let bias = settings.bias_with(sharing).or(cut).unwrap_or_default();
-    Ok(Run { invalid_samples: film.invalid_samples(), bias, sharing, adapts: film.is_adaptive(), ..run })
+    let bias = settings.bias_with(path_reuse).or(cut).unwrap_or_default();
+    Ok(Run { invalid_samples: film.invalid_samples(), bias, path_reuse, adapts: film.is_adaptive(), ..run })
 }
 
 /// The checkpoints of a run up to the limits of the plan, and the number of paths that were cut. `to` renders up to a sample

@@ -6,7 +6,7 @@ use super::{
     trial::Group,
 };
 use noisefall_kernel::measure::{LEAST_EFFECTIVE_SAMPLES, Moments};
-use noisefall_scene::scene::{RenderSettings, Reuse, Sharing};
+use noisefall_scene::scene::{PathReuse, RenderSettings, Reuse};
 
 /// A relMSE below this is rounding in single precision, not noise.
 pub const ROUNDING: f64 = 1e-12;
@@ -61,7 +61,7 @@ pub struct Outcome {
     /// E (x − μ)² = V x + (E x − μ)², so for an unbiased estimate this is the variance of a pixel.
     pub variances: Vec<Vec<(f64, f64)>>,
     /// What pixels shared.
-    pub sharing: Sharing,
+    pub path_reuse: PathReuse,
     /// Whether sampling was adaptive.
     pub adapts: bool,
     /// Means over the runs minus the reference's own error, up to where they come close to it; never empty.
@@ -108,7 +108,7 @@ impl Outcome {
             bias,
             mean_error: mean_error(runs, limits.variance_of_mean),
             variances: runs.iter().map(|run| variances(&run.checkpoints[..length], limits.floor)).collect(),
-            sharing: runs[0].sharing,
+            path_reuse: runs[0].path_reuse,
             adapts: runs[0].adapts,
             efficiencies: runs_of_points.iter().filter_map(efficiency).collect(),
             slope: slope(&runs_of_points.iter().map(|run| fitted(run)).collect::<Vec<_>>()),
@@ -117,10 +117,10 @@ impl Outcome {
         }
     }
 
-    /// All settings in one line. Names what became of sharing where the program decided about it.
+    /// All settings in one line. Names what became of path reuse where the program decided about it.
     pub fn label(&self) -> String {
         let label = label(&self.settings);
-        if self.settings.reuse == Reuse::Auto { format!("{label}, {}", self.sharing.name()) } else { label }
+        if self.settings.reuse == Reuse::Auto { format!("{label}, {}", self.path_reuse.words()) } else { label }
     }
 
     /// The last point of the curve.

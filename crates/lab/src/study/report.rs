@@ -200,7 +200,7 @@ pub fn values(setting: Setting, outcome: &Outcome) -> String {
     let same = outcome.twins.iter().filter(only_this_differs).map(|twin| setting.value(twin));
     let values = std::iter::once(setting.value(&outcome.settings)).chain(same).collect::<Vec<_>>().join(" = ");
     if setting == RenderSettings::REUSE && outcome.settings.reuse == Reuse::Auto {
-        format!("{values}: {}", outcome.sharing.reuse().name())
+        format!("{values}: {}", outcome.path_reuse.reuse().name())
     } else if setting == RenderSettings::ADAPTIVE && outcome.settings.adaptive && !outcome.adapts {
         format!("{values}: without effect")
     } else {

@@ -3,7 +3,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Checkpoint, Machine, Run, StudyScene, key::is_key, reference::Reference};
 use noisefall_kernel::measure::Floor;
-use noisefall_scene::scene::{RenderSettings, Sharing};
+use noisefall_scene::scene::{PathReuse, RenderSettings};
 
 /// Number of settings, which have a column each.
 const SETTINGS: usize = RenderSettings::TABLE.len();
@@ -27,8 +27,8 @@ pub struct Subject {
 /// A checkpoint of its run, and the circumstances.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Measured {
-    /// What pixels shared.
-    pub shares: Sharing,
+    /// Path reuse between neighbouring pixels.
+    pub path_reuse: PathReuse,
     /// Whether sampling was adaptive.
     pub adapts: bool,
     /// Number of the repeat, from 1.
@@ -111,7 +111,7 @@ pub fn rows(header: &Header, run: &Run) -> Vec<Row> {
     let subject = Subject { scene: study_scene.path.display().to_string(), width, height };
     let words = RenderSettings::TABLE.map(|setting| setting.value(settings));
     let measured = |(i, point): (usize, &Checkpoint)| Measured {
-        shares: run.sharing,
+        path_reuse: run.path_reuse,
         adapts: run.adapts,
         repeat,
         checkpoint: i + 1,
@@ -145,6 +145,6 @@ pub fn run(rows: &[Row]) -> Option<Run> {
     let first = &rows.first()?.measured;
     let complete = rows.len() == first.checkpoints && (1..).zip(rows).all(|(place, row)| row.measured.checkpoint == place);
     let checkpoints = rows.iter().map(Row::point).collect();
-    let Measured { invalid_samples, shares, adapts, .. } = *first;
-    complete.then(|| Run { checkpoints, invalid_samples, bias: first.biased.clone(), sharing: shares, adapts })
+    let Measured { invalid_samples, path_reuse, adapts, .. } = *first;
+    complete.then(|| Run { checkpoints, invalid_samples, bias: first.biased.clone(), path_reuse, adapts })
 }

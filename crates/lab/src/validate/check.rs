@@ -16,7 +16,7 @@ pub const RED: Measure = |radiance| f64::from(radiance[0]);
 
 /// The estimators that find light where the camera sees a point. No path from a light arrives in so small a view.
 pub fn of_a_point() -> impl Iterator<Item = Estimator> {
-    Estimator::ALL.into_iter().filter(|estimator| *estimator != Estimator::Forward)
+    Estimator::ALL.into_iter().filter(|estimator| *estimator != Estimator::LightTracing)
 }
 
 /// Relative error of the tables of lost energy and their interpolation.

@@ -18,7 +18,7 @@ pub fn section(sections: &[Section]) -> Section {
     let own = statements(&scores);
     let family: f64 = 1.0 - all().map(|statement| 1.0 - statement.chance).product::<f64>();
     let family = 1.0 - (1.0 - family) * own.iter().map(|statement| 1.0 - statement.chance).product::<f64>();
-    let sharing = all().filter(|statement| statement.shares_samples).count();
+    let path_reuse = all().filter(|statement| statement.shares_samples).count();
     let largest = scores.iter().fold(0.0, |largest: f64, z| largest.max(z.abs()));
     // The largest of n is below this with the probability ½.
     let median = Normal::standard().inverse_cdf((1.0 + 0.5f64.powf(1.0 / scores.len().max(1) as f64)) / 2.0);
@@ -33,7 +33,7 @@ pub fn section(sections: &[Section]) -> Section {
         statements: own,
         figures: if scores.is_empty() { Vec::new() } else { vec![histogram(&scores), quantiles(&scores)] },
         remark: Some(format!(
-            "The sections above have {} statements, {sharing} of which share samples with an earlier one; {} z-scores are pooled. The largest |z| is {largest:.2}; \
+            "The sections above have {} statements, {path_reuse} of which share samples with an earlier one; {} z-scores are pooled. The largest |z| is {largest:.2}; \
              in half of all sets of this many normal numbers the largest exceeds {median:.2}. With a seed that nobody has tried, a correct program fails this report with probability {:.1} %.",
             all().count(),
             scores.len(),

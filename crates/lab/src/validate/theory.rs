@@ -50,7 +50,7 @@ const CHAPTER: [(&str, &[&str]); 5] = [
             "Does the report notice a mistake? 35 faults were planted in the code that computes the image, one at a time: a wrong density, a \
              lost cosine, a lamp that shines from its back. They were written down before anyone looked at what the report tests \
              (crates/lab/faults.toml in the source). The quick run noticed 31 of them. It missed a random number that is used twice in the \
-             tree of lights, a cosine in the weights of shared paths, the sides of flipped surfaces, and the largest survival probability.",
+             tree of lights, a cosine in the weights of reused suffixes, the sides of flipped surfaces, and the largest survival probability.",
         ],
     ),
 ];

@@ -44,7 +44,7 @@ pub(super) fn spread(
 ) -> Result<(), Interrupted> {
     if film.is_piloted
         || !job.settings.adaptive
-        || job.scene.sharing(job.rays, job.settings).correlates()
+        || job.scene.path_reuse(job.rays, job.settings).correlates()
         || job.scene.traces_light_paths(job.settings)
     {
         return Ok(());

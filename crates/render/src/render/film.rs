@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use super::{area::Area, region::Region, splats::SplatFilm, tile::Tile};
 use noisefall_base::memory::{self, Reservation, TooMuch};
 use noisefall_kernel::integrator::{TERMS, TILE};
-use noisefall_scene::scene::Sharing;
+use noisefall_scene::scene::PathReuse;
 
 /// Sums of samples over all pixels, in tiles that each belong to one thread at a time.
 pub struct Film {
@@ -14,7 +14,7 @@ pub struct Film {
     /// Whether all samples up to the next doubling are there, which must be recorded before there are more.
     pub(super) awaits_error_record: bool,
     /// What pixels share. If they do, their noise is correlated.
-    pub(super) sharing: Sharing,
+    pub(super) path_reuse: PathReuse,
     /// Whether a pilot has measured the noise.
     pub(super) is_piloted: bool,
     /// The region that gets all samples.
@@ -31,7 +31,7 @@ impl Film {
             resolution,
             tiles,
             awaits_error_record: false,
-            sharing: Sharing::Nothing,
+            path_reuse: PathReuse::Off,
             is_piloted: false,
             focus: None,
             splats: None,
@@ -70,8 +70,8 @@ impl Film {
             return Film::new(resolution);
         }
         self.tiles.iter_mut().for_each(Tile::forget);
-        (self.awaits_error_record, self.sharing, self.is_piloted, self.focus, self.splats) =
-            (false, Sharing::Nothing, false, None, None);
+        (self.awaits_error_record, self.path_reuse, self.is_piloted, self.focus, self.splats) =
+            (false, PathReuse::Off, false, None, None);
         self
     }
 

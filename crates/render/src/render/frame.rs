@@ -19,7 +19,7 @@ use noisefall_kernel::{
     integrator::TILE,
     measure::{BlockErrors, SampleNoise},
 };
-use noisefall_scene::scene::Sharing;
+use noisefall_scene::scene::PathReuse;
 
 // The blocks of [`SampleNoise`] are the tiles.
 const _: () = assert!(SampleNoise::BLOCK == TILE as usize);
@@ -45,7 +45,7 @@ pub struct Frame {
     /// Samples of every pixel, row by row; empty if all have `spp`.
     pub counts: Vec<u32>,
     /// What its pixels share.
-    pub sharing: Sharing,
+    pub path_reuse: PathReuse,
     /// Time spent rendering it.
     pub elapsed: Duration,
     /// The series by number of bounces, if requested.
@@ -97,7 +97,7 @@ impl Frame {
             standard_error,
             spp: film.spp(),
             counts: counts(film),
-            sharing: film.sharing,
+            path_reuse: film.path_reuse,
             elapsed: Duration::ZERO,
             series: Series::of_film(film),
             halves: None,
@@ -145,8 +145,8 @@ fn noise(film: &Film, variance: Vec<[f32; 3]>) -> Option<SampleNoise> {
     (least > 1).then(|| SampleNoise {
         width: film.resolution[0],
         variance,
-        blocks: film.tiles.iter().map(|tile| tile.variance_of_mean(film.sharing.correlates())).collect(),
-        block_degrees: if film.sharing.correlates() { f64::from(least - 1) } else { f64::INFINITY },
+        blocks: film.tiles.iter().map(|tile| tile.variance_of_mean(film.path_reuse.correlates())).collect(),
+        block_degrees: if film.path_reuse.correlates() { f64::from(least - 1) } else { f64::INFINITY },
         effective_samples: VarianceParts::effective_count(film.tiles.iter().flat_map(Tile::parts)),
     })
 }

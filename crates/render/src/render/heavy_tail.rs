@@ -46,7 +46,7 @@ fn add(all: impl Iterator<Item = [f64; 3]>) -> [f64; 3] {
 mod tests {
     use super::*;
 
-    /// A gray image where some pixels have found one bright sample of 64.
+    /// A gray image where some pixels have found one outlier of 64.
     fn fireflies(count: usize, found: f32) -> bool {
         let lit = |i: usize| i.is_multiple_of(7) && i / 7 < count;
         let radiance: Vec<[f32; 3]> = (0..10_000).map(|i| if lit(i) { [1.0 + found / 64.0; 3] } else { [1.0; 3] }).collect();

@@ -34,7 +34,7 @@ impl Threads {
         if job.scene.traces_light_paths(job.settings) && !film.has_series() {
             film.keep_splats();
         }
-        film.sharing = job.scene.sharing(job.rays, job.settings);
+        film.path_reuse = job.scene.path_reuse(job.rays, job.settings);
         let mut count = PassCount::default();
         loop {
             let next = next_meeting(film, spp);

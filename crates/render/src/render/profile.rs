@@ -3,7 +3,7 @@ use rayon::prelude::*;
 
 use super::{
     area::Area,
-    sharing::resolved,
+    path_reuse::resolved,
     threads::{PassJob, Threads},
     tile::Tile,
 };

@@ -7,7 +7,7 @@ use super::{
     region::Region,
     target::Target,
 };
-use noisefall_scene::scene::{Camera, RenderSettings, Scene, Sharing};
+use noisefall_scene::scene::{Camera, PathReuse, RenderSettings, Scene};
 
 /// Everything that an image depends on. Display settings are not in it, so they cannot restart a render.
 #[derive(Clone)]
@@ -120,7 +120,7 @@ pub struct Status {
     /// Whether few pixels carry that error, so that the true one may be much larger.
     pub error_is_lower_bound: bool,
     /// What pixels share.
-    pub sharing: Sharing,
+    pub path_reuse: PathReuse,
     /// Whether sampling is adaptive.
     pub adapts: bool,
     /// Samples dropped because they were negative or not finite.
@@ -138,7 +138,7 @@ impl Status {
     pub fn bias(&self, settings: &RenderSettings) -> Option<String> {
         let cut = (self.cut_paths > 0).then(|| format!("{} paths cut", self.cut_paths));
         let mixed = self.is_mixed.then(|| "first samples of another scene or program".to_owned());
-        let reasons: Vec<String> = settings.bias_with(self.sharing).or(cut).into_iter().chain(mixed).collect();
+        let reasons: Vec<String> = settings.bias_with(self.path_reuse).or(cut).into_iter().chain(mixed).collect();
         (!reasons.is_empty()).then(|| reasons.join(", "))
     }
 

@@ -26,7 +26,7 @@ pub trait SampledTile {
     /// The next samples; `None` at the goal.
     fn next(&self) -> Option<NextSamples>;
 
-    /// The thresholds of its bright samples, once they are known.
+    /// The thresholds of its outliers, once they are known.
     fn thresholds(&mut self) -> &mut Option<Thresholds>;
 
     /// Traces samples.

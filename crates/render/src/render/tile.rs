@@ -32,7 +32,7 @@ pub struct Tile {
     pub(super) series: Option<TileSeries>,
     /// What paths from lights have brought to the pixels; empty if there are none.
     pub(super) splats: Vec<SplatEstimate>,
-    /// Thresholds of bright samples, once they are known.
+    /// Thresholds of outliers, once they are known.
     pub(super) thresholds: Option<Thresholds>,
     /// Samples that were negative or not finite; they count as black.
     pub invalid: u64,

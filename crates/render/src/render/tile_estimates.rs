@@ -55,7 +55,7 @@ impl Tile {
             .fold(SquaredRadiance::default(), SquaredRadiance::plus)
     }
 
-    /// Variance of the mean over all pixels and channels, at least two samples each. If pixels share paths, their noise is
+    /// Variance of the mean over all pixels and channels, at least two samples each. If pixels reuse paths, their noise is
     /// correlated, and the variance comes from the scatter of samples of the whole tile; otherwise it comes from each pixel,
     /// which is more precise.
     pub(super) fn variance_of_mean(&self, shares: bool) -> f64 {

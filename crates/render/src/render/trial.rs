@@ -46,7 +46,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn variances_with_and_without_sharing_are_relative_to_the_mean_of_both() {
+    fn variances_with_and_without_path_reuse_are_relative_to_the_mean_of_both() {
         let of = |mean: [f64; 3], red: f64| vec![Estimate { mean, variance_of_mean: Some([red, 0.0, 0.0]) }];
         // The mean square of 2, 1 and 1 is 2, a hundredth of which is the floor.
         let one = [of([1.0; 3], 0.1), of([3.0, 1.0, 1.0], 0.3)];

@@ -47,7 +47,7 @@ pub struct ImageFacts {
     pub title: String,
     /// Exposure of the scene in stops.
     pub exposure: f32,
-    /// Whether pixels share paths or bright samples, or merge vertices.
+    /// Whether pixels reuse suffixes or outliers, or merge vertices.
     pub shares: bool,
 }
 

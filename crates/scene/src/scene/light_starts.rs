@@ -146,7 +146,7 @@ impl Scene {
 mod tests {
     use crate::scene::{Estimator, RenderSettings, parse};
 
-    /// What `bidirectional` and `forward` say about a scene with these materials and a lamp of one of them.
+    /// What `bidirectional` and `light_tracing` say about a scene with these materials and a lamp of one of them.
     fn notes(materials: &str, lamp: &str) -> [Option<String>; 2] {
         let text = format!(
             "format = 1
@@ -165,7 +165,7 @@ mod tests {
             emission.radiance = 1"
         );
         let scene = parse("lamps.toml", text).unwrap_or_else(|error| panic!("{}", error.report()));
-        [Estimator::Bidirectional, Estimator::Forward]
+        [Estimator::Bidirectional, Estimator::LightTracing]
             .map(|estimator| scene.lacks_light_paths(&RenderSettings { estimator, ..RenderSettings::default() }))
     }
 

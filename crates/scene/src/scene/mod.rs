@@ -25,6 +25,7 @@ mod media_walks;
 mod nesting;
 mod object;
 mod parse;
+mod path_reuse;
 pub mod projection;
 mod rays;
 mod read;
@@ -32,7 +33,6 @@ mod reuse;
 pub mod roulette;
 mod same_image;
 mod settings;
-mod sharing;
 mod shipped;
 mod shutter;
 mod strategy;
@@ -73,7 +73,7 @@ pub use self::{
     parse::{BUILT_IN, built_in, describe, parse, parse_watched},
     projection::Projection,
     rays::{CameraJoin, CameraRays},
-    reuse::{Reuse, Sharing},
+    reuse::{PathReuse, Reuse},
     roulette::Roulette,
     settings::{Changes, RenderSettings, Setting},
     shipped::ShippedScene,
@@ -135,7 +135,7 @@ pub struct Scene {
     /// The settings that the scene opens with.
     pub settings: RenderSettings,
     /// What it pays to share between pixels, once it has been tried.
-    pub sharing_by_trial: OnceLock<Sharing>,
+    pub path_reuse_by_trial: OnceLock<PathReuse>,
     /// The rays with which paths from lights start, or what keeps them from it: see [`Scene::light_rays`].
     pub light_paths: OnceLock<Result<LightStarts, Obstacle>>,
     /// The estimator that [`Estimator::Auto`] stands for, once it has been tried.
@@ -189,10 +189,10 @@ impl Scene {
         self.lights.lamps.is_empty() && self.lights.emitters.len() <= self.shapes.first_unlisted() as usize
     }
 
-    /// Whether pixels share path suffixes.
+    /// Whether pixels reuse path suffixes.
     #[inline(always)]
     pub fn shares(&self, rays: &CameraRays, settings: &RenderSettings) -> bool {
-        Sharing::asked(settings.reuse).has_suffixes() && self.can_share(rays, settings)
+        PathReuse::asked(settings.reuse).has_suffixes() && self.can_share(rays, settings)
     }
 
     /// Whether they could: from diffuse surfaces by cosine-distributed directions, in empty space, while nothing moves.

@@ -57,7 +57,7 @@ impl Scene {
         if self.compiled.parts.iter().all(|part| part.made == 0 || HARMLESS.contains(&part.part)) {
             self.identity = before.identity.clone();
             before.estimator_by_trial.get().into_iter().for_each(|best| _ = self.estimator_by_trial.set(*best));
-            before.sharing_by_trial.get().into_iter().for_each(|sharing| _ = self.sharing_by_trial.set(*sharing));
+            before.path_reuse_by_trial.get().into_iter().for_each(|path_reuse| _ = self.path_reuse_by_trial.set(*path_reuse));
         }
     }
 }
@@ -70,7 +70,7 @@ mod tests {
     use crate::{
         light::background::{BackgroundDescription, image::Image},
         material::{Dielectric, Lambertian},
-        scene::{BUILT_IN, Sharing, built_in, describe},
+        scene::{BUILT_IN, PathReuse, built_in, describe},
         texture::image::Image as Texels,
     };
     use noisefall_base::declare::{Precision, Textured};
@@ -127,7 +127,7 @@ mod tests {
         let mut description = built_in_description();
         description.background = Some(BackgroundDescription::from(Image { path: "sky.png".to_owned(), ..Image::default() }));
         let before = description.build(folder.path()).expect("it is valid");
-        before.sharing_by_trial.set(Sharing::Suffixes).expect("it is not known yet");
+        before.path_reuse_by_trial.set(PathReuse::Suffixes).expect("it is not known yet");
         description.title = "Room".to_owned();
         let description = Arc::new(description);
         let renamed = || {
@@ -137,7 +137,9 @@ mod tests {
         };
         let after = renamed();
         assert!(
-            after.has_same_image(&before) && after.title == "Room" && after.sharing_by_trial.get() == Some(&Sharing::Suffixes)
+            after.has_same_image(&before)
+                && after.title == "Room"
+                && after.path_reuse_by_trial.get() == Some(&PathReuse::Suffixes)
         );
         write(16);
         assert!(!renamed().has_same_image(&before));

@@ -1,39 +1,39 @@
 //! Settings that a render does not use, and why.
-use super::{CameraRays, RenderSettings, Reuse, Scene, Sharing};
+use super::{CameraRays, PathReuse, RenderSettings, Reuse, Scene};
 
 impl Scene {
     /// Says which settings have no effect in this scene, and why. `resolved` are the same settings where it is decided what pixels share and
     /// which estimator renders.
     pub fn unused_settings(&self, rays: &CameraRays, asked: &RenderSettings, resolved: &RenderSettings) -> Vec<String> {
-        let sharing = self.sharing(rays, resolved);
+        let path_reuse = self.path_reuse(rays, resolved);
         let has_light_paths = self.traces_light_paths(resolved);
         let why = [
-            self.why_not_adaptive(asked, sharing, has_light_paths),
-            why_not_shared(asked, sharing, has_light_paths),
+            self.why_not_adaptive(asked, path_reuse, has_light_paths),
+            why_not_shared(asked, path_reuse, has_light_paths),
             why_not_merged(asked, resolved),
         ];
         let named = ["adaptive", "reuse", "merging"].into_iter().zip(why);
         named.filter_map(|(name, why)| Some(format!("`{name}` is not used: {}", why?))).collect()
     }
 
-    fn why_not_adaptive(&self, asked: &RenderSettings, sharing: Sharing, has_light_paths: bool) -> Option<String> {
-        let obstacle = match sharing {
-            Sharing::Nothing => has_light_paths.then(|| "paths from lights bring light to any pixel".to_owned()),
-            Sharing::Merged => Some("pixels share merged vertices".to_owned()),
+    fn why_not_adaptive(&self, asked: &RenderSettings, path_reuse: PathReuse, has_light_paths: bool) -> Option<String> {
+        let obstacle = match path_reuse {
+            PathReuse::Off => has_light_paths.then(|| "paths from lights bring light to any pixel".to_owned()),
+            PathReuse::Merged => Some("pixels share merged vertices".to_owned()),
             shared => Some(format!("pixels have {}; --reuse off leaves each its own", shared.name())),
         };
         obstacle.filter(|_| asked.adaptive)
     }
 }
 
-fn why_not_shared(asked: &RenderSettings, sharing: Sharing, has_light_paths: bool) -> Option<String> {
-    if matches!(asked.reuse, Reuse::Auto | Reuse::Off) || sharing == Sharing::asked(asked.reuse) {
+fn why_not_shared(asked: &RenderSettings, path_reuse: PathReuse, has_light_paths: bool) -> Option<String> {
+    if matches!(asked.reuse, Reuse::Auto | Reuse::Off) || path_reuse == PathReuse::asked(asked.reuse) {
         return None;
     }
-    Some(match sharing {
-        Sharing::Merged => "pixels share merged vertices".to_owned(),
-        Sharing::Nothing if has_light_paths => "paths from lights are shared by all pixels already".to_owned(),
-        Sharing::Nothing => "pixels share nothing, because this scene and these settings do not allow it".to_owned(),
+    Some(match path_reuse {
+        PathReuse::Merged => "pixels share merged vertices".to_owned(),
+        PathReuse::Off if has_light_paths => "paths from lights are shared by all pixels already".to_owned(),
+        PathReuse::Off => "pixels share nothing, because this scene and these settings do not allow it".to_owned(),
         other => format!("pixels have {}, because this scene and these settings allow no more", other.name()),
     })
 }
@@ -68,18 +68,18 @@ mod tests {
         for (scene, asked, expected) in [
             (&open, base, ""),
             (&open, RenderSettings { adaptive: true, ..base }, ""),
-            (&open, RenderSettings { reuse: Reuse::On, ..base }, ""),
+            (&open, RenderSettings { reuse: Reuse::Suffixes, ..base }, ""),
             (&open, RenderSettings { reuse: Reuse::Both, ..base }, ""),
             (&open, RenderSettings { merging: true, ..light }, ""),
             (
                 &open,
-                RenderSettings { adaptive: true, reuse: Reuse::On, ..base },
-                "`adaptive` is not used: pixels have shared paths",
+                RenderSettings { adaptive: true, reuse: Reuse::Suffixes, ..base },
+                "`adaptive` is not used: pixels have reused suffixes",
             ),
             (
                 &open,
-                RenderSettings { adaptive: true, reuse: Reuse::Bright, ..base },
-                "`adaptive` is not used: pixels have shared bright samples",
+                RenderSettings { adaptive: true, reuse: Reuse::Outliers, ..base },
+                "`adaptive` is not used: pixels have reused outliers",
             ),
             (&open, RenderSettings { adaptive: true, ..light }, "`adaptive` is not used: paths from lights"),
             (
@@ -87,18 +87,14 @@ mod tests {
                 RenderSettings { adaptive: true, merging: true, ..light },
                 "`adaptive` is not used: pixels share merged vertices",
             ),
-            (&open, RenderSettings { reuse: Reuse::On, ..light }, "`reuse` is not used: paths from lights"),
+            (&open, RenderSettings { reuse: Reuse::Suffixes, ..light }, "`reuse` is not used: paths from lights"),
             (
                 &open,
-                RenderSettings { reuse: Reuse::On, max_bounces: Some(1), ..base },
+                RenderSettings { reuse: Reuse::Suffixes, max_bounces: Some(1), ..base },
                 "`reuse` is not used: pixels share nothing",
             ),
-            (&sheer, RenderSettings { reuse: Reuse::On, ..base }, "`reuse` is not used: pixels share nothing"),
-            (
-                &sheer,
-                RenderSettings { reuse: Reuse::Both, ..base },
-                "`reuse` is not used: pixels have shared bright samples, because",
-            ),
+            (&sheer, RenderSettings { reuse: Reuse::Suffixes, ..base }, "`reuse` is not used: pixels share nothing"),
+            (&sheer, RenderSettings { reuse: Reuse::Both, ..base }, "`reuse` is not used: pixels have reused outliers, because"),
             (
                 &open,
                 RenderSettings { merging: true, ..base },

@@ -23,7 +23,7 @@ pub fn show(
     [of_a, of_b]: [SideStatus; 2],
     error_ratio: Option<LogRatio>,
 ) {
-    let named = |settings, side: SideStatus| name(settings, of_scene, side.status.sharing);
+    let named = |settings, side: SideStatus| name(settings, of_scene, side.status.path_reuse);
     let sides = [Side::of("A", named(a, of_a), a, of_a), Side::of("B", named(b, of_b), b, of_b)];
     Grid::new("A and B").num_columns(8).spacing([18.0, 5.0]).show(ui, |ui| {
         for (heading, doc) in HEADINGS {

@@ -3,7 +3,7 @@ use egui::Ui;
 use noisefall_base::declare::{OneOf, capitalised};
 use noisefall_scene::{
     sampling::Sampler,
-    scene::{Estimator, RenderSettings, Reuse, Roulette, Sharing},
+    scene::{Estimator, PathReuse, RenderSettings, Reuse, Roulette},
 };
 
 /// Shows the menu that starts a comparison with one click. Returns the settings of B.
@@ -26,7 +26,8 @@ fn alternatives(settings: &RenderSettings) -> Vec<(String, RenderSettings)> {
     let of = |name: &str, changed: RenderSettings| (name.to_owned(), changed);
     let mut all = Vec::new();
     for estimator in Estimator::ALL {
-        all.push(of(estimator.comparison(), RenderSettings { estimator, ..*settings }));
+        let name = if estimator == Estimator::Auto { "Estimator chosen by a trial" } else { estimator.title() };
+        all.push(of(name, RenderSettings { estimator, ..*settings }));
     }
     for sampler in Sampler::ALL {
         all.push((format!("{} samples", sampler.word().title), RenderSettings { sampler, ..*settings }));
@@ -35,7 +36,7 @@ fn alternatives(settings: &RenderSettings) -> Vec<(String, RenderSettings)> {
         all.push((capitalised(&roulette.words()), RenderSettings { roulette, ..*settings }));
     }
     for reuse in Reuse::ALL.into_iter().filter(|reuse| *reuse != Reuse::Auto) {
-        all.push((capitalised(Sharing::asked(reuse).name()), RenderSettings { reuse, ..*settings }));
+        all.push((capitalised(PathReuse::asked(reuse).words()), RenderSettings { reuse, ..*settings }));
     }
     all.push(of("A cap of 3 bounces", RenderSettings { max_bounces: Some(3), ..*settings }));
     all.push(of("Another seed", RenderSettings { seed: settings.seed.wrapping_add(1), ..*settings }));
@@ -56,7 +57,8 @@ mod tests {
             assert!(*one != settings && all[..i].iter().all(|(_, other)| other != one));
         }
         let place = |name: &str| all.iter().position(|(other, _)| other.starts_with(name)).unwrap_or(usize::MAX);
-        let order = ["Path", "Independent", "No roulette", "Roulette of 0.8", "Shared", "A cap", "Another seed"].map(place);
+        let order =
+            ["BSDF sampling", "Independent", "No roulette", "Roulette of 0.8", "Reused", "A cap", "Another seed"].map(place);
         assert!(order.is_sorted() && order[6] == all.len() - 1, "{order:?}");
     }
 }

@@ -3,7 +3,7 @@ use std::sync::{Arc, Weak};
 
 use noisefall_lab::study::{Slope, slope};
 use noisefall_render::render::{Frame, truth::Reference};
-use noisefall_scene::scene::{RenderSettings, Sharing};
+use noisefall_scene::scene::{PathReuse, RenderSettings};
 
 use crate::viewer::background::display_image::ReferenceComparison;
 
@@ -28,7 +28,7 @@ pub struct Moment {
     /// Bias of the mean over the image, in standard errors.
     pub bias: Option<f64>,
     /// What pixels share.
-    pub sharing: Sharing,
+    pub path_reuse: PathReuse,
     /// Few pixels carry the noise, so that it may be much larger.
     pub is_lower_bound: bool,
 }
@@ -70,7 +70,7 @@ impl Moment {
             noise: frame.rel_mse_estimate.map(f64::sqrt),
             true_error: comparison.map(|comparison| comparison.rel_mse.sqrt()),
             bias: comparison.and_then(|comparison| comparison.bias),
-            sharing: frame.sharing,
+            path_reuse: frame.path_reuse,
             is_lower_bound: frame.error_is_lower_bound,
         }
     }
@@ -132,8 +132,8 @@ impl Curve {
     }
 
     /// What the pixels of its picture share.
-    pub fn sharing(&self) -> Sharing {
-        self.moments.last().map_or(Sharing::Nothing, |moment| moment.sharing)
+    pub fn path_reuse(&self) -> PathReuse {
+        self.moments.last().map_or(PathReuse::Off, |moment| moment.path_reuse)
     }
 
     /// Places with a positive error, which a logarithm needs.
@@ -234,7 +234,7 @@ mod tests {
                     noise,
                     true_error: None,
                     bias: None,
-                    sharing: Sharing::Nothing,
+                    path_reuse: PathReuse::Off,
                     is_lower_bound: false,
                 };
                 curve.record(1, moment);
@@ -244,7 +244,7 @@ mod tests {
         // Independent, stratified, and wild only before the fourth sample.
         assert!(!curve(&|n| n.powf(-0.5)) && !curve(&|n| n.powf(-0.75)));
         assert!(!curve(&|n| if n < 4.0 { 0.01 } else { n.powf(-0.5) }));
-        // A slope of infinite variance, and one bright sample that is found late.
+        // A slope of infinite variance, and one outlier that is found late.
         assert!(curve(&|n| n.powf(-0.4)));
         assert!(curve(&|n| n.powf(-0.5) * if n < 100.0 { 1.0 } else { 1.5 }));
     }
@@ -257,7 +257,7 @@ mod tests {
             noise: Some(0.5),
             true_error,
             bias: true_error,
-            sharing: Sharing::Nothing,
+            path_reuse: PathReuse::Off,
             is_lower_bound: false,
         };
         let mut curve = Curve::new(RenderSettings::default(), 1, 0);
@@ -277,7 +277,7 @@ mod tests {
             noise: Some(error),
             true_error: None,
             bias: None,
-            sharing: Sharing::Nothing,
+            path_reuse: PathReuse::Off,
             is_lower_bound: false,
         };
         let mut curve = Curve::new(RenderSettings::default(), 1, 0);

@@ -18,7 +18,7 @@ impl History {
         let heading = [
             "name",
             "settings",
-            "sharing",
+            "path_reuse",
             "hidden",
             "spp",
             "seconds",
@@ -32,12 +32,12 @@ impl History {
         writer.write_record(heading).map_err(failed)?;
         for curve in &self.curves {
             let [name, settings] = [self.name(curve), self.own_name(curve)];
-            let sharing = |moment: &Moment| moment.sharing.reuse().word().name.to_owned();
+            let path_reuse = |moment: &Moment| moment.path_reuse.reuse().word().name.to_owned();
             let [hidden, heavy_tail] = [curve.is_hidden, curve.has_heavy_tail()].map(|is| is.to_string());
             for moment in &curve.moments {
                 let text = |x: Option<f64>| x.map_or_else(String::new, |x| format!("{x:e}"));
                 let figures = [moment.noise, moment.true_error, moment.bias, self.bias_of_cap(curve)].map(text);
-                let of_curve = [name.clone(), settings.clone(), sharing(moment), hidden.clone()];
+                let of_curve = [name.clone(), settings.clone(), path_reuse(moment), hidden.clone()];
                 let row = of_curve.into_iter().chain([moment.spp.to_string(), moment.seconds.to_string()]).chain(figures);
                 writer.write_record(row.chain([heavy_tail.clone()])).map_err(failed)?;
             }
@@ -104,7 +104,7 @@ mod tests {
     use noisefall_render::render::{Frame, Series};
     use noisefall_scene::{
         sampling::Sampler,
-        scene::{Sharing, built_in},
+        scene::{PathReuse, built_in},
     };
 
     use super::*;
@@ -116,8 +116,8 @@ mod tests {
         let mut history = History::default();
         history.look_at(&scene, &scene.camera, None);
         let moment = |spp, seconds, noise, true_error, bias| {
-            let sharing = if spp == 64 || spp == 4 { Sharing::Suffixes } else { Sharing::Nothing };
-            Moment { spp, seconds, noise, true_error, bias, sharing, is_lower_bound: false }
+            let path_reuse = if spp == 64 || spp == 4 { PathReuse::Suffixes } else { PathReuse::Off };
+            Moment { spp, seconds, noise, true_error, bias, path_reuse, is_lower_bound: false }
         };
         history.record(&scene.settings, 1, moment(1, 0.5, None, Some(0.25), None));
         history.record(&scene.settings, 1, moment(16, 2.0, Some(0.125), Some(0.0625), Some(-1.5)));
@@ -135,12 +135,12 @@ mod tests {
         assert_eq!(
             lines,
             [
-                "name,settings,sharing,hidden,spp,seconds,relative_noise,relative_error,bias_in_standard_errors,relative_bias_of_cap,\
+                "name,settings,path_reuse,hidden,spp,seconds,relative_noise,relative_error,bias_in_standard_errors,relative_bias_of_cap,\
                  heavy_tail",
-                "\"MIS, Sobol (Owen), no sharing\",\"MIS, Sobol (Owen), no sharing\",off,false,1,0.5,,2.5e-1,,,false",
-                "\"MIS, Sobol (Owen), no sharing\",\"MIS, Sobol (Owen), no sharing\",off,false,16,2,1.25e-1,6.25e-2,-1.5e0,,false",
-                "mine,\"Independent, shared paths\",on,true,4,0.75,5e-1,,,,false",
-                "mine,\"Independent, shared paths\",on,true,64,12,7.8125e-3,,2.25e0,,false",
+                "\"MIS, Sobol (Owen), no path reuse\",\"MIS, Sobol (Owen), no path reuse\",off,false,1,0.5,,2.5e-1,,,false",
+                "\"MIS, Sobol (Owen), no path reuse\",\"MIS, Sobol (Owen), no path reuse\",off,false,16,2,1.25e-1,6.25e-2,-1.5e0,,false",
+                "mine,\"Independent, reused suffixes\",on,true,4,0.75,5e-1,,,,false",
+                "mine,\"Independent, reused suffixes\",on,true,64,12,7.8125e-3,,2.25e0,,false",
             ]
         );
     }
@@ -173,7 +173,7 @@ mod tests {
                 noise: Some(noise),
                 true_error: None,
                 bias: None,
-                sharing: Sharing::Nothing,
+                path_reuse: PathReuse::Off,
                 is_lower_bound: false,
             };
             history.record(&capped, 1, moment);

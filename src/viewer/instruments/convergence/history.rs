@@ -2,7 +2,7 @@
 use std::sync::{Arc, Weak};
 
 use noisefall_render::render::{Frame, truth::Reference};
-use noisefall_scene::scene::{Camera, RenderSettings, Scene, Sharing};
+use noisefall_scene::scene::{Camera, PathReuse, RenderSettings, Scene};
 
 use super::{
     colours::COLOURS,
@@ -133,24 +133,24 @@ impl History {
         self.lost_light.as_ref()?.by_cap(curve.settings.max_bounces?)
     }
 
-    /// The name of a curve: the given one, or what its settings and its sharing are.
+    /// The name of a curve: the given one, or what its settings and its path reuse are.
     pub fn name(&self, curve: &Curve) -> String {
         curve.given_name.clone().unwrap_or_else(|| self.own_name(curve))
     }
 
-    /// Names a curve by its settings, and by sharing.
+    /// Names a curve by its settings, and by path reuse.
     pub fn own_name(&self, curve: &Curve) -> String {
         let of_scene = self.subject.as_ref().map_or_else(RenderSettings::default, |(scene, _)| scene.settings);
-        let bias = if curve.settings.bias_with(curve.sharing()).is_some() { " (biased)" } else { "" };
-        name(&curve.settings, &of_scene, curve.sharing()) + bias
+        let bias = if curve.settings.bias_with(curve.path_reuse()).is_some() { " (biased)" } else { "" };
+        name(&curve.settings, &of_scene, curve.path_reuse()) + bias
     }
 }
 
 /// Names settings by what differs from those of the scene, or by estimator and sampler if nothing does, by the cap, and by what pixels
 /// share.
 /// The words are those of the panel.
-pub fn name(settings: &RenderSettings, of_scene: &RenderSettings, sharing: Sharing) -> String {
-    // The legend names the sharing in force, whatever was asked for.
+pub fn name(settings: &RenderSettings, of_scene: &RenderSettings, path_reuse: PathReuse) -> String {
+    // The legend names the path reuse in force, whatever was asked for.
     let told = settings.differing(of_scene).filter(|setting| *setting != RenderSettings::REUSE);
     let mut parts: Vec<String> = told.map(|setting| setting.words(settings)).collect();
     if settings == of_scene {
@@ -161,7 +161,7 @@ pub fn name(settings: &RenderSettings, of_scene: &RenderSettings, sharing: Shari
     if settings.max_bounces.is_some() && !cap.differs(settings, of_scene) {
         parts.push(cap.words(settings));
     }
-    let shared = sharing.name().to_owned();
+    let shared = path_reuse.words().to_owned();
     if !parts.contains(&shared) {
         parts.push(shared);
     }
@@ -184,7 +184,7 @@ mod tests {
             noise: Some(error),
             true_error: None,
             bias: None,
-            sharing: Sharing::Nothing,
+            path_reuse: PathReuse::Off,
             is_lower_bound: false,
         }
     }
@@ -284,14 +284,14 @@ mod tests {
             history.record(&settings, generation, moment(1, 0.5));
         }
         let names: Vec<String> = history.curves.iter().map(|curve| history.name(curve)).collect();
-        assert_eq!(names[0], "MIS, Sobol (Owen), no sharing");
-        assert!(names[1] == "Independent, cap of 3 bounces, no sharing (biased)", "{}", names[1]);
+        assert_eq!(names[0], "MIS, Sobol (Owen), no path reuse");
+        assert!(names[1] == "Independent, cap of 3 bounces, no path reuse (biased)", "{}", names[1]);
         let never = RenderSettings { reuse: Reuse::Off, ..scene.settings };
-        assert_eq!(name(&never, &scene.settings, Sharing::Nothing), "no sharing");
-        assert_eq!(name(&scene.settings, &scene.settings, Sharing::Suffixes), "MIS, Sobol (Owen), shared paths");
+        assert_eq!(name(&never, &scene.settings, PathReuse::Off), "no path reuse");
+        assert_eq!(name(&scene.settings, &scene.settings, PathReuse::Suffixes), "MIS, Sobol (Owen), reused suffixes");
         let merged = RenderSettings { estimator: Estimator::Bidirectional, merging: true, ..scene.settings };
-        assert_eq!(name(&merged, &scene.settings, Sharing::Merged), "Bidirectional, merged vertices");
+        assert_eq!(name(&merged, &scene.settings, PathReuse::Merged), "Bidirectional, merged vertices");
         let capped = RenderSettings { max_bounces: Some(2), ..scene.settings };
-        assert_eq!(name(&capped, &capped, Sharing::Nothing), "MIS, Sobol (Owen), cap of 2 bounces, no sharing");
+        assert_eq!(name(&capped, &capped, PathReuse::Off), "MIS, Sobol (Owen), cap of 2 bounces, no path reuse");
     }
 }

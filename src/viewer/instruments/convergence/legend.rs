@@ -10,7 +10,7 @@ use crate::viewer::widgets::{list::closing, style};
 
 const FIGURES: &str = "Samples per pixel, render time and relative noise. Against the reference: relative error, and bias of the mean in \
                        standard errors. The slope is that of the logarithm of the noise, with its 95 % interval; independent samples have −0.5. \
-                       Heavy tails: the noise once fell more slowly than 1/√N, because rare bright samples were found late. Noise and slope \
+                       Heavy tails: the noise once fell more slowly than 1/√N, because rare outliers were found late. Noise and slope \
                        are then too optimistic.";
 const CLICK: &str = "A click hides or shows the curve. Right click or double click: rename, remove.";
 /// The widest name, in points.
@@ -164,7 +164,7 @@ pub fn slope_text(curve: &Curve, over: HorizontalAxis) -> Option<String> {
 
 #[cfg(test)]
 mod tests {
-    use noisefall_scene::scene::{RenderSettings, Sharing};
+    use noisefall_scene::scene::{PathReuse, RenderSettings};
 
     use super::*;
     use crate::viewer::instruments::convergence::curve::Moment;
@@ -177,7 +177,7 @@ mod tests {
             noise: Some(0.125),
             true_error: Some(0.0625),
             bias: Some(-1.5),
-            sharing: Sharing::Nothing,
+            path_reuse: PathReuse::Off,
             is_lower_bound: false,
         };
         let curve = |bias| {

@@ -1,7 +1,7 @@
 //! Traces the samples of a pixel and one of its paths again, off the UI thread.
 use noisefall_base::math::colour::luminance;
 use noisefall_kernel::integrator::{Replay, pixel_samples, replay, seen_by_camera};
-use noisefall_render::render::{RenderRequest, sharing::resolved};
+use noisefall_render::render::{RenderRequest, path_reuse::resolved};
 
 use super::{cells::Channel, histogram::Histogram};
 use crate::viewer::background::search::{self, Patience, Search};

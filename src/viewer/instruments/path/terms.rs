@@ -142,12 +142,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn terms_are_products_and_add_up_to_the_sample_with_and_without_sharing() {
+    fn terms_are_products_and_add_up_to_the_sample_with_and_without_path_reuse() {
         let scene = built_in();
         let rays = scene.rays(&scene.camera);
         let (mut checked, mut shared) = (0, 0);
         for (reuse, sample) in
-            [Reuse::Off, Reuse::On, Reuse::Both].into_iter().flat_map(|reuse| (0..40).map(move |sample| (reuse, sample)))
+            [Reuse::Off, Reuse::Suffixes, Reuse::Both].into_iter().flat_map(|reuse| (0..40).map(move |sample| (reuse, sample)))
         {
             let settings = RenderSettings { reuse, ..scene.settings };
             let middle = scene.camera.resolution.map(|side| side / 3);

@@ -1,4 +1,4 @@
-//! Paths from both ends: the estimators `caustics`, `forward` and `bidirectional`.
+//! Paths from both ends: the estimators `caustics`, `light_tracing` and `bidirectional`.
 //!
 //! A path from a light belongs to every sample of a pixel, beside its path from the camera. With y₀ at the light and z₀ at the camera, a
 //! strategy (s, t) takes s vertices from the light and t from the camera:
@@ -13,7 +13,7 @@
 //!
 //! `bidirectional` weights all of them by the balance heuristic (Veach 1997, section 10.2). The weights are computed from two numbers of
 //! each path, which follow it from vertex to vertex (D. van Antwerpen, "Recursive MIS Computation for Streaming BDPT on the GPU", 2011;
-//! I. Georgiev, "Implementing Vertex Connection and Merging", 2012): see [`super::light_paths::partial`]. `forward` takes t = 1 alone wherever that can be, that
+//! I. Georgiev, "Implementing Vertex Connection and Merging", 2012): see [`super::light_paths::partial`]. `light_tracing` takes t = 1 alone wherever that can be, that
 //! is unless the first surface reflects the light in a single direction. There it works like `mis`, with the balance heuristic. `caustics`
 //! takes t = 1 only for paths whose light has come to the first surface by mirrors and clear glass alone.
 //!

@@ -49,7 +49,7 @@ impl Observer for Follower {
         }
     }
 
-    fn before_sharing(&mut self, work: &Work, batch: &mut Batch) {
+    fn before_reuse(&mut self, work: &Work, batch: &mut Batch) {
         if !work.shares() {
             return;
         }

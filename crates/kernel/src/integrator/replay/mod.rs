@@ -6,8 +6,8 @@
 mod both_ends;
 mod follower;
 mod light;
+mod path_reuse;
 mod samples;
-mod sharing;
 mod terms;
 mod throughput;
 mod visible;
@@ -23,7 +23,7 @@ pub use self::{
 };
 use super::{
     batch::Batch,
-    bright::thresholds,
+    outlier_reuse::thresholds,
     slots::{SLOTS, TILE},
     trace::trace_in,
     work::Work,
@@ -36,7 +36,7 @@ use noisefall_scene::scene::{CameraRays, Estimator, RenderSettings, Reuse, Scene
 pub struct Replay {
     /// The sample's estimate of the pixel's radiance.
     pub radiance: [f32; 3],
-    /// The estimate by this path alone, if pixels share paths; with paths from lights, as `mis` weights it.
+    /// The estimate by this path alone, if pixels reuse paths; with paths from lights, as `mis` weights it.
     pub alone: Option<[f32; 3]>,
     /// The paths that pixels share in this sample, if they do.
     pub shared: Option<SharedLight>,
@@ -80,7 +80,7 @@ pub fn replay(scene: &Scene, rays: &CameraRays, settings: &RenderSettings, pixel
     });
     let mut replay = Replay { radiance, alone, shared, both_ends: None, vertices: follower.vertices, end };
     if let Ok(Some(thresholds)) = thresholds(SimdLevel::best(), &one.whole_tile(), &mut batch, &|| false) {
-        sharing::share(&mut replay, &thresholds, scene, rays, settings, (pixel, sample));
+        path_reuse::share(&mut replay, &thresholds, scene, rays, settings, (pixel, sample));
     }
     replay
 }
@@ -113,7 +113,7 @@ fn work_of<'a>(
     sample: u32,
 ) -> (Work<'a>, [u32; 2]) {
     let one = Work::tile(scene, rays, settings, pixel, [1, 1], sample);
-    let work = if scene.sharing(rays, settings).correlates() { one.whole_tile() } else { one };
+    let work = if scene.path_reuse(rays, settings).correlates() { one.whole_tile() } else { one };
     (work, place_in(&work, pixel))
 }
 

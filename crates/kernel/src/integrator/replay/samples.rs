@@ -4,7 +4,7 @@ use std::ops::Range;
 use super::{radiance_at, work_of};
 use crate::integrator::{
     batch::Batch,
-    bright::thresholds,
+    outlier_reuse::thresholds,
     slots::{BLOCK, BLOCKS},
     tile_sample::trace,
     work::{Blocks, Work},
@@ -28,7 +28,7 @@ pub fn pixel_samples(
     let level = SimdLevel::best();
     let mut batch = Batch::default();
     let mut samples = Vec::with_capacity(numbers.len());
-    if scene.sharing(rays, settings).correlates() {
+    if scene.path_reuse(rays, settings).correlates() {
         let (first, _) = work_of(scene, rays, settings, pixel, 0);
         let thresholds = thresholds(level, &first, &mut batch, interrupted).ok()?;
         for number in numbers {

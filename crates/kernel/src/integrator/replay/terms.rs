@@ -113,7 +113,7 @@ pub struct EmitterHit {
     pub shared: bool,
 }
 
-/// The parts of a sample of a pixel that shares paths or bright samples with its neighbours. They add up to the sample.
+/// The parts of a sample of a pixel that reuses suffixes or outliers with its neighbours. They add up to the sample.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SharedLight {
     /// The terms of the path that are not shared.

@@ -240,12 +240,12 @@ fn lamps_and_emitters_together_are_the_sum_of_both_alone() {
 }
 
 #[test]
-fn shared_paths_find_lamps_without_bias() {
+fn reused_paths_find_lights_without_bias() {
     let room = [FLOOR, BALLS, AREA, ALL_LAMPS].concat();
     let room = room.replace("material = 'frosted'", "material = 'grey'");
     let scene = scene(VIEW, &room);
     for estimator in from_camera() {
-        let [alone, shared] = [Reuse::Off, Reuse::On].map(|reuse| mean(&scene, estimator, reuse, 300));
+        let [alone, shared] = [Reuse::Off, Reuse::Suffixes].map(|reuse| mean(&scene, estimator, reuse, 300));
         (0..3).for_each(|c| same(alone[c], shared[c], estimator.name()));
     }
 }

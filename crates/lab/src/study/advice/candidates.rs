@@ -11,7 +11,7 @@ const ROULETTES: [Roulette; 4] =
 
 /// Estimators to try: all but `auto`, which is one of the others.
 const ESTIMATORS: [Estimator; 6] =
-    [Estimator::Path, Estimator::Light, Estimator::Mis, Estimator::Caustics, Estimator::Forward, Estimator::Bidirectional];
+    [Estimator::Path, Estimator::Light, Estimator::Mis, Estimator::Caustics, Estimator::LightTracing, Estimator::Bidirectional];
 
 /// The settings in use and each sampler.
 pub const MOST_OF_SECOND_STAGE: usize = 1 + Sampler::ALL.len();
@@ -39,7 +39,7 @@ fn each_once(first: &RenderSettings, others: impl IntoIterator<Item = RenderSett
     all
 }
 
-/// The settings in use with the best roulette, estimator and sharing of the first stage. They change only what is clearly better.
+/// The settings in use with the best roulette, estimator and path reuse of the first stage. They change only what is clearly better.
 pub fn adopted(advice: &Advice) -> RenderSettings {
     let in_use = advice.candidates[advice.current].settings;
     [RenderSettings::ROULETTE, RenderSettings::ESTIMATOR, RenderSettings::REUSE].into_iter().fold(in_use, |base, setting| {

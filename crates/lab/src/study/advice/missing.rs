@@ -2,7 +2,7 @@
 //!
 //! Images without a caustic agree with each other, so their spread says nothing of it. But the images of settings that find it have it at
 //! the same pixels in every round. Let dᵢ be the difference of the images of round i. Since rounds are independent, the mean of dᵢ · dⱼ over
-//! i ≠ j is an estimate without bias of the squared difference of the expected images: noise averages out, and so do single bright samples,
+//! i ≠ j is an estimate without bias of the squared difference of the expected images: noise averages out, and so do single outliers,
 //! which no two rounds have at the same pixel.
 use super::rounds::{RoundPicture, Series};
 

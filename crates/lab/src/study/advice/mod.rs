@@ -1,7 +1,7 @@
-//! Advice: a short study of one scene that recommends the most efficient sampler, roulette, estimator and sharing.
+//! Advice: a short study of one scene that recommends the most efficient sampler, roulette, estimator and path reuse.
 //!
 //! ```text
-//! settings in use ─▶ first stage: each roulette, estimator, sharing ─▶ second stage: with the best of these, each sampler ─▶ Advice
+//! settings in use ─▶ first stage: each roulette, estimator, path reuse ─▶ second stage: with the best of these, each sampler ─▶ Advice
 //! Rounds: an image of each ─▶ Measured: noise and time ─▶ rank
 //! ```
 //! No reference is needed: images of the same settings with different seeds differ by their noise alone. This holds for every
@@ -27,8 +27,8 @@ use self::{
     rounds::{Rounds, SPP},
 };
 use super::{StudyError, measure::Bench, plan::study_size};
-use noisefall_render::render::{sharing::resolved, threads::Threads};
-use noisefall_scene::scene::{Camera, RenderSettings, Reuse, Scene, Sharing};
+use noisefall_render::render::{path_reuse::resolved, threads::Threads};
+use noisefall_scene::scene::{Camera, PathReuse, RenderSettings, Reuse, Scene};
 
 /// Rounds of a stage. Fewer would give a poor estimate of the spread, so if time is short the images are made smaller instead.
 const ROUNDS: u32 = 8;
@@ -76,9 +76,9 @@ pub fn advise(
 /// What pixels could share in place of what they share now.
 fn other_reuses(scene: &Scene, camera: &Camera, settings: &RenderSettings) -> Vec<Reuse> {
     let rays = scene.rays(camera);
-    let now = scene.sharing(&rays, &resolved(scene, &rays, settings));
-    let possible = scene.possible_sharing(&rays, settings);
-    possible.into_iter().filter(|sharing| *sharing != now).map(Sharing::reuse).collect()
+    let now = scene.path_reuse(&rays, &resolved(scene, &rays, settings));
+    let possible = scene.possible_path_reuse(&rays, settings);
+    possible.into_iter().filter(|path_reuse| *path_reuse != now).map(PathReuse::reuse).collect()
 }
 
 /// The first settings, and those of the others that are rendered in another way: `auto` is not compared with the estimator that it chooses.

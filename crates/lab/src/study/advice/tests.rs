@@ -221,26 +221,26 @@ fn auto_is_not_compared_with_the_estimator_that_it_chooses() {
 }
 
 #[test]
-fn sharing_is_tried_and_taken_over_where_it_stands_out() {
-    let first = first_stage(&IN_USE, &[Reuse::On]);
-    let shared = RenderSettings { reuse: Reuse::On, ..IN_USE };
+fn path_reuse_is_tried_and_taken_over_where_it_stands_out() {
+    let first = first_stage(&IN_USE, &[Reuse::Suffixes]);
+    let shared = RenderSettings { reuse: Reuse::Suffixes, ..IN_USE };
     assert_eq!((first.len(), first.last()), (1 + 4 + 5 + 1, Some(&shared)));
     let seconds = |settings: &RenderSettings| if *settings == shared { 0.2 } else { 1.0 };
     let trials: Vec<Measured> = first.iter().map(|settings| known(*settings, 0.01, &[seconds(settings); 4])).collect();
     let advice = rank(&trials, SPP);
-    assert_eq!((adopted(&advice), advice.best().name.as_str()), (shared, "shared paths"));
+    assert_eq!((adopted(&advice), advice.best().name.as_str()), (shared, "reused suffixes"));
 }
 
 /// What is not in use already, whatever the word for that.
 #[test]
-fn all_sharing_is_tried_that_is_possible_and_not_in_use() {
+fn all_path_reuse_is_tried_that_is_possible_and_not_in_use() {
     let (scene, glass) = (scene(), parse("scene.toml", include_str!("../../../../../scenes/tinted_glass.toml").to_owned()));
     let other = |scene: &Scene, reuse| other_reuses(scene, &scene.camera, &RenderSettings { reuse, ..IN_USE });
-    for reuse in [Reuse::Auto, Reuse::On] {
-        assert_eq!(other(&scene, reuse), [Reuse::Off, Reuse::Bright, Reuse::Both]);
+    for reuse in [Reuse::Auto, Reuse::Suffixes] {
+        assert_eq!(other(&scene, reuse), [Reuse::Off, Reuse::Outliers, Reuse::Both]);
     }
-    assert_eq!(other(&scene, Reuse::Off), [Reuse::On, Reuse::Bright, Reuse::Both]);
-    assert_eq!(other(&glass.expect("it is a scene"), Reuse::Off), [Reuse::Bright]);
+    assert_eq!(other(&scene, Reuse::Off), [Reuse::Suffixes, Reuse::Outliers, Reuse::Both]);
+    assert_eq!(other(&glass.expect("it is a scene"), Reuse::Off), [Reuse::Outliers]);
 }
 
 fn scene() -> Scene {

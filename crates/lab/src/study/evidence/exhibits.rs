@@ -89,7 +89,7 @@ impl Exhibits<'_> {
 
     /// The circumstances of rendering without the settings.
     pub fn rendering(&self, findings: &Findings) -> String {
-        format!("{}; {}; against {}", sharing(findings), self.extent(), findings.reference)
+        format!("{}; {}; against {}", path_reuse(findings), self.extent(), findings.reference)
     }
 
     /// Remark on a row, such as why it is not ranked.
@@ -119,8 +119,8 @@ impl Exhibits<'_> {
 }
 
 /// Whether pixels shared, in words.
-fn sharing(findings: &Findings) -> &'static str {
-    let share = || findings.outcomes.iter().map(|outcome| outcome.sharing.correlates());
+fn path_reuse(findings: &Findings) -> &'static str {
+    let share = || findings.outcomes.iter().map(|outcome| outcome.path_reuse.correlates());
     match (share().any(|shares| shares), share().all(|shares| shares)) {
         (false, _) => "nothing shared between pixels",
         (true, true) => "light shared between neighbouring pixels",

@@ -64,7 +64,7 @@ fn topics() -> [Topic; 6] {
         topic(RenderSettings::DIRECTIONS, directions.map(|directions| RenderSettings { directions, ..any }).into()),
         topic(RenderSettings::ESTIMATOR, Estimator::ALL.map(|estimator| RenderSettings { estimator, ..any }).into()),
         topic(RenderSettings::SAMPLER, samplers.map(|sampler| RenderSettings { sampler, ..any }).into()),
-        topic(RenderSettings::REUSE, [Reuse::Off, Reuse::On].map(|reuse| RenderSettings { reuse, ..any }).into()),
+        topic(RenderSettings::REUSE, [Reuse::Off, Reuse::Suffixes].map(|reuse| RenderSettings { reuse, ..any }).into()),
     ]
 }
 

@@ -46,9 +46,9 @@ pub fn html(exhibits: &Exhibits, tables: &[Table], plots: &[(String, String, Plo
         (tables_of("equal_time_estimator")) (of("error_by_estimator"))
         h2 { "Samplers at equal time" }
         (tables_of("equal_time_sampler"))
-        h2 { "Sharing between neighbouring pixels at equal time" }
-        p { "All other comparisons on this page are made without sharing and without adaptive sampling." }
-        (tables_of("equal_time_sharing"))
+        h2 { "Path reuse between neighbouring pixels at equal time" }
+        p { "All other comparisons on this page are made without path reuse and without adaptive sampling." }
+        (tables_of("equal_time_path_reuse"))
     };
     report::page(&format!("Evidence: {title}"), STYLE, &content)
 }

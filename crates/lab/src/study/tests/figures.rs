@@ -74,7 +74,7 @@ fn the_overview_has_the_best_three_the_own_and_the_last() {
     let pair = overview(&found).expect("curves");
     for svg in &pair.plots.each_ref().map(Plot::svg) {
         let shown = |estimator: &str, sampler: &str| {
-            named(svg, &format!("{estimator}, bsdf, {sampler}, roulette throughput, no sharing"))
+            named(svg, &format!("{estimator}, bsdf, {sampler}, roulette throughput, no path reuse"))
         };
         let counts = ["sobol", "stratified", "independent"].map(|sampler| [shown("mis", sampler), shown("light", sampler)]);
         assert_eq!(counts, [[1, 1], [1, 0], [1, 1]], "{svg}");
@@ -123,7 +123,7 @@ fn combinations_without_noise_are_named_and_not_drawn() {
     let noisy = outcome(settings(Estimator::Path, Sampler::Sobol), 0.1, Vec::new());
     let pair = overview(&findings(vec![exact.clone(), noisy], RenderSettings::default())).expect("a curve");
     assert!(
-        pair.caption.ends_with("Not shown because they have no noise: mis, bsdf, sobol, roulette throughput, no sharing."),
+        pair.caption.ends_with("Not shown because they have no noise: mis, bsdf, sobol, roulette throughput, no path reuse."),
         "{}",
         pair.caption
     );

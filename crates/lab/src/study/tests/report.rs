@@ -12,7 +12,7 @@ use crate::study::{
 use noisefall_kernel::measure::Floor;
 use noisefall_scene::{
     sampling::{Directions, Sampler},
-    scene::{Estimator, RenderSettings, Reuse, Roulette, Sharing, parse},
+    scene::{Estimator, PathReuse, RenderSettings, Reuse, Roulette, parse},
 };
 
 pub(super) fn machine() -> Machine {
@@ -38,7 +38,7 @@ fn points(rel_mse: f64, seconds: f64) -> Run {
         checkpoints: checkpoints(16).into_iter().map(point).collect(),
         invalid_samples: 3,
         bias: "cap at 2".to_owned(),
-        sharing: Sharing::Suffixes,
+        path_reuse: PathReuse::Suffixes,
         adapts: true,
     }
 }
@@ -89,7 +89,7 @@ fn lines_of_a_run_say_all_that_it_depends_on() {
         assert_eq!(words[column(setting.key()) - 3], *word);
         assert_eq!(setting.value(&settings), *word);
     }
-    assert_eq!((row.shares, row.adapts), (Sharing::Suffixes, true));
+    assert_eq!((row.path_reuse, row.adapts), (PathReuse::Suffixes, true));
     assert_eq!((row.seconds, row.rel_mse, row.rmse, row.bias), (4.0, 0.04, 0.25, -0.125));
     assert_eq!((row.bias_standard_error, row.effective_samples), (Some(0.03), Some(500.0)));
     assert_eq!((row.paths_per_second, row.reference_rel_mse, row.invalid_samples), (20.0 * 10.0 * 8.0 / 4.0, 0.01, 3));
@@ -108,12 +108,12 @@ fn labels_tell_how_light_is_estimated_and_what_is_not_the_default() {
         sampler: Sampler::Independent,
         roulette: Roulette::fixed(0.5),
         max_bounces: Some(7),
-        reuse: Reuse::On,
+        reuse: Reuse::Suffixes,
         adaptive: true,
         seed: 3,
         ..a
     };
-    assert_eq!(label(&b), "light, uniform, independent, cap 7, roulette 0.5, sharing on, adaptive on");
+    assert_eq!(label(&b), "light, uniform, independent, cap 7, roulette 0.5, path reuse suffixes, adaptive on");
     assert_eq!(label(&a), "mis, bsdf, sobol, roulette throughput");
     let capped = RenderSettings { max_bounces: Some(2), sampler: Sampler::Independent, ..a };
     let (common, each) = differing_labels(&[a, capped]);
@@ -121,8 +121,11 @@ fn labels_tell_how_light_is_estimated_and_what_is_not_the_default() {
         (common.as_str(), &each[..]),
         ("mis, bsdf, roulette throughput", &["sobol, no cap".to_owned(), "independent, cap 2".to_owned()][..])
     );
-    let on = RenderSettings { reuse: Reuse::On, ..a };
-    assert_eq!(differing_labels(&[on]), ("mis, bsdf, sobol, roulette throughput, sharing on".to_owned(), vec![String::new()]));
+    let on = RenderSettings { reuse: Reuse::Suffixes, ..a };
+    assert_eq!(
+        differing_labels(&[on]),
+        ("mis, bsdf, sobol, roulette throughput, path reuse suffixes".to_owned(), vec![String::new()])
+    );
 }
 
 /// The contents of the cells of a row.

@@ -12,7 +12,7 @@ use noisefall_base::math::SimdLevel;
 use noisefall_kernel::measure::exact::horizon_sphere_irradiance;
 use noisefall_render::render::{
     film::Film,
-    sharing::resolved,
+    path_reuse::resolved,
     threads::{PassJob, Threads},
 };
 use noisefall_scene::{
@@ -37,16 +37,16 @@ const ALONE: [(&str, Change); 8] = [
     ("plain but Sobol", |plain| RenderSettings { sampler: Sampler::Sobol, ..plain }),
     ("plain but bsdf directions", |plain| RenderSettings { directions: RenderSettings::default().directions, ..plain }),
     ("plain but roulette by throughput", |plain| RenderSettings { roulette: Roulette::BY_THROUGHPUT, ..plain }),
-    ("plain but shared paths", |plain| RenderSettings { reuse: Reuse::On, ..plain }),
-    ("plain but bright samples", |plain| RenderSettings { reuse: Reuse::Bright, ..plain }),
+    ("plain but reused suffixes", |plain| RenderSettings { reuse: Reuse::Suffixes, ..plain }),
+    ("plain but outliers", |plain| RenderSettings { reuse: Reuse::Outliers, ..plain }),
     ("plain but adaptive", |plain| RenderSettings { adaptive: true, ..plain }),
 ];
 
 /// All defaults, with each decision that the program may take.
 const TOGETHER: [(&str, Change); 5] = [
     ("all defaults", |defaults| defaults),
-    ("all defaults, shared paths", |defaults| RenderSettings { reuse: Reuse::On, ..defaults }),
-    ("all defaults, shared paths and bright samples", |defaults| RenderSettings { reuse: Reuse::Both, ..defaults }),
+    ("all defaults, reused suffixes", |defaults| RenderSettings { reuse: Reuse::Suffixes, ..defaults }),
+    ("all defaults, reused suffixes and outliers", |defaults| RenderSettings { reuse: Reuse::Both, ..defaults }),
     ("all defaults, adaptive, nothing shared", |defaults| RenderSettings { adaptive: true, reuse: Reuse::Off, ..defaults }),
     ("all defaults, blue noise", |defaults| RenderSettings { sampler: Sampler::BlueNoise, ..defaults }),
 ];
@@ -78,11 +78,11 @@ pub fn section(validation: &Validation) -> Section {
         title: "Default settings",
         claim: "The default settings, all together and one by one, give the exact means.",
         derivation: &[
-            "The defaults are MIS, Sobol points, BSDF directions, roulette by throughput from the fourth bounce on, and path reuse or shared bright samples if a trial shows a gain; adaptive sampling is optional. These rows render like the program itself, in passes over a film and after the same decisions. The estimators with paths from lights have rows, too. Path reuse and adaptive sampling have rows where the program applies them: paths are not reused at glass, for example, and uniform noise leaves nothing to adapt to.",
+            "The defaults are MIS, Sobol points, BSDF directions, roulette by throughput from the fourth bounce on, and path reuse or reused outliers if a trial shows a gain; adaptive sampling is optional. These rows render like the program itself, in passes over a film and after the same decisions. The estimators with paths from lights have rows, too. Path reuse and adaptive sampling have rows where the program applies them: paths are not reused at glass, for example, and uniform noise leaves nothing to adapt to.",
             "The radiance of a wall of the textured integrating sphere is L_e + ρ H, with H from the section on that room. The ground under a lamp that is partly below the horizon has (ρ/π) E. The wall of the closed sphere has 0.5, and a clear ball of glass in a uniform field of 1 has 1. On Lambert’s ball the lit pixels are summed.",
             "These samples are not independent of each other, so their variance does not give the standard error. The image is rendered with several seeds. The means are independent, and their spread gives the standard error (Student’s t).",
         ],
-        source: "P. Bekaert, M. Sbert and J. Halton, “Accelerating Path Tracing by Re-Using Paths”, 2002, for path reuse; D. Lin et al., “Generalized Resampled Importance Sampling”, 2022, for the random replay of bright samples.",
+        source: "P. Bekaert, M. Sbert and J. Halton, “Accelerating Path Tracing by Re-Using Paths”, 2002, for path reuse; D. Lin et al., “Generalized Resampled Importance Sampling”, 2022, for the random replay of outliers.",
         statements,
         figures: Vec::new(),
         remark: None,
@@ -121,8 +121,8 @@ impl KnownScene {
         let job = PassJob { scene: &self.scene, rays: &rays, settings: &settings };
         // A pass ends when the number of samples has doubled.
         while film.spp() < spp && threads.pass(job, &mut film, spp, &|| false).failure.is_none() {}
-        let sharing = self.scene.sharing(&rays, &settings);
-        let does_not_share = asked.reuse != Reuse::Auto && sharing.reuse() != asked.reuse;
+        let path_reuse = self.scene.path_reuse(&rays, &settings);
+        let does_not_share = asked.reuse != Reuse::Auto && path_reuse.reuse() != asked.reuse;
         let starts_no_paths = self.scene.lacks_light_paths(&asked).is_some();
         if does_not_share || starts_no_paths || (asked.adaptive && !film.is_adaptive()) {
             return None;

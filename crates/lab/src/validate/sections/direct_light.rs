@@ -80,7 +80,7 @@ pub fn section(validation: &Validation) -> Section {
     lamp("sphere at 0°, in fog", &scene, irradiance);
     Section {
         title: "Direct light",
-        claim: "The irradiance under a sphere and under a rectangle, under a sky and in fog, agrees with the closed forms, with every estimator but `forward`, whose paths find no view as small as a point.",
+        claim: "The irradiance under a sphere and under a rectangle, under a sky and in fog, agrees with the closed forms, with every estimator but `light_tracing`, whose paths find no view as small as a point.",
         derivation: &[
             "E = ∫ L cos θ dω over the part of the lamp above the horizon; the radiance of diffuse ground is (ρ/π) E. For a sphere entirely above the horizon this is π L (r/d)² cos θ; partly below it, with h = d/r and y = √(h² − 1), it is \
              L {[cos θ acos(−y cot θ) − y √(sin²θ − y² cos²θ)]/h² + atan(√(1 − h² cos²θ)/y)}. For a polygon E = (L/2) Σ β_i (n · g_i): \

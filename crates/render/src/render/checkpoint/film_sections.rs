@@ -17,7 +17,7 @@ use crate::{
     },
     render_file::{Encode, Encoded, Fields, Reader, RenderFileError, Tag},
 };
-use noisefall_scene::scene::Sharing;
+use noisefall_scene::scene::PathReuse;
 
 const FILM: Tag = Tag(*b"FILM");
 const TILE: Tag = Tag(*b"TILE");
@@ -44,7 +44,7 @@ pub fn encode(film: &Film) -> Vec<Encoded> {
 fn encode_film(film: &Film) -> Encoded {
     Encoded::new(FILM, 64, |to| {
         film.resolution.encode(to);
-        [u8::from(film.awaits_error_record), film.sharing as u8, u8::from(film.is_piloted), u8::from(film.focus.is_some())]
+        [u8::from(film.awaits_error_record), film.path_reuse as u8, u8::from(film.is_piloted), u8::from(film.focus.is_some())]
             .encode(to);
         let focus = film.focus.unwrap_or(Region { from: [0, 0], to: [0, 0] });
         [focus.from, focus.to].encode(to);
@@ -157,14 +157,14 @@ fn read_film(mut fields: Fields, film: &mut Film) -> Result<(), RenderFileError>
     let flags = fields.take::<[u8; 4]>()?;
     let [awaits_error_record, _, is_piloted, has_focus] = flags.map(|flag| flag != 0);
     let [from, to] = fields.take::<[[u32; 2]; 2]>()?;
-    (film.awaits_error_record, film.sharing, film.is_piloted) = (awaits_error_record, sharing_of(flags[1])?, is_piloted);
+    (film.awaits_error_record, film.path_reuse, film.is_piloted) = (awaits_error_record, path_reuse_of(flags[1])?, is_piloted);
     film.focus = has_focus.then_some(Region { from, to });
     fields.end()
 }
 
-fn sharing_of(number: u8) -> Result<Sharing, RenderFileError> {
-    let of_number = Sharing::ALL.into_iter().find(|sharing| *sharing as u8 == number);
-    of_number.ok_or_else(|| RenderFileError::contents("the film has an unknown kind of sharing"))
+fn path_reuse_of(number: u8) -> Result<PathReuse, RenderFileError> {
+    let of_number = PathReuse::ALL.into_iter().find(|path_reuse| *path_reuse as u8 == number);
+    of_number.ok_or_else(|| RenderFileError::contents("the film has an unknown kind of path reuse"))
 }
 
 fn read_tile(mut fields: Fields, place: u32, tile: &mut Tile) -> Result<(), RenderFileError> {

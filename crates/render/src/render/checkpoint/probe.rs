@@ -4,7 +4,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use rayon::prelude::*;
 
 use crate::{
-    render::{film::Film, protocol::RenderRequest, sharing::resolved, threads::Threads, tile::Tile},
+    render::{film::Film, path_reuse::resolved, protocol::RenderRequest, threads::Threads, tile::Tile},
     render_file::{Encode, Header, sha256},
 };
 use noisefall_kernel::integrator::{TILE, Work};

@@ -13,14 +13,14 @@ use super::{
     film::Film,
     halves::Halves,
     pass::{Failure, PassCount, SampleId},
+    path_reuse::resolved_unless,
     protocol::{Budget, Publish, RenderRequest, State, is_below, next_look},
     region::Region,
-    sharing::resolved_unless,
     splats::SplatFilm,
     threads::{PassJob, Threads},
 };
 use noisefall_base::memory::{Reservation, TooMuch};
-use noisefall_scene::scene::{Estimator, RenderSettings, Reuse, Sharing};
+use noisefall_scene::scene::{Estimator, PathReuse, RenderSettings, Reuse};
 
 /// Camera samples per second before the first measurement: those of a slow machine with a simple scene.
 const UNKNOWN_RATE: f64 = 1e6;
@@ -46,7 +46,7 @@ pub(super) struct Session {
     /// The same for the region that is rendered before the rest.
     region_estimate: Option<(Region, f64)>,
     /// What pixels share.
-    sharing: Sharing,
+    path_reuse: PathReuse,
     /// Whether the first samples are of another scene or program.
     is_mixed: bool,
     last_frame: Option<Instant>,
@@ -80,7 +80,7 @@ impl Session {
             rel_mse_estimate: None,
             error_is_lower_bound: false,
             region_estimate: None,
-            sharing: Sharing::Nothing,
+            path_reuse: PathReuse::Off,
             is_mixed: false,
             last_frame: None,
             stale: false,
@@ -108,7 +108,7 @@ impl Session {
         }
     }
 
-    /// A session that stores the contribution of each number of bounces separately. Its pixels do not share paths, and have the
+    /// A session that stores the contribution of each number of bounces separately. Its pixels do not reuse paths, and have the
     /// same number of samples.
     pub fn of_series(generation: u64, request: RenderRequest, rate: Option<f64>, budget: &Budget) -> Session {
         let settings = RenderSettings { reuse: Reuse::Off, adaptive: false, ..request.settings };
@@ -225,7 +225,7 @@ impl Session {
         // What a trial takes is part of the time of the image.
         self.elapsed += begun.elapsed();
         let Ok(settings) = resolved else { return };
-        self.sharing = scene.sharing(&rays, &settings);
+        self.path_reuse = scene.path_reuse(&rays, &settings);
         let start = Instant::now();
         let time_left = budget.max_time.filter(|_| spp > 0).map(|most| most.saturating_sub(self.elapsed));
         let last_frame = self.last_frame;
@@ -253,7 +253,7 @@ impl Session {
         let job = PassJob {
             scene: &self.request.scene,
             rays: &self.request.scene.rays(&coarse.camera),
-            // It is shown for too short a time for a pilot of bright samples.
+            // It is shown for too short a time for a pilot of outliers.
             settings: &RenderSettings { reuse: Reuse::Off, ..self.request.settings },
         };
         let start = Instant::now();

@@ -63,7 +63,7 @@ impl Session {
             elapsed: self.elapsed,
             rel_mse_estimate: self.rel_mse_estimate,
             error_is_lower_bound: self.error_is_lower_bound,
-            sharing: self.sharing,
+            path_reuse: self.path_reuse,
             adapts: self.film.is_adaptive(),
             invalid_samples: self.film.invalid_samples(),
             first_invalid: self.count.invalid,

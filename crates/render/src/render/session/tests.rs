@@ -4,7 +4,7 @@ use std::sync::Arc;
 use super::*;
 use crate::render::Target;
 use noisefall_base::math::SimdLevel;
-use noisefall_scene::scene::{Camera, Scene, Sharing, built_in, parse};
+use noisefall_scene::scene::{Camera, PathReuse, Scene, built_in, parse};
 
 const NEVER: &(dyn Fn() -> bool + Sync) = &|| false;
 
@@ -169,7 +169,7 @@ fn figures_are_those_of_the_whole_picture_so_far() {
             (4, spp, u64::from(spp) * 1600, u64::from(spp) * 1600)
         );
         assert_eq!((status.invalid_samples, status.cut_paths, status.first_invalid), (0, 0, None));
-        assert_eq!((status.sharing, status.adapts, status.state), (Sharing::Nothing, false, State::Done(Target::Samples(spp))));
+        assert_eq!((status.path_reuse, status.adapts, status.state), (PathReuse::Off, false, State::Done(Target::Samples(spp))));
         assert_eq!((status.elapsed, status.rel_mse_estimate), (session.elapsed(), Some(0.0)));
     }
     assert!(session.elapsed() > Duration::ZERO);

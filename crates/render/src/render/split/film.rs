@@ -59,7 +59,7 @@ struct RangeTile {
     /// Exponents of the blocks' rates; empty if all have one sample per sample of the average.
     rates: Vec<i8>,
     start: u32,
-    /// Of bright samples, once they are known.
+    /// Of outliers, once they are known.
     thresholds: Option<Thresholds>,
 }
 

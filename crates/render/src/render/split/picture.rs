@@ -13,7 +13,7 @@ use noisefall_kernel::{
     integrator::TILE,
     measure::{Floor, SampleNoise},
 };
-use noisefall_scene::scene::Sharing;
+use noisefall_scene::scene::PathReuse;
 
 /// Some pixels have no sample.
 #[derive(Debug, PartialEq, thiserror::Error)]
@@ -24,7 +24,7 @@ pub struct NoSamples(pub SampleRanges);
 pub struct SplitPicture {
     resolution: [u32; 2],
     samples: SampleRanges,
-    sharing: Sharing,
+    path_reuse: PathReuse,
     radiance: Vec<[f32; 3]>,
     variance: Vec<[f32; 3]>,
     counts: Vec<u32>,
@@ -36,8 +36,8 @@ pub struct SplitPicture {
 }
 
 impl SplitPicture {
-    /// An empty image, with memory for its file. `sharing` says what pixels share.
-    pub fn new(resolution: [u32; 2], samples: SampleRanges, sharing: Sharing) -> Result<SplitPicture, TooMuch> {
+    /// An empty image, with memory for its file. `path reuse` says what pixels share.
+    pub fn new(resolution: [u32; 2], samples: SampleRanges, path_reuse: PathReuse) -> Result<SplitPicture, TooMuch> {
         /// Bytes per pixel: two means and a count, the planes of an EXR, and the file.
         const PIXEL: u64 = 2 * 12 + 4 + 2 * 28;
         let [width, height] = resolution;
@@ -47,7 +47,7 @@ impl SplitPicture {
         Ok(SplitPicture {
             resolution,
             samples,
-            sharing,
+            path_reuse,
             radiance: vec![[0.0; 3]; pixels],
             variance: vec![[0.0; 3]; pixels],
             counts: vec![0; pixels],
@@ -67,7 +67,7 @@ impl SplitPicture {
         for block in 0..sums.area.blocks() {
             of_blocks += self.add_block(sums, block);
         }
-        let of_sum = if self.sharing.correlates() { of_whole(sums) } else { of_blocks } + self.add_splats(sums, &splats);
+        let of_sum = if self.path_reuse.correlates() { of_whole(sums) } else { of_blocks } + self.add_splats(sums, &splats);
         let values = 3.0 * sums.area.pixels() as f64;
         self.tiles.push(of_sum / (values * values));
         Ok(())
@@ -131,12 +131,12 @@ impl SplitPicture {
         let rel_mse_estimate = (least > 1).then(|| self.rel_mse());
         let error_is_lower_bound = least > 1 && has_heavy_tail(&self.radiance, &self.variance);
         let [sum, squares] = self.variances;
-        let SplitPicture { resolution: [width, height], sharing, radiance, variance, counts, tiles, .. } = self;
+        let SplitPicture { resolution: [width, height], path_reuse, radiance, variance, counts, tiles, .. } = self;
         let noise = (least > 1).then(|| SampleNoise {
             width,
             variance,
             blocks: tiles,
-            block_degrees: if sharing.correlates() { f64::from(least - 1) } else { f64::INFINITY },
+            block_degrees: if path_reuse.correlates() { f64::from(least - 1) } else { f64::INFINITY },
             effective_samples: if squares > 0.0 { sum * sum / squares } else { f64::INFINITY },
         });
         let counts = if counts.iter().all(|count| *count == spp) { Vec::new() } else { counts };
@@ -148,7 +148,7 @@ impl SplitPicture {
             radiance,
             spp,
             counts,
-            sharing,
+            path_reuse,
             rel_mse_estimate,
             error_is_lower_bound,
             noise,

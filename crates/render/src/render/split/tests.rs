@@ -12,7 +12,7 @@ use crate::{
 };
 use noisefall_base::{file::faults::lose_nothing, math::SimdLevel};
 use noisefall_kernel::integrator::{BLOCK, TILE};
-use noisefall_scene::scene::Sharing;
+use noisefall_scene::scene::PathReuse;
 
 /// Its last blocks are 3 pixels wide and 5 high.
 const AREA: Area = Area { origin: [64, 32], size: [19, 13] };
@@ -78,7 +78,7 @@ fn equal_samples_have_no_variance_and_noise_figures_follow_the_rest() {
     let picture = |sums: &TileSums| {
         let resolution = [TILE, TILE];
         let samples = SampleRanges::of(&[[0, sums.counts[0]]]).expect("a range");
-        let mut picture = SplitPicture::new(resolution, samples, Sharing::Nothing).expect("there is memory");
+        let mut picture = SplitPicture::new(resolution, samples, PathReuse::Off).expect("there is memory");
         picture.add(sums).expect("every pixel has samples");
         picture.frame()
     };
@@ -107,7 +107,7 @@ fn pixels_without_samples_have_no_image() {
     let mut sums = tile(2);
     sums.counts[2] = 0;
     let samples = SampleRanges::of(&[[5, 7]]).expect("a range");
-    let mut picture = SplitPicture::new([19, 13], samples.clone(), Sharing::Nothing).expect("there is memory");
+    let mut picture = SplitPicture::new([19, 13], samples.clone(), PathReuse::Off).expect("there is memory");
     assert_eq!(picture.add(&sums), Err(NoSamples(samples)));
 }
 
@@ -138,7 +138,7 @@ fn sections_come_back_and_nonsense_is_refused() {
         }
         let Ok(found) = section::decode(&changed, 7, AREA) else { continue };
         let _ = sums.clone().merge(&found);
-        let mut picture = SplitPicture::new([128, 64], SampleRanges::default(), Sharing::Suffixes).expect("there is memory");
+        let mut picture = SplitPicture::new([128, 64], SampleRanges::default(), PathReuse::Suffixes).expect("there is memory");
         let _ = picture.add(&found);
     }
 }

@@ -154,10 +154,10 @@ fn all_strategies_together_find_the_light_of_mis() {
         for cap in [Some(3), None] {
             let with = |estimator, spp| mean(&scene, &RenderSettings { estimator, max_bounces: cap, ..SETTINGS }, spp);
             let [of_mis, variance] = with(Estimator::Mis, 2000);
-            for estimator in [Estimator::Caustics, Estimator::Forward, Estimator::Bidirectional] {
+            for estimator in [Estimator::Caustics, Estimator::LightTracing, Estimator::Bidirectional] {
                 let is_allowed = scene.traces_light_paths(&RenderSettings { estimator, ..SETTINGS });
                 let has_own_normals = shape == BALL && !ball.starts_with("bumped") && ball != "shadowed";
-                assert_eq!(is_allowed, estimator != Estimator::Forward || has_own_normals, "{shape} {ball}");
+                assert_eq!(is_allowed, estimator != Estimator::LightTracing || has_own_normals, "{shape} {ball}");
                 let [found, of_found] = with(estimator, 1000);
                 let z = (found - of_mis) / (variance + of_found).sqrt();
                 println!("{ball}, {}, cap {cap:?}: {found} and {of_mis}, {z} σ", estimator.name());
@@ -280,9 +280,9 @@ fn lamps_of_every_kind_shine_as_with_mis() {
         let settings = |estimator| RenderSettings { estimator, max_bounces: Some(4), ..SETTINGS };
         let with = |estimator| mean(&scene, &settings(estimator), 2000);
         let [of_mis, variance] = with(Estimator::Mis);
-        for estimator in [Estimator::Caustics, Estimator::Forward, Estimator::Bidirectional] {
+        for estimator in [Estimator::Caustics, Estimator::LightTracing, Estimator::Bidirectional] {
             let is_allowed = scene.traces_light_paths(&settings(estimator));
-            assert_eq!(is_allowed, estimator != Estimator::Forward || *forward, "{number}");
+            assert_eq!(is_allowed, estimator != Estimator::LightTracing || *forward, "{number}");
             let [found, of_found] = with(estimator);
             let z = (found - of_mis) / (variance + of_found).sqrt();
             assert!(z.abs() < 4.0, "{number}, {}: {found} and {of_mis}, {z} σ", estimator.name());

@@ -1,7 +1,7 @@
 //! Pixels of frames.
 use super::*;
 use crate::render::{film::Film, frame::Frame};
-use noisefall_scene::scene::Sharing;
+use noisefall_scene::scene::PathReuse;
 
 /// Standard errors add up by the weights of luminance: ITU-R BT.709-6.
 #[test]
@@ -39,11 +39,11 @@ fn before_the_second_sample_there_is_no_standard_error() {
 fn blocks_that_share_paths_are_known_by_the_fewest_samples() {
     let mut film = Film::new([33, 2]);
     film.tiles.iter_mut().zip([3, 5]).for_each(|(tile, spp)| add(tile, 0..spp));
-    let mut degrees = |sharing| {
-        film.sharing = sharing;
+    let mut degrees = |path_reuse| {
+        film.path_reuse = path_reuse;
         Frame::of_film(&film, 0, [33, 2], [33, 2]).noise.expect("three samples").block_degrees
     };
-    assert_eq!([Sharing::Nothing, Sharing::Suffixes].map(&mut degrees), [f64::INFINITY, 2.0]);
+    assert_eq!([PathReuse::Off, PathReuse::Suffixes].map(&mut degrees), [f64::INFINITY, 2.0]);
 }
 
 #[test]

@@ -5,8 +5,8 @@ use crate::render::{
     error_estimator::rel_mse_estimate_in,
     film::Film,
     frame::Frame,
+    path_reuse::resolved,
     region::Region,
-    sharing::resolved,
     threads::{PassJob, Threads},
 };
 use noisefall_base::math::SimdLevel;
@@ -119,7 +119,7 @@ fn the_noise_figure_does_not_depend_on_the_unit_of_radiance() {
 fn interruptions_change_no_bit_of_what_is_told_of_noise() {
     let scene = room(1.0);
     let rays = scene.rays(&Camera { resolution: [75, 50], ..scene.camera });
-    for (adaptive, reuse) in [(false, Reuse::On), (true, Reuse::Off)] {
+    for (adaptive, reuse) in [(false, Reuse::Suffixes), (true, Reuse::Off)] {
         let settings = RenderSettings { adaptive, reuse, ..scene.settings };
         let film = |threads: usize, pause: u32| {
             let threads = Threads::new(threads, SimdLevel::best()).expect("threads");
@@ -209,11 +209,11 @@ fn means_over_blocks_scatter_as_their_variance_says() {
     let alone = assert_scatter(&room, &RenderSettings { reuse: Reuse::Off, ..independent }, 4, "pixels alone");
     // The channels of a sample come from one path, so what pixels say together is nearly right where they share nothing.
     assert!((0.9..1.05).contains(&alone.mean), "{}", alone.mean);
-    assert_scatter(&room, &RenderSettings { reuse: Reuse::On, ..independent }, 4, "pixels that share paths");
+    assert_scatter(&room, &RenderSettings { reuse: Reuse::Suffixes, ..independent }, 4, "pixels that reuse paths");
     // Long paths are rare and bright, so what neighbours share is most of the noise. Rare samples are in the scatter and in what is said
     // of it, so their ratio remains near 1.
     let half = RenderSettings { roulette: Roulette::fixed(0.5), ..independent };
-    let shared = assert_scatter(&room, &RenderSettings { reuse: Reuse::On, ..half }, 4, "pixels that share rare paths");
+    let shared = assert_scatter(&room, &RenderSettings { reuse: Reuse::Suffixes, ..half }, 4, "pixels that share rare paths");
     let merging = RenderSettings { estimator: Estimator::Bidirectional, merging: true, reuse: Reuse::Off, ..half };
     let merged = assert_scatter(&pool, &merging, 8, "pixels that merge vertices of the same paths");
     for (what, correlated) in [("shared", shared), ("merged", merged)] {
@@ -232,19 +232,19 @@ fn paths_are_shared_where_that_pays() {
         let settings = RenderSettings { reuse: Reuse::Auto, ..scene.settings };
         resolved(&scene, &scene.rays(&scene.camera), &settings).reuse
     };
-    assert_eq!(["cornell_box", "cornell_spheres"].map(shares), [Reuse::On; 2]);
-    assert_eq!(["glass_and_mirror", "sky_lit", "motion_blur"].map(shares), [Reuse::Bright; 3]);
+    assert_eq!(["cornell_box", "cornell_spheres"].map(shares), [Reuse::Suffixes; 2]);
+    assert_eq!(["glass_and_mirror", "sky_lit", "motion_blur"].map(shares), [Reuse::Outliers; 3]);
     assert_eq!(shares("room_window"), Reuse::Both);
     assert_eq!(["bright_sky", "shapes"].map(shares), [Reuse::Off; 2]);
     let scene = shipped("cornell_box");
     let said = |reuse| resolved(&scene, &scene.rays(&scene.camera), &RenderSettings { reuse, ..scene.settings }).reuse;
-    assert_eq!([Reuse::On, Reuse::Off].map(said), [Reuse::On, Reuse::Off]);
+    assert_eq!([Reuse::Suffixes, Reuse::Off].map(said), [Reuse::Suffixes, Reuse::Off]);
 }
 
-/// Curves of two settings compare these settings, and not sharing with none.
+/// Curves of two settings compare these settings, and not path reuse with none.
 #[test]
-fn sharing_is_decided_once_for_a_scene() {
-    for (name, decision) in [("cornell_box", Reuse::On), ("sky_lit", Reuse::Bright), ("bright_sky", Reuse::Off)] {
+fn path_reuse_is_decided_once_for_a_scene() {
+    for (name, decision) in [("cornell_box", Reuse::Suffixes), ("sky_lit", Reuse::Outliers), ("bright_sky", Reuse::Off)] {
         let scene = shipped(name);
         let rays = scene.rays(&scene.camera);
         for estimator in Estimator::ALL {

@@ -179,7 +179,7 @@ impl CompiledParts {
             lamps: lamp_instances,
             camera,
             settings,
-            sharing_by_trial: Default::default(),
+            path_reuse_by_trial: Default::default(),
             light_paths: OnceLock::new(),
             estimator_by_trial: OnceLock::new(),
             spp,

@@ -12,6 +12,5 @@ impl Weighting for Auto {
         doc: "Tries MIS and Bidirectional on a small image, once per scene, and takes the one with the least error at equal cost.",
     };
     const STRATEGIES: &'static str = "those of `mis` or of `bidirectional`, whichever has less error at equal cost in a trial";
-    const COMPARISON: &'static str = "Estimator by trial";
     const COMPARES: bool = true;
 }

@@ -13,7 +13,6 @@ impl Weighting for Bidirectional {
     };
     const STRATEGIES: &'static str =
         "(s, t): s vertices from a light joined with t from the camera, in all ways; balance heuristic";
-    const COMPARISON: &'static str = "Bidirectional";
     const COMPARES: bool = true;
     const TRACES_LIGHT_PATHS: bool = true;
     const CONNECTS: bool = true;

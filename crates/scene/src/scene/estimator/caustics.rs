@@ -9,12 +9,11 @@ pub(super) struct Caustics;
 impl Weighting for Caustics {
     const WORD: Word = Word {
         name: "caustics",
-        title: "Caustics",
+        title: "MIS + light tracing",
         doc: "MIS, plus light tracing for the caustics of mirrors and clear glass. Cheaper than Bidirectional.",
     };
     const STRATEGIES: &'static str =
         "those of `mis`, and light paths through mirrors and clear glass, joined with the camera; balance heuristic";
-    const COMPARISON: &'static str = "Caustics from lights";
     const COMPARES: bool = true;
     const TRACES_LIGHT_PATHS: bool = true;
     const ONLY_CAUSTICS: bool = true;

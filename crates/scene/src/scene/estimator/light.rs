@@ -11,11 +11,10 @@ pub(super) struct Light;
 impl Weighting for Light {
     const WORD: Word = Word {
         name: "light",
-        title: "Light",
+        title: "Light sampling",
         doc: "Every surface point samples a light (next-event estimation). Noisy for glossy surfaces and large lights.",
     };
     const STRATEGIES: &'static str = "samples of lights; camera paths that hit a light directly or after mirrors and clear glass";
-    const COMPARISON: &'static str = "Light sampling";
 
     #[inline(always)]
     fn hit_weight<L: Lanes>(l: L, _: F<L>, _: F<L>) -> F<L> {

@@ -4,8 +4,8 @@
 mod auto;
 mod bidirectional;
 mod caustics;
-mod forward;
 mod light;
+mod light_tracing;
 mod mis;
 mod obstacle;
 mod path;
@@ -19,13 +19,13 @@ use noisefall_base::{
 noisefall_base::declare::word_kinds! {
     /// How light is estimated. All estimators converge to the same image; they differ in noise.
     #[derive(serde::Serialize, serde::Deserialize)]
-    #[serde(rename_all = "lowercase")]
+    #[serde(rename_all = "snake_case")]
     pub enum Estimator: Weighting, default Mis {
         path::Path,
         light::Light,
         mis::Mis,
         caustics::Caustics,
-        forward::Forward,
+        light_tracing::LightTracing,
         bidirectional::Bidirectional,
         auto::Auto,
     }
@@ -77,11 +77,6 @@ impl Estimator {
     pub fn strategies(self) -> &'static str {
         in_estimator!(self, E => E::STRATEGIES)
     }
-
-    /// Its name in the menu of comparisons.
-    pub fn comparison(self) -> &'static str {
-        in_estimator!(self, E => E::COMPARISON)
-    }
 }
 
 /// A kind of estimator: the weights of the two strategies that find light.
@@ -90,9 +85,6 @@ trait Weighting {
 
     /// See [`Estimator::strategies`].
     const STRATEGIES: &'static str;
-
-    /// Its name in the menu of comparisons.
-    const COMPARISON: &'static str = Self::WORD.title;
 
     /// Whether lights are sampled, in addition to emitter hits.
     const SAMPLES_LIGHTS: bool = true;

@@ -11,11 +11,10 @@ pub(super) struct Path;
 impl Weighting for Path {
     const WORD: Word = Word {
         name: "path",
-        title: "Path",
+        title: "BSDF sampling",
         doc: "Finds lights only by hitting them; punctual lights are sampled. The simplest estimator; very noisy for small lights.",
     };
     const STRATEGIES: &'static str = "camera paths that hit a light; samples of lamps without surface";
-    const COMPARISON: &'static str = "Path sampling";
     const SAMPLES_LIGHTS: bool = false;
 
     #[inline(always)]

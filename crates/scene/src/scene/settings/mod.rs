@@ -27,9 +27,9 @@ pub struct RenderSettings {
     /// Whether crossing a surface by its opacity counts as a bounce for the cap.
     #[serde(default)]
     pub count_crossings: bool,
-    /// Sharing between neighbouring pixels.
+    /// Path reuse between neighbouring pixels.
     pub reuse: Reuse,
-    /// Whether pixels get more samples where a pilot found more noise. Not where they share paths.
+    /// Whether pixels get more samples where a pilot found more noise. Not where they reuse paths.
     pub adaptive: bool,
     /// Seed of all random numbers.
     pub seed: u32,

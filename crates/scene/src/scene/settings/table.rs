@@ -5,7 +5,7 @@ use super::{
     RenderSettings,
     setting::{Access, Changes, Setting, accepted, access},
 };
-use crate::scene::{Reuse, Sharing};
+use crate::scene::{PathReuse, Reuse};
 use noisefall_base::declare::{CountRange, Declare, Form, OneOf, Parameter, Parameters, SettingValue, Words};
 
 impl RenderSettings {
@@ -27,7 +27,7 @@ impl RenderSettings {
         )
         .aliases("vcm merge vertex_merging photons"),
         access!(merging, flag),
-        |settings| if settings.merging { Sharing::Merged.name() } else { "no merging" }.to_owned(),
+        |settings| if settings.merging { PathReuse::Merged.words() } else { "no merging" }.to_owned(),
     )
     .noun("merging");
 
@@ -93,21 +93,21 @@ impl RenderSettings {
     .noun("roulette")
     .always_told();
 
-    /// Sharing between neighbouring pixels.
+    /// Path reuse between neighbouring pixels.
     pub const REUSE: Setting = Setting::new(
         Parameter::new(
             "reuse",
-            "What neighbouring pixels share: path suffixes (Bekaert, Sbert and Halton 2002), bright samples, or both. Less noise, no bias, but the noise of neighbouring pixels is correlated.",
+            "What neighbouring pixels share: path suffixes (Bekaert, Sbert and Halton 2002), outliers, or both. Less noise, no bias, but the noise of neighbouring pixels is correlated.",
         )
-        .title("Sharing")
-        .aliases("sharing share"),
+        .title("Path reuse")
+        .aliases("path reuse share"),
         access!(reuse, word),
         |settings| match settings.reuse {
-            Reuse::Auto => "sharing auto".to_owned(),
-            reuse => Sharing::asked(reuse).name().to_owned(),
+            Reuse::Auto => "path reuse auto".to_owned(),
+            reuse => PathReuse::asked(reuse).words().to_owned(),
         },
     )
-    .noun("sharing");
+    .noun("path_reuse");
 
     /// Whether noisier pixels get more samples.
     pub const ADAPTIVE: Setting = Setting::new(

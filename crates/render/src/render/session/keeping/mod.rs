@@ -16,7 +16,7 @@ impl Session {
         let KeptState { film, count, elapsed, is_mixed } = kept;
         // The budget may be reached already.
         session.rel_mse_estimate = rel_mse_estimate(&film);
-        session.sharing = film.sharing;
+        session.path_reuse = film.path_reuse;
         (session.film, session.count, session.elapsed) = (film, PassCount { failure, ..count }, elapsed);
         (session.stale, session.is_mixed) = (true, is_mixed);
         session

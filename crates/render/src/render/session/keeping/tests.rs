@@ -95,7 +95,7 @@ fn stopped_at_random_and_continued_from_a_file_a_render_has_the_same_bits() {
         let scene = scene(name);
         for (_, sampler) in Sampler::words() {
             for (reuse, adaptive) in
-                [(Reuse::On, false), (Reuse::Both, false), (Reuse::Off, false), (Reuse::Off, true), (Reuse::Auto, true)]
+                [(Reuse::Suffixes, false), (Reuse::Both, false), (Reuse::Off, false), (Reuse::Off, true), (Reuse::Auto, true)]
             {
                 let settings = RenderSettings { sampler: *sampler, reuse, adaptive, ..scene.settings };
                 let request = request(&scene, settings);

@@ -1,4 +1,4 @@
-//! Shares bright samples between the pixels of a group.
+//! Reuses outliers between the pixels of a group.
 //!
 //! A sample of pixel j is a function f_j(u) of its random numbers u. A sample that pixel i has found with f_i(u) above a threshold t_i is
 //! replayed: it is traced with the same u from the other pixels of the group ("random replay" in D. Lin et al., "Generalized Resampled
@@ -11,8 +11,8 @@ mod pilot;
 pub use self::pilot::thresholds;
 use super::{
     batch::Batch,
-    bright_samples::{BrightBuffers, BrightSample, Replays, Thresholds, brightness},
     interrupted::Interrupted,
+    outliers::{Outlier, OutlierBuffers, Replays, Thresholds, brightness},
     slots::{SLOTS, TILE},
     trace::{Observer, trace_alone, trace_in},
     work::Work,
@@ -25,30 +25,30 @@ const WIDTH: u32 = 4;
 /// Number of pixels in a group.
 const MEMBERS: usize = (WIDTH * WIDTH) as usize;
 
-/// Shares the bright samples of a tile.
+/// Shares the outliers of a tile.
 #[derive(Clone, Copy)]
-pub struct BrightSharing<'a> {
+pub struct OutlierReuse<'a> {
     pub work: &'a Work<'a>,
     pub thresholds: &'a Thresholds,
 }
 
-/// Takes the bright samples out of a batch whose paths have all ended.
-impl Observer for BrightSharing<'_> {
-    fn before_sharing(&mut self, _work: &Work, batch: &mut Batch) {
+/// Takes the outliers out of a batch whose paths have all ended.
+impl Observer for OutlierReuse<'_> {
+    fn before_reuse(&mut self, _work: &Work, batch: &mut Batch) {
         self.set_aside(batch);
     }
 }
 
-impl BrightSharing<'_> {
+impl OutlierReuse<'_> {
     /// Traces one sample of every pixel of the tile, and shares those that are bright.
     pub fn trace(mut self, level: SimdLevel, batch: &mut Batch, interrupted: &dyn Fn() -> bool) -> Result<(), Interrupted> {
         in_lanes!(level, l => trace_in(l, self.work, batch, interrupted, &mut self))?;
         self.share(level, batch, interrupted)
     }
 
-    /// Takes the bright samples out of a batch, before path suffixes are shared.
+    /// Takes the outliers out of a batch, before path suffixes are shared.
     pub fn set_aside(self, batch: &mut Batch) {
-        let BrightSharing { work, thresholds } = self;
+        let OutlierReuse { work, thresholds } = self;
         debug_assert!(work.blocks.is_none(), "groups are those of a tile");
         let found = batch.bright.get_or_insert_default();
         found.samples.clear();
@@ -57,7 +57,7 @@ impl BrightSharing<'_> {
             let place = [column.0, row.0];
             let is_inside = column.0 < work.size[0] && row.0 < work.size[1];
             if is_inside && is_bright(radiance, thresholds.at(place)) {
-                found.samples.push(BrightSample { place, radiance: std::mem::take(radiance), n: 1 });
+                found.samples.push(Outlier { place, radiance: std::mem::take(radiance), n: 1 });
             }
         }
     }
@@ -65,7 +65,7 @@ impl BrightSharing<'_> {
     /// Replays the samples that were set aside, as many at a time as a batch takes, and adds them to the radiance of all pixels that
     /// share them.
     pub fn share(self, level: SimdLevel, batch: &mut Batch, interrupted: &dyn Fn() -> bool) -> Result<(), Interrupted> {
-        let BrightBuffers { mut samples, mut replays, mut radiance } = *std::mem::take(batch.bright.get_or_insert_default());
+        let OutlierBuffers { mut samples, mut replays, mut radiance } = *std::mem::take(batch.bright.get_or_insert_default());
         radiance.clear();
         radiance.extend_from_slice(batch.radiance());
         for some in samples.chunks_mut(SLOTS / MEMBERS) {
@@ -82,12 +82,12 @@ impl BrightSharing<'_> {
             }
         }
         batch.radiance[..SLOTS].copy_from_slice(&radiance);
-        batch.bright = Some(Box::new(BrightBuffers { samples, replays, radiance }));
+        batch.bright = Some(Box::new(OutlierBuffers { samples, replays, radiance }));
         Ok(())
     }
 
     /// Divides a sample among the pixels of its group where it is bright. `replayed` is that of the others.
-    fn divide(self, sample: &mut BrightSample, replayed: &[[f32; 4]], sums: &mut [[f32; 4]]) {
+    fn divide(self, sample: &mut Outlier, replayed: &[[f32; 4]], sums: &mut [[f32; 4]]) {
         let of_others = || others(self.work, sample.place).zip(replayed);
         let all = std::iter::once((sample.place, &sample.radiance)).chain(of_others());
         let shares = |(place, radiance): &([u32; 2], &[f32; 4])| is_bright(radiance, self.thresholds.at(*place));
@@ -101,7 +101,7 @@ impl BrightSharing<'_> {
 }
 
 /// The replays of samples in the other pixels of their groups.
-fn fill(replays: &mut Replays, work: &Work, samples: &[BrightSample]) {
+fn fill(replays: &mut Replays, work: &Work, samples: &[Outlier]) {
     let pixel = |place: [u32; 2]| [0, 1].map(|axis| work.origin[axis] + place[axis]);
     replays.clear();
     for sample in samples {
@@ -164,7 +164,7 @@ mod tests {
         });
     }
 
-    /// The sum over all random numbers, each of which every pixel draws once, is the same with and without sharing.
+    /// The sum over all random numbers, each of which every pixel draws once, is the same with and without path reuse.
     #[test]
     fn bright_samples_are_divided_without_loss() {
         const ALL: u32 = 40;
@@ -174,8 +174,8 @@ mod tests {
             for (place, u) in places().flat_map(|place| (0..ALL).map(move |u| (place, u))) {
                 if is_bright(&f(place, u), BRIGHT) {
                     let replayed: Vec<[f32; 4]> = others(work, place).map(|other| f(other, u)).collect();
-                    let mut sample = BrightSample { place, radiance: f(place, u), n: 0 };
-                    BrightSharing { work, thresholds: &thresholds }.divide(&mut sample, &replayed, &mut sums);
+                    let mut sample = Outlier { place, radiance: f(place, u), n: 0 };
+                    OutlierReuse { work, thresholds: &thresholds }.divide(&mut sample, &replayed, &mut sums);
                 }
             }
             for place in places() {

@@ -1,6 +1,6 @@
-//! The sample of a pixel that shares bright samples with its neighbours.
+//! The sample of a pixel that reuses outliers with its neighbours.
 use super::{Replay, SharedLight, radiance_at, work_of};
-use crate::integrator::{batch::Batch, bright_samples::Thresholds, tile_sample::trace, work::Work};
+use crate::integrator::{batch::Batch, outliers::Thresholds, tile_sample::trace, work::Work};
 use noisefall_base::math::SimdLevel;
 use noisefall_scene::scene::{CameraRays, RenderSettings, Scene};
 

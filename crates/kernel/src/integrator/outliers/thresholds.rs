@@ -1,7 +1,7 @@
 //! The radiance above which the samples of the pixels of a tile are bright.
 use crate::integrator::slots::{BLOCK, BLOCKS, TILE};
 
-/// Bright samples are this many times as bright as is typical around their pixel. Twice as much and half as much are less efficient where
+/// Outliers are this many times as bright as is typical around their pixel. Twice as much and half as much are less efficient where
 /// it was tried (`benches/LOG.md`).
 const FACTOR: f32 = 8.0;
 /// The brightest part of the samples of a block, which does not count as typical.

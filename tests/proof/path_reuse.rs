@@ -1,4 +1,4 @@
-//! Shared paths and bright samples: the image is the same, and the light of a path is distributed without loss.
+//! Reused suffixes and outliers: the image is the same, and the light of a path is distributed without loss.
 use std::{ops::Range, path::Path};
 
 use noisefall_base::math::SimdLevel;
@@ -90,7 +90,7 @@ fn tile(scene: &Scene, settings: RenderSettings, size: u32, sample: u32) -> Vec<
     tiles(scene, settings, size, sample..sample + 1).remove(0)
 }
 
-/// Every channel of 16 blocks of a tile, by sample. Pixels share paths; samples do not.
+/// Every channel of 16 blocks of a tile, by sample. Pixels reuse paths; samples do not.
 fn blocks(scene: &Scene, settings: RenderSettings, spp: u32) -> Vec<Vec<f64>> {
     const SIDE: usize = TILE as usize / 4;
     let mut values = vec![Vec::new(); 48];
@@ -119,31 +119,31 @@ fn assert_same_picture(scene: &Scene, settings: RenderSettings, shared: Reuse, s
 #[test]
 fn shared_paths_give_the_same_picture() {
     for estimator in Estimator::ALL {
-        assert_same_picture(&scene(ROOM), settings(estimator), Reuse::On, 800, estimator.name());
+        assert_same_picture(&scene(ROOM), settings(estimator), Reuse::Suffixes, 800, estimator.name());
         let box_of_walls = RenderSettings { max_bounces: Some(3), roulette: Roulette::fixed(0.7), ..settings(estimator) };
-        assert_same_picture(&built_in(), box_of_walls, Reuse::On, 400, "the built-in scene, with a cap");
+        assert_same_picture(&built_in(), box_of_walls, Reuse::Suffixes, 400, "the built-in scene, with a cap");
     }
 }
 
 /// Caustics, with and without shared suffixes; lens, motion, media and opacity, in which suffixes are not shared.
 #[test]
-fn shared_bright_samples_give_the_same_picture() {
+fn reused_outliers_give_the_same_picture() {
     for estimator in [Estimator::Path, Estimator::Light, Estimator::Mis] {
-        for shared in [Reuse::Bright, Reuse::Both] {
+        for shared in [Reuse::Outliers, Reuse::Both] {
             assert_same_picture(&scene(ROOM), settings(estimator), shared, 800, estimator.name());
         }
     }
     let capped = RenderSettings { max_bounces: Some(4), roulette: Roulette::fixed(0.7), ..settings(Estimator::Mis) };
     for name in ["sky_lit", "depth_of_field", "motion_blur", "tinted_glass", "leaves", "lamps"] {
         let scene = load(Path::new(&format!("scenes/{name}.toml"))).expect("it is shipped");
-        assert_same_picture(&scene, settings(Estimator::Mis), Reuse::Bright, 600, name);
-        assert_same_picture(&scene, capped, Reuse::Bright, 300, name);
+        assert_same_picture(&scene, settings(Estimator::Mis), Reuse::Outliers, 600, name);
+        assert_same_picture(&scene, capped, Reuse::Outliers, 300, name);
     }
 }
 
 /// That is what they are shared for.
 #[test]
-fn shared_bright_samples_have_less_noise_where_there_are_caustics() {
+fn reused_outliers_have_less_noise_where_there_are_caustics() {
     let scene = load(Path::new("scenes/sky_lit.toml")).expect("it is shipped");
     let noise = |reuse| {
         let mut pixels = vec![Vec::new(); (TILE * TILE) as usize];
@@ -152,7 +152,7 @@ fn shared_bright_samples_have_less_noise_where_there_are_caustics() {
         }
         pixels.into_iter().map(Moments::of).map(|pixel| pixel.variance / (pixel.mean * pixel.mean)).sum::<f64>()
     };
-    let gain = noise(Reuse::Off) / noise(Reuse::Bright);
+    let gain = noise(Reuse::Off) / noise(Reuse::Outliers);
     assert!(gain > 1.5, "{gain}");
 }
 
@@ -187,7 +187,7 @@ material = "grey"
             let pixels = tile(&scene, RenderSettings { reuse, ..settings }, size, sample);
             pixels.iter().map(|radiance| f64::from(radiance[0])).sum()
         };
-        let (alone, shared) = (sum(Reuse::Off), sum(Reuse::On));
+        let (alone, shared) = (sum(Reuse::Off), sum(Reuse::Suffixes));
         assert!((shared / alone - 1.0).abs() < 2e-6, "{size} {sample}: {shared} {alone}");
     }
 }
@@ -199,6 +199,6 @@ fn paths_are_not_shared_where_they_must_not_be() {
     for (text, settings) in [(ROOM, uniform), (tinted.as_str(), settings(Estimator::Mis))] {
         let scene = scene(text);
         let of = |reuse| tile(&scene, RenderSettings { reuse, ..settings }, TILE, 0);
-        assert!(of(Reuse::Off) == of(Reuse::On));
+        assert!(of(Reuse::Off) == of(Reuse::Suffixes));
     }
 }
