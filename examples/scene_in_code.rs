@@ -1,4 +1,4 @@
-//! Builds a scene in code: a row of metal balls, each rougher than the one before, between a floor and a lamp.
+//! Builds a scene in code: a row of metal balls, each rougher than the one before, between a floor and a light.
 //!
 //!     cargo run --release --example scene_in_code -- balls.png
 //!
@@ -31,8 +31,8 @@ fn balls() -> SceneDescription {
         let center = DVec3::new(1.4 * f64::from(i) - 2.8, 0.6, 0.0);
         scene.add_object(&name, Sphere { center, radius: 0.6 }).material = Some(name.clone());
     }
-    let lamp = Sphere { center: DVec3::new(-2.0, 6.0, 4.0), radius: 1.0 };
-    scene.add_object("lamp", lamp).emission = Some(EmissionDescription::radiance([20.0; 3]));
+    let punctual_light = Sphere { center: DVec3::new(-2.0, 6.0, 4.0), radius: 1.0 };
+    scene.add_object("light", punctual_light).emission = Some(EmissionDescription::radiance([20.0; 3]));
     scene
 }
 

@@ -91,9 +91,9 @@ pub use noisefall_render::render::{
     film::Film,
     image_file,
     pass::{Failure, PassCount, SampleId},
+    reference::Reference,
     threads::{PassJob, Threads},
     tone::to_srgb,
-    truth::Reference,
 };
 #[doc(inline)]
 pub use noisefall_scene::{
@@ -117,7 +117,7 @@ pub use noisefall_scene::{
 /// let mut scene = SceneDescription::default();
 /// scene.add_material("white", Lambertian { albedo: [0.7, 0.7, 0.6].into() });
 /// scene.add_object("floor", Rectangle::default()).material = Some("white".to_owned());
-/// scene.add_object("lamp", Sphere::default()).emission = Some(EmissionDescription::radiance([3.0; 3]));
+/// scene.add_object("light", Sphere::default()).emission = Some(EmissionDescription::radiance([3.0; 3]));
 /// assert_eq!(scene.build(Path::new("."))?.objects.len(), 2);
 ///
 /// scene.camera.look_at = scene.camera.eye;
@@ -128,8 +128,8 @@ pub use noisefall_scene::{
 pub mod description {
     #[doc(inline)]
     pub use noisefall_scene::scene::description::{
-        BackgroundDescription, CameraDescription, DVec3, EmissionDescription, EmissionSource, ObjectDescription, Projection,
-        RenderDescription, SceneDescription, TruthDescription,
+        CameraDescription, DVec3, EmissionDescription, EmissionSource, EnvironmentDescription, ObjectDescription, Projection,
+        ReferenceDescription, RenderDescription, SceneDescription,
     };
 
     /// Materials and their parameters.

@@ -127,16 +127,16 @@ fn allocated_memory_is_counted() {
     }
     let textured = "[textures.t]\nimage = { path = 'large.png' }\n";
     assert_counted("texture", &file("texture.toml", &scene(16, textured)));
-    assert_counted("sky", &file("sky.toml", &scene(16, "[background]\nimage = 'large.png'\n")));
+    assert_counted("sky", &file("sky.toml", &scene(16, "[environment]\nimage = 'large.png'\n")));
 
     assert_counted("knot", &file("knot.toml", &object("mesh = { knot = { triangles = 400000 } }")));
     assert_counted("hills", &file("hills.toml", &object("mesh = { heightfield = { quads = 450 } }")));
     let field = "sphere_field = { count = 50000, bounds = { min = [-1, -1, -1], max = [1, 1, 1] } }";
     assert_counted("spheres", &file("spheres.toml", &object(field)));
-    let lamps = format!("[[objects]]\nshape = {{ {field} }}\nemission = {{ radiance = 1 }}\n");
-    assert_counted("lamps", &file("lamps.toml", &scene(16, &lamps)));
-    let lamp = "[[objects]]\nshape = { mesh = { knot = { triangles = 60000 } } }\nemission = { radiance = 1 }\n";
-    assert_counted("emitting triangles", &file("lamp.toml", &scene(16, lamp)));
+    let punctual_lights = format!("[[objects]]\nshape = {{ {field} }}\nemission = {{ radiance = 1 }}\n");
+    assert_counted("lights", &file("lamps.toml", &scene(16, &punctual_lights)));
+    let punctual_light = "[[objects]]\nshape = { mesh = { knot = { triangles = 60000 } } }\nemission = { radiance = 1 }\n";
+    assert_counted("emitting triangles", &file("light.toml", &scene(16, punctual_light)));
 
     let rows: String = (0..60_000).map(|i| format!("[{},{},{}],", i % 7, i % 11, i % 13)).collect();
     let triangles: String = (0..60_000).map(|i| format!("[{},{},{}],", i % 997, i % 1009, i % 1013)).collect();
@@ -200,7 +200,7 @@ fn files_that_do_not_fit_are_refused_by_their_size() {
     };
     png(&folder.path().join("a.png"), 2000);
     refused(&folder.path().join("a.png"), "a.png: 2000 × 2000 pixels need 48.0 MB; 30.0 MB");
-    refused(&file("a.toml", &scene(16, "[background]\nimage = 'a.png'\n")), "a.png: 2000 × 2000 pixels need 64.0 MB");
+    refused(&file("a.toml", &scene(16, "[environment]\nimage = 'a.png'\n")), "a.png: 2000 × 2000 pixels need 64.0 MB");
     refused(&file("b.toml", &object("mesh = { knot = { triangles = 50000000 } }")), "50000000 triangles need");
     refused(&file("c.toml", &object("mesh = { heightfield = { quads = 5000 } }")), "50000000 triangles need");
     let field = "sphere_field = { count = 1000000, bounds = { min = [-1, -1, -1], max = [1, 1, 1] } }";

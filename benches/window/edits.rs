@@ -44,12 +44,12 @@ const KINDS: [(&str, &str, Change); 8] = [
     ("cornell_spheres", "roughness of glass", |scene, x| {
         scene.add_material("amber", Dielectric::new(1.5, x as f32, true));
     }),
-    ("cornell_spheres", "a lamp", |scene, x| emission_of_first_lamp(scene, 1.0 + x)),
+    ("cornell_spheres", "a light", |scene, x| emission_of_first_light(scene, 1.0 + x)),
     ("cornell_spheres", "the pose of a ball", |scene, x| shift(object(scene, "amber ball"), x)),
     ("million_triangles", "roughness of the mesh", |scene, x| {
         scene.add_material("clay", Plastic::new([0.6, 0.2, 0.1], 1.5, x as f32));
     }),
-    ("million_triangles", "a lamp", |scene, x| emission_of_first_lamp(scene, 1.0 + x)),
+    ("million_triangles", "a light", |scene, x| emission_of_first_light(scene, 1.0 + x)),
     ("million_triangles", "the pose of the mesh", |scene, x| shift(object(scene, "knot"), x)),
 ];
 
@@ -57,8 +57,8 @@ fn object<'s>(scene: &'s mut SceneDescription, name: &str) -> &'s mut ObjectDesc
     scene.objects.iter_mut().find(|object| object.name == name).expect("the scene has it")
 }
 
-fn emission_of_first_lamp(scene: &mut SceneDescription, scale: f64) {
-    scene.objects.iter_mut().find_map(|object| object.emission.as_mut()).expect("the scene has a lamp").scale = scale;
+fn emission_of_first_light(scene: &mut SceneDescription, scale: f64) {
+    scene.objects.iter_mut().find_map(|object| object.emission.as_mut()).expect("the scene has a light").scale = scale;
 }
 
 fn shift(object: &mut ObjectDescription, x: f64) {
@@ -121,7 +121,7 @@ fn app(window: &mut Window) -> &mut App {
 
 fn is_shown(app: &App) -> bool {
     let shown = app.results.shown.as_ref().map_or(0, |frame| frame.generation);
-    !app.background.worker.is_editing() && app.session.waiting_edit.is_none() && shown == app.background.worker.generation()
+    !app.environment.worker.is_editing() && app.session.waiting_edit.is_none() && shown == app.environment.worker.generation()
 }
 
 /// The place of an edit in a drag to and fro.
@@ -145,7 +145,7 @@ fn times(window: &mut Window, description: &SceneDescription, change: Change) ->
         let start = Instant::now();
         app(window).edit_scene(Arc::new(description));
         window.step();
-        until(window, |app| !app.background.worker.is_editing() && app.session.waiting_edit.is_none());
+        until(window, |app| !app.environment.worker.is_editing() && app.session.waiting_edit.is_none());
         let result = start.elapsed();
         until(window, is_shown);
         times.shown.push(start.elapsed());

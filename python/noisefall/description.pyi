@@ -166,12 +166,12 @@ class Directional:
 
 @dataclass(kw_only=True)
 class Point:
-    """A lamp without size that shines equally in all directions."""
+    """A light without size that shines equally in all directions."""
 
     intensity: Sequence[float] | float | None = None
     """Radiant intensity of each channel. (W·sr⁻¹)"""
     position: Sequence[float] | None = None
-    """Position of the lamp. (m)"""
+    """Position of the light. (m)"""
 
 @dataclass(kw_only=True)
 class Projector:
@@ -194,11 +194,11 @@ class Projector:
     inner: float | None = None
     """Angle up to which the cone does not dim the image. From there to `angle`, the light falls linearly. (°)"""
     position: Sequence[float] | None = None
-    """Position of the lamp. (m)"""
+    """Position of the light. (m)"""
     scale: float | None = None
     """Radiant intensity on the axis where the image is 1. (W·sr⁻¹)"""
     target: Sequence[float] | None = None
-    """Point that the lamp is aimed at. (m)"""
+    """Point that the light is aimed at. (m)"""
     tint: Sequence[float] | float | None = None
     """Factor that multiplies the colours of the image."""
     up: Sequence[float] | None = None
@@ -208,7 +208,7 @@ class Projector:
 
 @dataclass(kw_only=True)
 class Spot:
-    """A lamp without size that shines within a cone."""
+    """A light without size that shines within a cone."""
 
     angle: float | None = None
     """Angle between the axis and the edge of the cone, where the light ends. (°)"""
@@ -219,24 +219,24 @@ class Spot:
     intensity: Sequence[float] | float | None = None
     """Radiant intensity on the axis. (W·sr⁻¹)"""
     position: Sequence[float] | None = None
-    """Position of the lamp. (m)"""
+    """Position of the light. (m)"""
     target: Sequence[float] | None = None
-    """Point that the lamp is aimed at. (m)"""
+    """Point that the light is aimed at. (m)"""
 
 @dataclass(kw_only=True)
-class Lamp:
-    """An entry of `lamps`."""
+class Light:
+    """An entry of `lights`."""
 
     directional: Directional | Mapping[str, Any] | None = None
     """Parallel light, as from a distant sun."""
     name: str | None = None
     """Name in the window."""
     point: Point | Mapping[str, Any] | None = None
-    """A lamp without size that shines equally in all directions."""
+    """A light without size that shines equally in all directions."""
     projector: Projector | Mapping[str, Any] | None = None
     """An image that is cast from a point."""
     spot: Spot | Mapping[str, Any] | None = None
-    """A lamp without size that shines within a cone."""
+    """A light without size that shines within a cone."""
     transform: Sequence[Transform | Mapping[str, Any]] | None = None
     """Transforms, applied from the first to the last."""
 
@@ -860,7 +860,7 @@ class Texture:
     """The colours of a mesh’s vertices, interpolated; white without them."""
 
 @dataclass(kw_only=True)
-class Truth:
+class Reference:
     """What the image must converge to, if it is known."""
 
     image: str | None = None
@@ -878,8 +878,8 @@ class Description:
     """Position, direction and lens of the camera."""
     format: int | None = None
     """The version of the format: 1."""
-    lamps: Sequence[Lamp | Mapping[str, Any]] | None = None
-    """Lamps without surface, one table each."""
+    lights: Sequence[Light | Mapping[str, Any]] | None = None
+    """Punctual lights, one table each."""
     materials: Mapping[str, Material | Mapping[str, Any]] | None = None
     """Materials by name."""
     notes: str | None = None
@@ -892,5 +892,5 @@ class Description:
     """Textures by name."""
     title: str | None = None
     """Name of the scene in the window and in reports."""
-    truth: Truth | Mapping[str, Any] | None = None
+    reference: Reference | Mapping[str, Any] | None = None
     """What the image must converge to, if it is known."""

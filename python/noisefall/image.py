@@ -57,7 +57,7 @@ class Image:
 
     @cached_property
     def figures(self) -> dict[str, Any]:
-        """Figures under the names of `noisefall render --json`. With a `[truth]` in the scene they include the true error."""
+        """Figures under the names of `noisefall render --json`. With a `[reference]` in the scene they include the true error."""
         figures: dict[str, Any] = json.loads(self._native.figures())
         return figures
 

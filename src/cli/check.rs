@@ -1,10 +1,10 @@
-//! `noisefall check`: reads and compiles scene files. A scene with a `[truth]` is also rendered as a small image and compared
+//! `noisefall check`: reads and compiles scene files. A scene with a `[reference]` is also rendered as a small image and compared
 //! with it.
 use std::path::PathBuf;
 
 use noisefall_base::math::SimdLevel;
 use noisefall_formats::import::Opened;
-use noisefall_render::render::{threads::Threads, truth};
+use noisefall_render::render::{reference, threads::Threads};
 
 use super::{
     messages::{Failure, print},
@@ -33,7 +33,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
                 };
                 print(&format!("{}: ok, {objects}, {width} × {height}", path.display()))?;
                 let threads = Threads::new(0, SimdLevel::best()).map_err(|error| error.to_string())?;
-                for warning in scene.warnings().iter().chain(&truth::contradiction(&scene, &threads)) {
+                for warning in scene.warnings().iter().chain(&reference::contradiction(&scene, &threads)) {
                     print(&format!("{}: note: {warning}", path.display()))?;
                 }
             }

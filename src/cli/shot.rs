@@ -4,7 +4,7 @@ use std::{path::Path, process::ExitCode, sync::Arc, time::Instant};
 use noisefall_formats::import::Remarks;
 use noisefall_render::render::{
     Display, Frame, Published, RenderRequest, State, Status, checkpoint::MIXED_KEY, denoise, pass::SampleId,
-    replay_command::replay_command, settings_text::settings_text, threads::Threads, truth::Reference,
+    reference::Reference, replay_command::replay_command, settings_text::settings_text, threads::Threads,
 };
 use noisefall_scene::scene::{Camera, RenderSettings, Scene};
 

@@ -29,7 +29,7 @@ use super::{
 
 const NOTES: &str = "\
 Renders each scene several times with each combination of the lists, and compares it with a reference at every doubling of the samples: the \
-scene's [truth], else the image NAME.ref.exr beside NAME.toml, else a converged render, which is made first and kept in DIR.
+scene's [reference], else the image NAME.ref.exr beside NAME.toml, else a converged render, which is made first and kept in DIR.
 
 Default lists: --estimators path,light,mis --directions uniform,cosine,bsdf --samplers \
 independent,stratified,sobol --roulette off,0.8,throughput --max-bounces none. Path reuse and adaptive sampling follow the scene.
@@ -61,7 +61,7 @@ pub struct Arguments {
     /// Runs of each combination, with different seeds
     #[arg(long, value_name = "N", default_value = "2", value_parser = parse::samples)]
     repeats: u32,
-    /// Reference image (.exr) in place of the scene's truth; for a single scene only
+    /// Reference image (.exr) in place of the scene's reference; for a single scene only
     #[arg(long, value_name = "FILE")]
     reference: Option<PathBuf>,
     /// Resolution in pixels [default: the reference's, or the scene's scaled down to 256 along the longer side]

@@ -2,7 +2,7 @@
 //!
 //! From the top down: [`app`] joins all parts; [`panels`] and [`dialogs`] show what they are given and return requests;
 //! [`instruments`] lie below the image, which is the [`canvas`]; work that could take longer than a frame runs on threads of
-//! [`background`]; [`widgets`] are shared. Arrows between these folders point down (`tests/program/layers.rs`).
+//! [`environment`]; [`widgets`] are shared. Arrows between these folders point down (`tests/program/layers.rs`).
 mod app;
 mod background;
 mod canvas;

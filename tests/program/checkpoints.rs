@@ -110,7 +110,7 @@ fn a_scene_that_has_changed_is_noticed_and_anyway_is_labelled() {
     };
     sky(200);
     let scene = "format = 1\n[camera]\neye = [0, 0, 0]\nlook_at = [0, 0, 1]\nfov = 60\nresolution = [16, 16]\n\
-                [background]\nimage = \"sky.png\"\n";
+                [environment]\nimage = \"sky.png\"\n";
     fs::write(shell.path("sky.toml"), scene).expect("it is written");
     done(&shell, &["render", "sky.toml", "-o", "a.exr", "--checkpoint", "a.nf", "--spp", "2"]);
     // The scene is in the file; only what it names must be there.
@@ -147,20 +147,20 @@ fn a_scene_of_another_program_with_its_meshes_is_read_again() {
 #[test]
 fn a_file_that_a_scene_of_another_program_includes_counts_too() {
     let shell = Shell::new();
-    let lamp = |radiance: &str| {
-        let lamp = format!(
+    let punctual_light = |radiance: &str| {
+        let punctual_light = format!(
             "<scene version=\"3.0.0\"><emitter type=\"constant\"><rgb name=\"radiance\" value=\"{radiance}\"/></emitter></scene>"
         );
-        fs::write(shell.path("lamp.xml"), lamp).expect("it is written");
+        fs::write(shell.path("light.xml"), punctual_light).expect("it is written");
     };
-    lamp("1");
-    let room = "<scene version=\"3.0.0\"><shape type=\"sphere\"/><include filename=\"lamp.xml\"/></scene>";
+    punctual_light("1");
+    let room = "<scene version=\"3.0.0\"><shape type=\"sphere\"/><include filename=\"light.xml\"/></scene>";
     fs::write(shell.path("room.xml"), room).expect("it is written");
     begin(&shell, &shell.path("room.xml").display().to_string(), &[]);
     done(&shell, &["render", "--resume", "a.nf", "-o", "b.exr"]);
-    lamp("2");
+    punctual_light("2");
     let message = refused(&shell, &["render", "--resume", "a.nf", "-o", "b.exr"]);
-    assert!(message.contains("lamp.xml has other contents"), "{message}");
+    assert!(message.contains("light.xml has other contents"), "{message}");
 }
 
 #[test]

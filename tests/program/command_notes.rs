@@ -48,8 +48,9 @@ fn roulette_with_infinite_variance_has_a_warning() {
 fn a_reference_of_another_size_or_kind_is_reported() {
     let shell = Shell::new();
     let furnace = std::fs::read_to_string(scene("furnace")).expect("it is shipped");
-    let truth = furnace.find("[truth]").expect("it has one");
-    std::fs::write(shell.path("scene.toml"), format!("{}[truth]\nimage = \"true.exr\"\n", &furnace[..truth])).expect("written");
+    let reference = furnace.find("[reference]").expect("it has one");
+    std::fs::write(shell.path("scene.toml"), format!("{}[reference]\nimage = \"true.exr\"\n", &furnace[..reference]))
+        .expect("written");
     let missing = shell.run(&["check", "scene.toml"]);
     assert!(text(&missing.stderr).contains("true.exr: cannot be read") && text(&missing.stderr).contains("scene.toml:"));
     std::fs::write(shell.path("true.exr"), "no picture").expect("it is written");

@@ -98,8 +98,8 @@ fn a_denoised_image_is_no_reference() {
     let furnace = scene("furnace");
     rendered(&shell, &furnace, "denoised.exr", &["--denoise"]);
     let text_of_scene = fs::read_to_string(&furnace).expect("it is shipped");
-    let truth = text_of_scene.find("[truth]").expect("it has one");
-    let declared = format!("{}[truth]\nimage = \"denoised.exr\"\n", &text_of_scene[..truth]);
+    let reference = text_of_scene.find("[reference]").expect("it has one");
+    let declared = format!("{}[reference]\nimage = \"denoised.exr\"\n", &text_of_scene[..reference]);
     fs::write(shell.path("declared.toml"), declared).expect("it is written");
     let said = "the true image is denoised, and so biased";
     let done = shell.run(&["render", "declared.toml", "-o", "out.exr", "--spp", "4", "--size", "16x9"]);

@@ -66,9 +66,9 @@ fn change(scene: &mut SceneDescription, random: &mut SmallRng) -> String {
             format!("texture {name}: {texture:?}")
         }
         4 => {
-            let background = scene.background.get_or_insert_default();
-            background.chosen(&mut Dice::new(random));
-            format!("background: {background:?}")
+            let environment = scene.environment.get_or_insert_default();
+            environment.chosen(&mut Dice::new(random));
+            format!("background: {environment:?}")
         }
         5 => {
             scene.camera.look_at += DVec3::new(0.01, 0.02 * random.random::<f64>(), 0.0);

@@ -76,7 +76,7 @@ fn replays_follow_the_schema() {
     let shell = Shell::new();
     let schema: Value = serde_json::from_str(SCHEMA).expect("the schema is JSON");
     let mut present = BTreeSet::new();
-    for name in ["cornell_box", "glass_and_mirror", "lamps", "leaves", "textures_and_bump", "room_window"] {
+    for name in ["cornell_box", "glass_and_mirror", "lights", "leaves", "textures_and_bump", "room_window"] {
         for sample in ["0", "1", "lit"] {
             for reuse in ["on", "off"] {
                 let options = ["--size", "32x32", "--sample", sample, "--reuse", reuse];

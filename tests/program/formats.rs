@@ -12,7 +12,7 @@ use noisefall_formats::{
 };
 use noisefall_render::render::{image_file::read, threads::Threads};
 use noisefall_scene::{
-    light::background::image::Image as Sky,
+    light::environment::image::Image as Sky,
     material::Lambertian,
     model::Model,
     scene::{
@@ -63,7 +63,7 @@ fn in_memory() -> (Arc<SceneDescription>, Assets) {
     assets.insert("meshes/tent.ply", tent());
     assets.insert("textures/gradient.png", png());
     assets.insert("textures/sky.hdr", sky());
-    let mut scene = SceneDescription { background: Some(background("textures/sky.hdr")), ..SceneDescription::default() };
+    let mut scene = SceneDescription { environment: Some(environment("textures/sky.hdr")), ..SceneDescription::default() };
     (scene.camera.eye, scene.camera.look_at) = (DVec3::new(0.1, 0.2, 2.0), DVec3::ZERO);
     scene.textures.insert("gradient".to_owned(), Image { path: "textures/gradient.png".to_owned(), ..Image::default() }.into());
     scene.add_material("paint", Lambertian { albedo: noisefall_base::declare::Textured::Texture("gradient".to_owned()) });
@@ -73,7 +73,7 @@ fn in_memory() -> (Arc<SceneDescription>, Assets) {
     (Arc::new(scene), assets)
 }
 
-fn background(path: &str) -> noisefall_scene::scene::description::BackgroundDescription {
+fn environment(path: &str) -> noisefall_scene::scene::description::EnvironmentDescription {
     Sky { path: path.to_owned(), ..Sky::default() }.into()
 }
 

@@ -8,10 +8,10 @@ use noisefall_base::{
 };
 use noisefall_scene::{
     geometry::Shape,
-    light::{Background, Side, background::constant::ConstantRadiance},
+    light::{Environment, Side, environment::constant::ConstantRadiance},
     material::{AlphaSource, Conductor, Dielectric, Lambertian, Material, Mirror, Plastic, Reflectance, Roughness, Stage},
     sampling::{Directions, Filter, Sampler},
-    scene::{Estimator, Lens, MaterialInstance, Object, Projection, Reuse, Roulette, Scene, Shutter, Truth, parse},
+    scene::{Estimator, Lens, MaterialInstance, Object, Projection, Reuse, Roulette, Scene, SceneReference, Shutter, parse},
     texture::ColourSource,
 };
 
@@ -68,10 +68,10 @@ fn cameras() {
 #[test]
 fn settings() {
     let plain = compiled("VIEW");
-    assert_eq!((plain.settings, plain.spp, plain.truth), (Default::default(), None, None));
+    assert_eq!((plain.settings, plain.spp, plain.reference), (Default::default(), None, None));
     let scene = compiled(
         "VIEW\n[render]\nestimator = 'light'\ndirections = 'cosine'\nsampler = 'bluenoise'\nmax_bounces = 3\n\
-         roulette = { throughput = { start = 7 } }\nreuse = 'off'\nadaptive = true\nspp = 12\nseed = 99\n[truth]\nradiance = [1, 2, 3]",
+         roulette = { throughput = { start = 7 } }\nreuse = 'off'\nadaptive = true\nspp = 12\nseed = 99\n[reference]\nradiance = [1, 2, 3]",
     );
     let settings = scene.settings;
     assert_eq!(
@@ -80,7 +80,7 @@ fn settings() {
     );
     assert_eq!((settings.max_bounces, settings.roulette), (Some(3), Roulette::by_throughput_from(7)));
     assert_eq!((settings.reuse, settings.adaptive, settings.seed, scene.spp), (Reuse::Off, true, 99, Some(12)));
-    assert_eq!(scene.truth, Some(Truth::Radiance([1.0, 2.0, 3.0])));
+    assert_eq!(scene.reference, Some(SceneReference::Radiance([1.0, 2.0, 3.0])));
     let roulette = |text: &str| compiled(&format!("VIEW\nrender.roulette = {text}")).settings.roulette;
     assert_eq!(roulette("'off'"), Roulette::Off);
     assert_eq!([roulette("'throughput'"), roulette("{ throughput = {} }")], [Roulette::by_throughput_from(4); 2]);
@@ -180,10 +180,10 @@ fn lights() {
     assert_eq!(light("emission = { radiance = 1, two_sided = true }").side, Side::Both);
     assert_eq!(light("emission = { radiance = 1 }\nflip = true").side, Side::Back);
     assert!(matches!(
-        compiled("VIEW\nbackground.radiance = [1, 2, 3]").lights.background,
-        Some(Background::Constant(ConstantRadiance([1.0, 2.0, 3.0])))
+        compiled("VIEW\nbackground.radiance = [1, 2, 3]").lights.environment,
+        Some(Environment::Constant(ConstantRadiance([1.0, 2.0, 3.0])))
     ));
-    assert!(compiled("VIEW\nbackground.radiance = 0").lights.background.is_none());
+    assert!(compiled("VIEW\nbackground.radiance = 0").lights.environment.is_none());
 }
 
 #[test]
@@ -198,7 +198,7 @@ fn skies() {
         let view = "camera = { eye = [0, 0, 4], look_at = [0, 0, 0], fov = 40, resolution = [8, 8] }";
         let text = format!("format = 1\n{view}\nbackground = {{ image = 'sky.hdr'{rest} }}");
         let scene = parse(&name, text).unwrap_or_else(|error| panic!("{}", error.report()));
-        let Some(Background::Image(sky)) = &scene.lights.background else { panic!("it is a picture") };
+        let Some(Environment::Image(sky)) = &scene.lights.environment else { panic!("it is a picture") };
         let (sin, cos) = degrees.to_radians().sin_cos();
         // From −z towards −x, which is counter-clockwise seen from above.
         sky.radiance(One, V { x: F(-sin as f32), y: F(0.0), z: F(-cos as f32) }).x.0
@@ -313,7 +313,7 @@ fn lights_come_first_and_pieces_know_their_objects() {
         name = 'box'
         shape.cuboid = { min = [0, 0, 0], max = [1, 1, 1] }
         [[objects]]
-        name = 'lamp'
+        name = 'light'
         shape.cuboid = { min = [5, 0, 0], max = [6, 1, 1] }
         emission.radiance = 1.0
         [[objects]]
@@ -321,7 +321,7 @@ fn lights_come_first_and_pieces_know_their_objects() {
         shape.sphere = { center = [9, 0, 0], radius = 1.0 }",
     );
     let names: Vec<&str> = scene.objects.iter().map(|object| object.name.as_str()).collect();
-    assert_eq!(names, ["lamp", "box", "ball"]);
+    assert_eq!(names, ["light", "box", "ball"]);
     let pieces = scene.objects.iter().map(|object| object.shape.piece_count());
     let owners: Vec<u32> = pieces.enumerate().flat_map(|(i, count)| vec![i as u32; count]).collect();
     assert_eq!(scene.owners, owners);

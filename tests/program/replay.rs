@@ -61,7 +61,7 @@ fn the_reason_for_the_end_of_a_path_is_printed() {
     let closed = "materials.wall.lambertian.albedo = 0.8\n[[objects]]\nshape.sphere = { center = [0, 0, 0], radius = 9 }\n\
                   material = \"wall\"\nflip = true\nemission.radiance = 1";
     for (expected, text, options) in [
-        (End::LeftScene, "background.radiance = 1", &[][..]),
+        (End::LeftScene, "environment.radiance = 1", &[][..]),
         (End::LeftScene, &white, &["--roulette", "off"]),
         (End::Cap, &white, &["--max-bounces", "0"]),
         (End::NoMaterial, &wall("{ lambertian = { albedo = 0.8 } }", "emission.radiance = 1"), &[]),

@@ -5,11 +5,11 @@ use glam::DVec3;
 use noisefall_base::{declare::Precision, math::SimdLevel};
 use noisefall_render::render::threads::Threads;
 use noisefall_scene::{
-    light::background::{constant::Constant, image::Image},
+    light::environment::{constant::Constant, image::Image},
     material::{Dielectric, Lambertian, Roughness},
     scene::{
         Scene,
-        description::{BackgroundDescription, SceneDescription, Transform},
+        description::{EnvironmentDescription, SceneDescription, Transform},
     },
     shape::{
         Mesh, Sphere,
@@ -51,7 +51,7 @@ fn only_what_a_change_concerns_is_made_again() {
     let sky = fs::read_dir(&assets).expect("the folder can be read").map(|file| file.expect("an entry").path());
     let sky = sky.filter(|path| path.extension().is_some_and(|extension| extension == "exr")).min().expect("there is a sky");
     let picture = |rotate: f64| Image { path: sky.display().to_string(), rotate, ..Image::default() };
-    description.background = Some(picture(0.0).into());
+    description.environment = Some(picture(0.0).into());
     let glass = Dielectric { roughness: Roughness::alpha(0.3), ..Dielectric::default() };
     description.add_material("glass", glass.clone());
     description.add_object("ball", Sphere { radius: 0.2, ..Sphere::default() }).material = Some("glass".to_owned());
@@ -74,14 +74,14 @@ fn only_what_a_change_concerns_is_made_again() {
     };
     is_made(parts(smoother), &["material tables", "surfaces"]);
     let brighter = |scene: &mut SceneDescription| {
-        scene.objects.iter_mut().find_map(|object| object.emission.as_mut()).expect("a lamp").scale = 2.0;
+        scene.objects.iter_mut().find_map(|object| object.emission.as_mut()).expect("a light").scale = 2.0;
     };
     is_made(parts(brighter), &["lights", "surfaces"]);
     is_made(parts(|scene| shift(scene, "ball")), &["shapes", "surfaces"]);
     is_made(parts(|scene| shift(scene, "knot")), &["shapes", "surfaces"]);
-    is_made(parts(|scene| shift(scene, "lamp")), &["lights", "shapes", "surfaces"]);
-    let turned = |scene: &mut SceneDescription| match &mut scene.background {
-        Some(BackgroundDescription::Image(image)) => image.rotate = 30.0,
+    is_made(parts(|scene| shift(scene, "light")), &["lights", "shapes", "surfaces"]);
+    let turned = |scene: &mut SceneDescription| match &mut scene.environment {
+        Some(EnvironmentDescription::Image(image)) => image.rotate = 30.0,
         _ => panic!("it is a picture"),
     };
     is_made(parts(turned), &["lights", "surfaces"]);
@@ -89,8 +89,8 @@ fn only_what_a_change_concerns_is_made_again() {
 
 #[test]
 fn a_mesh_that_moves_keeps_its_tree_until_it_is_compiled_exactly() {
-    let background = Some(Constant { radiance: [1.0; 3] }.into());
-    let mut description = SceneDescription { background, ..SceneDescription::default() };
+    let environment = Some(Constant { radiance: [1.0; 3] }.into());
+    let mut description = SceneDescription { environment, ..SceneDescription::default() };
     description.add_material("white", Lambertian { albedo: [0.8, 0.5, 0.3].into() });
     let hills = MeshSource::Heightfield(Heightfield { quads: 30, seed: 1 });
     description.add_object("hills", Mesh { source: hills, smooth: None }).material = Some("white".to_owned());
@@ -119,8 +119,8 @@ fn a_mesh_that_moves_keeps_its_tree_until_it_is_compiled_exactly() {
 #[test]
 fn tables_of_rough_glass_are_coarse_until_they_are_compiled_exactly() {
     let glass = |alpha: f32| Dielectric { roughness: Roughness::alpha(alpha), ..Dielectric::default() };
-    let background = Some(Constant { radiance: [1.0; 3] }.into());
-    let mut description = SceneDescription { background, ..SceneDescription::default() };
+    let environment = Some(Constant { radiance: [1.0; 3] }.into());
+    let mut description = SceneDescription { environment, ..SceneDescription::default() };
     description.add_material("glass", glass(0.3));
     description.add_object("ball", Sphere::default()).material = Some("glass".to_owned());
     let before = description.build(Path::new("")).expect("it is valid");

@@ -6,7 +6,7 @@ use std::{
 
 use noisefall_scene::{
     sampling::{Directions, Sampler},
-    scene::{BUILT_IN, Roulette, SceneError, Truth, built_in, load, parse},
+    scene::{BUILT_IN, Roulette, SceneError, SceneReference, built_in, load, parse},
 };
 
 pub(super) const GOOD: &str = r#"format = 1
@@ -29,7 +29,7 @@ roulette = { fixed = 0.75 }
 max_bounces = 5
 spp = 64
 seed = 9
-[truth]
+[reference]
 radiance = 2.0
 "#;
 
@@ -61,7 +61,7 @@ fn a_good_file_means_what_it_says() {
     assert_eq!((scene.settings.sampler, scene.settings.directions), (Sampler::Stratified, Directions::Uniform));
     assert_eq!((scene.settings.roulette, scene.settings.max_bounces), (Roulette::fixed(0.75), Some(5)));
     assert_eq!((scene.spp, scene.settings.seed), (Some(64), 9));
-    assert_eq!(scene.truth, Some(Truth::Radiance([2.0; 3])));
+    assert_eq!(scene.reference, Some(SceneReference::Radiance([2.0; 3])));
     assert_eq!(scene.objects[0].name, "ball");
     assert!(scene.warnings().is_empty());
 }
@@ -224,9 +224,9 @@ fn invalid_lights_are_refused() {
     refuses("radiance = [1.0, 2.0, 3.0]", "radiance = 0.0", "a light of zero power");
     refuses("radiance = [1.0, 2.0, 3.0]", "radiance = 1.0, scale = 0.0", "a light of zero power");
     refuses("radiance = [1.0, 2.0, 3.0]", "texture = \"no\"", "there is no texture `no`");
-    refuses("[render]", "[background]\nimage = \"no.exr\"\n[render]", "no.exr");
-    refuses("[render]", "[background]\n[render]", "`background` has none of `radiance`, `image`");
-    refuses("[render]", "[background]\nradiance = 1.0\nrotate = 3.0\n[render]", "`radiance` and `image` exclude each other");
+    refuses("[render]", "[environment]\nimage = \"no.exr\"\n[render]", "no.exr");
+    refuses("[render]", "[environment]\n[render]", "`environment` has none of `radiance`, `image`");
+    refuses("[render]", "[environment]\nradiance = 1.0\nrotate = 3.0\n[render]", "`radiance` and `image` exclude each other");
 }
 
 #[test]

@@ -207,7 +207,7 @@ fn files_that_are_no_scenes_are_refused_in_one_message() {
         ("tool", b"\x7fELF\x02\x01\x01", "a program, not like a scene"),
         ("run.sh", b"#!/bin/sh\necho format\n", "a script"),
         ("room.blend", b"BLENDER-v300", "a Blender file"),
-        ("README.md", b"# A room\n\nWith two lamps.\n", "this is not a scene"),
+        ("README.md", b"# A room\n\nWith two lights.\n", "this is not a scene"),
         ("letter.txt", b"Sehr geehrte Damen, \xe4\xf6\xfc\n", "this is not a scene"),
     ] {
         fs::write(file(name), content).expect("it is written");
@@ -287,7 +287,7 @@ fn values_of_megabytes_are_not_repeated() {
     said("[render]", "[textures.LONG]\n[render]", "` has none of");
     said("[render]", "[materials.LONG]\n[render]", "` has none of");
     said("[render]", "[textures.a]\nimage = { path = \"LONG\" }\n[render]", "mmm: cannot be read");
-    said("[render]", "[background]\nimage = \"LONG.exr\"\n[render]", "cannot be read");
+    said("[render]", "[environment]\nimage = \"LONG.exr\"\n[render]", "cannot be read");
     said("[render]", "[LONG]\n[render]", "unknown key `mmm");
     let iso = |expression: &str| {
         format!("isosurface = {{ expression = \"{expression}\", bounds = {{ min = [0, 0, 0], max = [1, 1, 1] }} }}")

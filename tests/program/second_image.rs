@@ -192,7 +192,7 @@ fn a_region_that_has_reached_the_noise_target_is_not_taken_up_again() {
     let renderer = renderer();
     let region = Region::between([40, 40], [50, 60]);
     // The region reaches the target after some hundred samples, long before the whole image, because it does not contain the edge
-    // of the lamp.
+    // of the light.
     renderer.set_budget(Budget { noise: Some(0.01), region: Some(region), ..Budget::default() });
     renderer.submit(1, request(&scene, 128));
     wait(|| renderer.latest(), |published| published.status.region_spp.is_some_and(|spp| spp >= 64));

@@ -183,7 +183,7 @@ fn references_are_files_where_there_are_some() {
     assert!(report("foreign").contains("whose own error is unknown and assumed to be 0") && own("foreign") == 0.0);
     let csv = fs::read_to_string(shell.path("foreign/study.csv")).expect("measurements");
     assert!(csv.contains(",0.5,") && report("foreign").contains("(x − r)²/(r² + 0.5)"), "{csv}");
-    // The truth of a scene does not make the error of a file known.
+    // The reference of a scene does not make the error of a file known.
     let declared = ["study", &scene("furnace"), "-o", "declared", "--reference", "foreign.exr", "--max-bounces", "1"];
     let told = text(&shell.run(&[&declared[..], &few[..]].concat()).stdout);
     assert!(told.contains("The error of the reference foreign.exr itself is unknown and assumed to be 0."), "{told}");

@@ -18,7 +18,7 @@ fn warnings(from: &str, to: &str) -> Vec<String> {
 
 #[test]
 fn each_slip_has_its_warning() {
-    let lamp = "emission = { radiance = [1.0, 2.0, 3.0] }";
+    let punctual_light = "emission = { radiance = [1.0, 2.0, 3.0] }";
     let glass = "lambertian = { albedo = 0.8 }\n[materials.glass]\ndielectric = { ior = 1.5 }";
     for (from, to, says) in [
         ("material = \"white\"\nemission = { radiance = [1.0, 2.0, 3.0] }", "", "`ball` has neither `material` nor `emission`"),
@@ -32,9 +32,12 @@ fn each_slip_has_its_warning() {
         assert!(said.iter().any(|warning| warning.contains(says)), "{to}: {said:?}");
     }
     let flipped = GOOD.replacen("lambertian = { albedo = 0.8 }", glass, 1);
-    let flipped =
-        flipped.replacen(lamp, "flip = true\n[[objects]]\nshape = { sphere = { center = [9, 0, 0], radius = 1 } }\nEM", 1);
-    let flipped = flipped.replacen("\"white\"", "\"glass\"", 1).replacen("EM", lamp, 1);
+    let flipped = flipped.replacen(
+        punctual_light,
+        "flip = true\n[[objects]]\nshape = { sphere = { center = [9, 0, 0], radius = 1 } }\nEM",
+        1,
+    );
+    let flipped = flipped.replacen("\"white\"", "\"glass\"", 1).replacen("EM", punctual_light, 1);
     let said = parse("test.toml", flipped).unwrap_or_else(|error| panic!("{}", error.report())).warnings().to_vec();
     assert!(said.len() == 1 && said[0].contains("`ball` has `flip` on a dielectric"), "{said:?}");
     let bare = "[[objects]]\nshape = { sphere = { center = [9, 0, 0], radius = 1 } }\n";
@@ -48,15 +51,15 @@ fn each_slip_has_its_warning() {
     }
     // There is no warning about intentional settings.
     assert_eq!(warnings("eye = [0.0, 1.0, 4.0]", "eye = [0.1, 1.0, 0.2]").len(), 1);
-    assert_eq!(warnings(lamp, &format!("{lamp}\nflip = true")), Vec::<String>::new());
+    assert_eq!(warnings(punctual_light, &format!("{punctual_light}\nflip = true")), Vec::<String>::new());
     assert_eq!(warnings("fov = 40", "fov = 3.5"), Vec::<String>::new());
 }
 
-/// A lamp at a distance below a ceiling of the same shape, with its front up or down.
-fn ceiling(shape: &str, above: f64, lamp: &str) -> Vec<String> {
+/// A light at a distance below a ceiling of the same shape, with its front up or down.
+fn ceiling(shape: &str, above: f64, punctual_light: &str) -> Vec<String> {
     let ceiling = shape.replace('Y', &format!("{:?}", 2.0 + above));
     let objects = format!(
-        "[[objects]]\nname = \"lamp\"\nshape = {{ {} }}\nemission = {{ {lamp}\n\
+        "[[objects]]\nname = \"light\"\nshape = {{ {} }}\nemission = {{ {punctual_light}\n\
          [[objects]]\nname = \"ceiling\"\nshape = {{ {ceiling} }}\nmaterial = \"white\"\n[render]",
         shape.replace('Y', "2.0")
     );
@@ -64,16 +67,16 @@ fn ceiling(shape: &str, above: f64, lamp: &str) -> Vec<String> {
 }
 
 #[test]
-fn a_lamp_against_a_wall_has_a_warning_whatever_its_shape_and_side() {
+fn a_light_against_a_wall_has_a_warning_whatever_its_shape_and_side() {
     let shapes = [
-        // The fronts of the lamps are below.
+        // The fronts of the lights are below.
         "rectangle = { origin = [0, Y, 0], edge_u = [1, 0, 0], edge_v = [0, 0, 1] }",
         "triangle = { a = [0, Y, 0], b = [1, Y, 0], c = [0, Y, 1] }",
         "disk = { center = [0, Y, 0], normal = [0, -1, 0], radius = 1 }",
     ];
     for shape in shapes {
         let up = ceiling(shape, 1e-3, "radiance = 1 }\nflip = true");
-        assert!(up.len() == 1 && up[0].contains("the lamp `lamp` faces `ceiling` from almost no distance"), "{shape}: {up:?}");
+        assert!(up.len() == 1 && up[0].contains("the light `light` faces `ceiling` from almost no distance"), "{shape}: {up:?}");
         assert_eq!(ceiling(shape, 1e-3, "radiance = 1 }"), Vec::<String>::new(), "{shape}: it faces the room");
         assert_eq!(ceiling(shape, 1e-3, "radiance = 1, two_sided = true }"), Vec::<String>::new(), "{shape}");
         assert_eq!(ceiling(shape, 0.1, "radiance = 1 }\nflip = true"), Vec::<String>::new(), "{shape}: an uplight");
@@ -86,12 +89,12 @@ fn a_lamp_against_a_wall_has_a_warning_whatever_its_shape_and_side() {
 fn check_and_render_report_a_contradicted_truth() {
     let shell = Shell::new();
     let furnace = fs::read_to_string(scene("furnace")).expect("it is shipped");
-    let with_truth = |truth: &str| {
-        fs::write(shell.path("a.toml"), furnace.replace("[truth]\nradiance = 2.0", &format!("[truth]\n{truth}")))
+    let with_truth = |reference: &str| {
+        fs::write(shell.path("a.toml"), furnace.replace("[reference]\nradiance = 2.0", &format!("[reference]\n{reference}")))
             .expect("written");
         let checked = text(&shell.run(&["check", "a.toml"]).stdout);
         let rendered = shell.run(&["render", "a.toml", "-o", "a.png", "--spp", "64", "--size", "32x32"]);
-        let told = |text: &str| text.contains("than [truth] says, by ");
+        let told = |text: &str| text.contains("than [reference] says, by ");
         (told(&checked), told(&text(&rendered.stderr)), checked)
     };
     assert!(!with_truth("radiance = 2.0").0);
@@ -102,7 +105,7 @@ fn check_and_render_report_a_contradicted_truth() {
     }
     let capped = shell.run(&["render", &scene("furnace"), "-o", "a.png", "--spp", "64", "--size", "32x32", "--max-bounces", "2"]);
     let said = text(&capped.stderr);
-    assert!(said.contains("less radiance on average than [truth]") && said.contains("(it is biased: cap at 2)"), "{said}");
+    assert!(said.contains("less radiance on average than [reference]") && said.contains("(it is biased: cap at 2)"), "{said}");
 }
 
 #[test]

@@ -9,7 +9,7 @@ fn seen_at(material: &str, theta: f64) -> Scene {
     let [sin, cos] = [theta.sin(), theta.cos()].map(|x| 100.0 * x);
     scene(&format!(
         "camera = {{ eye = [{sin}, 0.0, {cos}], look_at = [0.0, 0.0, 0.0], projection.orthographic.width = 1.0, resolution = [8, 8] }}
-        background.radiance = 1.0
+        environment.radiance = 1.0
         textures.squares.checker = {{ even = 0.0, odd = 0.0, scale = 4.0 }}
         materials.m.{material}
         [[objects]]

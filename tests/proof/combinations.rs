@@ -14,7 +14,7 @@ use crate::{
 
 macro_rules! features {
     ($($name:ident),* $(,)?) => {
-        /// Features of a scene besides a floor, a ball and a lamp.
+        /// Features of a scene besides a floor, a ball and a light.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         enum Feature {
             $($name),*
@@ -90,13 +90,13 @@ fn with(set: &[Feature]) -> Scene {
     let has = |feature: Feature| set.contains(&feature);
     let on = |feature: Feature, text: &str| if has(feature) { text.to_owned() } else { String::new() };
     let sky = if has(ImageSky) {
-        format!("background = {{ image = '{}/scenes/assets/sky.exr', scale = 0.2 }}", env!("CARGO_MANIFEST_DIR"))
+        format!("environment = {{ image = '{}/scenes/assets/sky.exr', scale = 0.2 }}", env!("CARGO_MANIFEST_DIR"))
     } else {
-        on(ConstantSky, "background.radiance = [0.3, 0.4, 0.6]")
+        on(ConstantSky, "environment.radiance = [0.3, 0.4, 0.6]")
     };
     let emission = format!(
         "emission = {{ {}, two_sided = {} }}",
-        if has(TexturedLamp) { "texture = 'lamp', scale = 16.0" } else { "radiance = [9.0, 8.0, 6.0]" },
+        if has(TexturedLamp) { "texture = 'light', scale = 16.0" } else { "radiance = [9.0, 8.0, 6.0]" },
         has(TwoSidedLamp)
     );
     let transform = on(StretchedLamp, "{ scale = [1.2, 0.6, 0.8] }, { rotate = { axis = [1, 1, 0], degrees = 40 } }, ");
@@ -154,7 +154,7 @@ fn with(set: &[Feature]) -> Scene {
     object("shape.rectangle = { origin = [-3, -0.85, 3], edge_u = [6, 0, 0], edge_v = [0, 0, -6] }\nmaterial = 'floor'");
     scene(&format!(
         "{sky}
-        textures.lamp.checker = {{ even = 0.1, odd = [0.9, 0.8, 0.6], scale = 4.0 }}
+        textures.light.checker = {{ even = 0.1, odd = [0.9, 0.8, 0.6], scale = 4.0 }}
         textures.waves.noise = {{ scale = 3.0, octaves = 2, low = 0.0, high = 1.0 }}
         [camera]
         eye = [0.0, 1.0, 4.5]

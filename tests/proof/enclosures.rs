@@ -98,24 +98,28 @@ fn away_from_corners_light_samples_alone_find_one_reflection() {
 
 #[test]
 fn no_light_passes_a_closed_shape() {
-    const LAMP_INSIDE: &str = "shape.sphere = { center = [0.1, 0.0, 0.1], radius = 0.1 }";
-    const LAMP_OUTSIDE: &str = "shape.sphere = { center = [0.0, 3.5, 1.0], radius = 1.0 }";
+    const LIGHT_INSIDE: &str = "shape.sphere = { center = [0.1, 0.0, 0.1], radius = 0.1 }";
+    const LIGHT_OUTSIDE: &str = "shape.sphere = { center = [0.0, 3.5, 1.0], radius = 1.0 }";
     // Its triangles are numbered as lights, and must not be taken for walls with the same number.
     const MESH_INSIDE: &str = "shape.mesh.knot.triangles = 200\ntransform = [{ scale = 0.05 }]";
     const MESH_OUTSIDE: &str = "shape.mesh.knot.triangles = 200\ntransform = [{ scale = 0.3 }, { translate = [0.0, 3.5, 1.0] }]";
     for (what, shape) in CLOSED {
-        let lamps =
-            [(INSIDE, LAMP_OUTSIDE, 1.0), (OUTSIDE, LAMP_INSIDE, 0.0), (INSIDE, MESH_OUTSIDE, 1.0), (OUTSIDE, MESH_INSIDE, 0.0)];
-        for (camera, lamp, sky) in lamps {
+        let punctual_lights = [
+            (INSIDE, LIGHT_OUTSIDE, 1.0),
+            (OUTSIDE, LIGHT_INSIDE, 0.0),
+            (INSIDE, MESH_OUTSIDE, 1.0),
+            (OUTSIDE, MESH_INSIDE, 0.0),
+        ];
+        for (camera, punctual_light, sky) in punctual_lights {
             let scene = scene(&format!(
                 "camera = {{ {camera} }}
-                background.radiance = {sky:?}
+                environment.radiance = {sky:?}
                 materials.wall.lambertian.albedo = 0.9
                 [[objects]]
                 {shape}
                 material = 'wall'
                 [[objects]]
-                {lamp}
+                {punctual_light}
                 emission.radiance = 100.0"
             ));
             for estimator in Estimator::ALL {
@@ -131,7 +135,7 @@ fn no_light_passes_a_closed_shape() {
 fn glass(camera: &str, shape: &str, dielectric: &str) -> Scene {
     scene(&format!(
         "camera = {{ {camera} }}
-        background.radiance = 1.0
+        environment.radiance = 1.0
         materials.glass.dielectric = {{ {dielectric} }}
         [[objects]]
         {shape}

@@ -17,7 +17,7 @@ const HARD: [&str; 4] = ["caustic_in_mirror", "glass_ball_caustic", "keyhole_roo
 /// mirrors and smooth glass counts in all of them.
 fn samples_per_pixel(scene: &str, estimator: Estimator) -> u32 {
     match scene {
-        // One path in a thousand finds this lamp, or the sun through this window.
+        // One path in a thousand finds this light, or the sun through this window.
         "tiny_lamp" | "room_window" if estimator == Estimator::Path => 4096,
         // Its samples are expensive.
         "five_hundred_lamps" => 128,
@@ -53,7 +53,7 @@ fn they_agree_on_every_shipped_scene() {
         let scene = Scene { camera: Camera { resolution: RESOLUTION, ..scene.camera }, ..scene };
         let mut found: Vec<(Estimator, Vec<Mean>)> = Vec::new();
         // Of light from far away, forward tracing finds so little that its means are not normally distributed.
-        let is_far = scene.lights.background.is_some();
+        let is_far = scene.lights.environment.is_some();
         let is_left_out =
             |estimator: &Estimator| *estimator == Estimator::Auto || is_far && *estimator == Estimator::LightTracing;
         for estimator in Estimator::ALL.into_iter().filter(|estimator| !is_left_out(estimator)) {
@@ -88,11 +88,11 @@ fn they_agree_on_every_shipped_scene() {
     assert_all_within(&deviations, &format!("estimators on shipped scenes, the worst of all being {}", names[worst]));
 }
 
-/// Four lamps of the same power, from tiny to large, mirrored by four balls, from nearly smooth to rough: figure 9.2 of E. Veach,
+/// Four lights of the same power, from tiny to large, mirrored by four balls, from nearly smooth to rough: figure 9.2 of E. Veach,
 /// "Robust Monte Carlo Methods for Light Transport Simulation", 1997, made of spheres.
 fn lamps_and_glosses() -> Scene {
     const GLOSSES: [f64; 4] = [0.001, 0.02, 0.1, 0.3];
-    const LAMPS: [f64; 4] = [0.02, 0.08, 0.25, 0.7];
+    const LIGHTS: [f64; 4] = [0.02, 0.08, 0.25, 0.7];
     let place = |i: usize| -2.7 + 1.8 * i as f64;
     let mut materials = String::new();
     let mut objects = String::new();
@@ -101,7 +101,7 @@ fn lamps_and_glosses() -> Scene {
         let sphere = format!("{{ center = [{:?}, 0.8, 0.0], radius = 0.85 }}", place(i));
         objects += &format!("[[objects]]\nshape.sphere = {sphere}\nmaterial = 'gloss{i}'\n");
     }
-    for (i, radius) in LAMPS.into_iter().enumerate() {
+    for (i, radius) in LIGHTS.into_iter().enumerate() {
         let sphere = format!("{{ center = [{:?}, 3.0, 1.0], radius = {radius} }}", place(i));
         objects += &format!("[[objects]]\nshape.sphere = {sphere}\nemission.radiance = {:?}\n", 1.0 / (radius * radius));
     }
@@ -110,7 +110,7 @@ fn lamps_and_glosses() -> Scene {
 }
 
 #[test]
-fn both_together_are_better_than_either_where_lamps_and_glosses_range_from_tiny_to_wide() {
+fn both_together_are_better_than_either_where_lights_and_glosses_range_from_tiny_to_wide() {
     const SPP: u32 = 512;
     let scene = lamps_and_glosses();
     let pictures = [Estimator::Path, Estimator::Light, Estimator::Mis].map(|estimator| {
@@ -135,7 +135,7 @@ fn they_agree_on_rough_glass_that_shines() {
     for side in ["radiance = 1.0", "radiance = 1.0, two_sided = true", "radiance = 1.0 }\nflip = true\n#"] {
         let text = format!(
             "camera = {{ eye = [0.0, 0.0, 4.0], look_at = [0.0, 0.0, 0.0], fov = 30.0, resolution = [16, 16] }}
-            background.radiance = 0.2
+            environment.radiance = 0.2
             materials.glow.dielectric = {{ ior = 1.5, roughness = 0.5 }}
             [[objects]]
             shape.sphere = {{ center = [0.0, 0.0, 0.0], radius = 1.0 }}
@@ -151,9 +151,9 @@ fn they_agree_on_rough_glass_that_shines() {
     }
 }
 
-/// So many lamps that they form a light tree: of all shapes and sides, around balls and below a floor, in a shell that emits
+/// So many lights that they form a light tree: of all shapes and sides, around balls and below a floor, in a shell that emits
 /// inwards.
-fn hundreds_of_lamps() -> Scene {
+fn hundreds_of_punctual() -> Scene {
     let mut objects = String::new();
     let mut object = |text: &str| objects += &format!("[[objects]]\n{text}\n");
     object("shape.sphere = { center = [0.0, 0.0, 0.0], radius = 50.0 }\nemission.radiance = 0.05\nflip = true");
@@ -177,7 +177,7 @@ fn hundreds_of_lamps() -> Scene {
     }
     scene(&format!(
         "camera = {{ eye = [0.0, 2.5, 7.0], look_at = [0.0, 0.6, 0.0], fov = 45.0, resolution = [48, 32] }}
-        background.radiance = 0.1
+        environment.radiance = 0.1
         materials.white.lambertian.albedo = 0.7
         materials.rough.dielectric = {{ ior = 1.5, roughness = 0.5 }}
         materials.gloss.plastic = {{ albedo = 0.4, ior = 1.5, roughness = 0.3 }}
@@ -186,8 +186,8 @@ fn hundreds_of_lamps() -> Scene {
 }
 
 #[test]
-fn they_agree_among_hundreds_of_lamps() {
-    let scene = hundreds_of_lamps();
+fn they_agree_among_hundreds_of_lights() {
+    let scene = hundreds_of_punctual();
     let of = |estimator: Estimator| {
         let settings = RenderSettings { max_bounces: Some(3), ..settings(estimator) };
         means(&picture(&scene, settings, LUMINANCE, if estimator == Estimator::Path { 1024 } else { 256 }))
@@ -200,5 +200,5 @@ fn they_agree_among_hundreds_of_lamps() {
         let whole = deviations[deviations.len() - 1];
         println!("whole picture: {:.5}, {} deviates by {whole:.2} σ", path[path.len() - 1].mean, estimator.name());
     }
-    assert_all_within(&deviations, "estimators among hundreds of lamps");
+    assert_all_within(&deviations, "estimators among hundreds of lights");
 }

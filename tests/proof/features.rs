@@ -52,7 +52,7 @@ fn a_sphere_is_where_it_is() {
     );
     let (found, eye) = (seen(&scene, &scene.camera), scene.camera.eye);
     assert_eq!([found.width, found.height], [75, 50]);
-    // Lamps come first.
+    // Lights come first.
     let legend = scene.legend();
     assert_eq!((&legend.names[..], &legend.of_object[..]), (&["black".to_owned(), "clay".to_owned()][..], &[0, 1][..]));
     let mut hits = 0;

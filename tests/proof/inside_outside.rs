@@ -1,7 +1,7 @@
-//! Camera and lamp inside or outside a sphere that does not emit.
+//! Camera and light inside or outside a sphere that does not emit.
 use glam::DVec3;
 use noisefall_base::math::SimdLevel;
-use noisefall_kernel::measure::exact::{Lamp, lamberts_ball, mean_over_pixel};
+use noisefall_kernel::measure::exact::{SphereLight, lamberts_ball, mean_over_pixel};
 use noisefall_render::render::{
     estimate::Estimate,
     film::Film,
@@ -16,7 +16,7 @@ use crate::statistics::assert_within;
 
 /// Albedo of the ball in `outside_lit_outside.toml`.
 const ALBEDO: f64 = 0.8;
-const LAMP: Lamp = Lamp { center: DVec3::new(1.7, 1.4, 1.0), radius: 0.5, radiance: 8.0 };
+const LIGHT: SphereLight = SphereLight { center: DVec3::new(1.7, 1.4, 1.0), radius: 0.5, radiance: 8.0 };
 
 const SIDE: u32 = 64;
 
@@ -77,8 +77,8 @@ fn no_light_passes_a_closed_sphere() {
 }
 
 #[test]
-fn a_lamp_in_the_middle_lights_the_inside_evenly() {
-    // The lamp fills the fraction F = (r/R)² of the cosine-weighted hemisphere of a wall point, and the wall fills the rest:
+fn a_light_in_the_middle_lights_the_inside_evenly() {
+    // The light fills the fraction F = (r/R)² of the cosine-weighted hemisphere of a wall point, and the wall fills the rest:
     // B = ρ (L F + B (1 − F)).
     let (albedo, radiance, share) = (0.5, 8.5, 0.25f64.powi(2));
     let exact = albedo * radiance * share / (1.0 - albedo * (1.0 - share));
@@ -99,7 +99,7 @@ fn a_ball_lit_from_outside_is_lamberts_ball() {
     let camera = Camera { resolution: [SIDE; 2], ..scene.camera };
     let exact = |pixel: usize| {
         let place = [pixel as u32 % SIDE, pixel as u32 / SIDE];
-        mean_over_pixel(&camera, place, |o, d| lamberts_ball(ALBEDO, LAMP, o, d))
+        mean_over_pixel(&camera, place, |o, d| lamberts_ball(ALBEDO, LIGHT, o, d))
     };
     let lit: Vec<_> = picture.iter().enumerate().filter_map(|(i, pixel)| Some((*pixel, exact(i)?))).collect();
     assert!(lit.len() > 150, "the ball is in the picture: {}", lit.len());

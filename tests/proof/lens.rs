@@ -1,5 +1,5 @@
 //! Edges through a camera: the thin lens, parallel projection and pixel filters against areas in closed form. A sample sees the
-//! lamp or not, so the mean of n samples of probability p has the variance p (1 − p)/n.
+//! light or not, so the mean of n samples of probability p has the variance p (1 − p)/n.
 use std::f64::consts::PI;
 
 use noisefall_scene::scene::Estimator;
@@ -100,7 +100,7 @@ fn overlap(r: f64, d: f64) -> f64 {
 
 // From the point p of the lens to the point q in focus, a ray crosses the plane at the distance z at p (1 − z/f) + q z/f
 // (R. L. Cook, T. Porter and L. Carpenter, "Distributed Ray Tracing", SIGGRAPH 1984). Through all of the lens these are a disk
-// of radius R |1 − z/f| around q z/f, and the pixel is as bright as the share of it that the lamp covers.
+// of radius R |1 − z/f| around q z/f, and the pixel is as bright as the share of it that the light covers.
 
 #[test]
 fn a_straight_edge_out_of_focus_is_a_circular_segment_of_the_lens() {

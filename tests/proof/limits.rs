@@ -104,14 +104,14 @@ const REST: [End; 22] = [
     end("textures.t.checker = { even = 0.5, odd = @, scale = 4.0 }", 1.0, WHOLE),
     end("textures.t.noise = { scale = 3.0, octaves = 2, low = @, high = 0.5 }", 0.0, SMALL),
     end("textures.t.noise = { scale = 3.0, octaves = 2, low = 0.5, high = @ }", 1.0, WHOLE),
-    end("background.radiance = @", 0.0, SMALL),
-    end("background = { image = '$/scenes/assets/sky.exr', scale = @ }", 1e-12, SMALL),
-    end("background = { image = '$/scenes/assets/sky.exr', scale = 0.3, rotate = @ }", 0.0, SMALL),
-    end("background = { image = '$/scenes/assets/sky.exr', scale = 0.3, rotate = @ }", 360.0, SMALL),
-    end("lamp.emission.radiance = @", 1e-12, SMALL),
-    end("lamp.emission = { texture = 't', scale = @ }", 1e-12, SMALL),
-    end("lamp.motion = [{ translate = [@, 0.0, 0.0] }]", 0.0, SMALL),
-    end("lamp.motion = [{ rotate = { axis = [0.3, 1.0, 0.0], degrees = @ } }]", 0.0, 1e-3),
+    end("environment.radiance = @", 0.0, SMALL),
+    end("environment = { image = '$/scenes/assets/sky.exr', scale = @ }", 1e-12, SMALL),
+    end("environment = { image = '$/scenes/assets/sky.exr', scale = 0.3, rotate = @ }", 0.0, SMALL),
+    end("environment = { image = '$/scenes/assets/sky.exr', scale = 0.3, rotate = @ }", 360.0, SMALL),
+    end("light.emission.radiance = @", 1e-12, SMALL),
+    end("light.emission = { texture = 't', scale = @ }", 1e-12, SMALL),
+    end("light.motion = [{ translate = [@, 0.0, 0.0] }]", 0.0, SMALL),
+    end("light.motion = [{ rotate = { axis = [0.3, 1.0, 0.0], degrees = @ } }]", 0.0, 1e-3),
     end("ball.transform = [{ scale = [1.0, @, 1.0] }]", 1.0, WHOLE),
     end("ball.transform = [{ rotate = { axis = [0.3, 1.0, 0.0], degrees = @ } }]", 360.0, 1e-3),
     end("camera.lens = { radius = @, focus = 4.0 }", 0.0, SMALL),
@@ -124,7 +124,7 @@ const REST: [End; 22] = [
     end("render.max_bounces = @", 1e5, 1e4),
 ];
 
-/// A ball of the material above a textured floor, under a sky and beside a lamp. What `text` says of one of its parts is added to it,
+/// A ball of the material above a textured floor, under a sky and beside a light. What `text` says of one of its parts is added to it,
 /// or stands in its place.
 fn room(material: &str, text: &str) -> Scene {
     let part = |key: &str, otherwise: &str| {
@@ -134,12 +134,12 @@ fn room(material: &str, text: &str) -> Scene {
             .map_or(otherwise.to_owned(), str::to_owned)
     };
     let of = |key: &str| text.strip_prefix(&format!("{key}.")).unwrap_or_default();
-    let background = part("background", "background.radiance = 0.5");
+    let environment = part("environment", "environment.radiance = 0.5");
     let texture = part("textures.t", "textures.t.checker = { even = 0.2, odd = 0.7, scale = 3.0 }");
-    let lamp = if of("lamp").starts_with("emission") { "" } else { "emission.radiance = 4.0" };
+    let punctual_light = if of("light").starts_with("emission") { "" } else { "emission.radiance = 4.0" };
     let render = part("render", "");
     scene(&format!(
-        "{background}
+        "{environment}
         {texture}
         {render}
         [camera]
@@ -163,12 +163,12 @@ fn room(material: &str, text: &str) -> Scene {
         material = 'floor'
         [[objects]]
         shape.sphere = {{ center = [1.5, 1.8, 1.0], radius = 0.5 }}
-        {lamp}
+        {punctual_light}
         {}",
         of("camera"),
         of("material"),
         of("ball"),
-        of("lamp"),
+        of("light"),
     ))
 }
 

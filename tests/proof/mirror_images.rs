@@ -3,7 +3,7 @@
 //! Shapes, materials and their parameters, and projections are those of the declarations, so that a new kind is tried without an edit here. A
 //! parameter that has a handedness, such as the rotation of a tangent, must turn the other way in the mirror.
 use noisefall::description::{
-    BackgroundDescription, DVec3, Projection, SceneDescription,
+    DVec3, EnvironmentDescription, Projection, SceneDescription,
     materials::Material,
     shapes::{ShapeKind, Transform},
 };
@@ -20,13 +20,13 @@ const RESOLUTION: [usize; 2] = [24, 16];
 /// Pixels along the sides of the blocks that are compared.
 const BLOCK: usize = 4;
 
-/// A ball or something else in front of a sky that looks the same from no two sides, beside a lamp and a checkered wall.
+/// A ball or something else in front of a sky that looks the same from no two sides, beside a light and a checkered wall.
 fn base() -> SceneDescription {
     let assets = format!("{}/scenes/assets", env!("CARGO_MANIFEST_DIR"));
     let text = format!(
         "format = 1
         camera = {{ eye = [0.7, 0.9, 3.6], look_at = [0.1, 0, 0], up = [0.2, 1, 0.1], fov = 40, resolution = [{}, {}], shift = [0.05, 0.1] }}
-        background = {{ image = '{assets}/sky.exr', scale = 0.5, rotate = 50 }}
+        environment = {{ image = '{assets}/sky.exr', scale = 0.5, rotate = 50 }}
         textures.dents.checker = {{ even = 0.2, odd = 0.6, scale = 5 }}
         materials.wall.lambertian.albedo = {{ texture = 'squares' }}
         textures.squares.checker = {{ even = 0.9, odd = 0.2, scale = 3 }}
@@ -37,7 +37,7 @@ fn base() -> SceneDescription {
         [[objects]]
         shape.rectangle = {{ origin = [-2, -1.2, -1.5], edge_u = [3, 0, 1], edge_v = [0, 3, 0] }}
         material = 'wall'
-        [[lamps]]
+        [[lights]]
         directional = {{ direction = [-1, -0.6, -0.8], irradiance = [2, 1.5, 1] }}",
         RESOLUTION[0], RESOLUTION[1]
     );
@@ -53,8 +53,8 @@ fn pair(description: &SceneDescription) -> Option<[Scene; 2]> {
     camera.up = camera.up.map(|up| up * MIRROR);
     camera.shift[0] = -camera.shift[0];
     mirrored.objects.iter_mut().for_each(|object| object.transform.push(Transform::Scale(MIRROR)));
-    mirrored.lamps.iter_mut().for_each(|lamp| lamp.transform.push(Transform::Scale(MIRROR)));
-    if let Some(BackgroundDescription::Image(image)) = &mut mirrored.background {
+    mirrored.punctual_lights.iter_mut().for_each(|punctual_light| punctual_light.transform.push(Transform::Scale(MIRROR)));
+    if let Some(EnvironmentDescription::Image(image)) = &mut mirrored.environment {
         image.transform.push(Transform::Scale(MIRROR));
     }
     let [plain, mirrored] = [description, &mirrored].map(|described| parse("pair.toml", new_text(described)).ok());

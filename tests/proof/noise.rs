@@ -22,7 +22,7 @@ const SPP: u32 = 128;
 const SEEDS: u32 = 6;
 /// Largest factor between the estimate, a root of relMSE, and the true error.
 const FACTOR: f64 = 1.25;
-/// Scenes with a larger factor. Most of the error of the plates is in few pixels at the edges of very bright lamps. All error of
+/// Scenes with a larger factor. Most of the error of the plates is in few pixels at the edges of very bright lights. All error of
 /// the ball is at its outline, and that of moving objects at their edges, where errors fall faster than the estimate assumes. Caustics that
 /// are seen in water, in a mirror or under a ball of glass have most of their error in light that few of the images find at all.
 const WORSE: [(&str, f64); 6] = [
@@ -97,12 +97,12 @@ fn the_noise_figure_is_the_error() {
     assert!(wrong.is_empty(), "figure over error: {}", wrong.join(", "));
 }
 
-/// A random room: balls of all materials under a lamp.
+/// A random room: balls of all materials under a light.
 fn room(dice: &mut SmallRng) -> String {
     let mut within = |least: f64, most: f64| least + (most - least) * dice.random::<f64>();
     let mut materials = format!(
         "camera = {{ eye = [{:?}, {:?}, 4.0], look_at = [0.0, 0.7, 0.0], fov = {:?}, resolution = [16, 16] }}\n\
-         background = {{ radiance = {:?} }}\n\
+         environment = {{ radiance = {:?} }}\n\
          materials.walls.lambertian = {{ albedo = {:?} }}\n",
         within(-1.5, 1.5),
         within(0.5, 2.0),

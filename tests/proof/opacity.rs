@@ -25,8 +25,8 @@ fn camera(eye: [f64; 3], width: f64) -> String {
     )
 }
 
-/// A lamp of radius ½ at a height of 3 over the origin. Its radiance is 1 unless `emission` says more.
-fn lamp(emission: &str) -> String {
+/// A light of radius ½ at a height of 3 over the origin. Its radiance is 1 unless `emission` says more.
+fn punctual_light(emission: &str) -> String {
     format!("[[objects]]\nshape.sphere = {{ center = [0.0, 3.0, 0.0], radius = 0.5 }}\nemission.radiance = 1.0\n{emission}\n")
 }
 
@@ -36,8 +36,8 @@ fn sheet(material: &str) -> String {
     format!("[[objects]]\n{shape}\nmaterial = '{material}'\n")
 }
 
-/// Irradiance of the lamp at the origin over π: sin² of the half angle of its cone.
-const LAMP: f64 = 0.25 / 9.0;
+/// Irradiance of the light at the origin over π: sin² of the half angle of its cone.
+const LIGHT: f64 = 0.25 / 9.0;
 
 fn assert_mean(scene: &Scene, exact: f64, spp: u32, what: &str) {
     assert_means(scene, exact, spp, what, &Estimator::ALL);
@@ -53,7 +53,7 @@ fn assert_means(scene: &Scene, exact: f64, spp: u32, what: &str, estimators: &[E
 }
 
 /// White surfaces of any opacity under a white sky, which must not be seen.
-const FURNACE: &str = "background.radiance = 1
+const FURNACE: &str = "environment.radiance = 1
     camera = { eye = [0, 0, 6], look_at = [0, 0, 0], fov = 40, resolution = [16, 16] }
     textures.holes.checker = { even = 0.0, odd = 0.7, scale = 5 }
     materials.white.lambertian.albedo = 1.0
@@ -97,27 +97,27 @@ fn a_screen_lets_one_minus_its_opacity_of_the_light_pass() {
             material = 'screen'",
             camera([0.0, 1.0, 0.0], 0.01),
             sheet("floor"),
-            lamp("")
+            punctual_light("")
         ));
         let what = format!("a screen of opacity {opacity}");
-        assert_means(&scene, 0.5 * LAMP * passed, 512, &what, &WITH_CAMERA_PATHS);
+        assert_means(&scene, 0.5 * LIGHT * passed, 512, &what, &WITH_CAMERA_PATHS);
     }
 }
 
-/// Lamps with and without surface, between which light is chosen. The screen has the number that follows those of the emitters.
+/// Lights with and without surface, between which light is chosen. The screen has the number that follows those of the emitters.
 #[test]
-fn a_screen_dims_lamps_with_and_without_surface_alike() {
-    let without_surface = "[[lamps]]
+fn a_screen_dims_lights_with_and_without_surface_alike() {
+    let without_surface = "[[lights]]
         point = { position = [0, 2, 0], intensity = 0.3 }
-        [[lamps]]
+        [[lights]]
         spot = { position = [0, 2, 0], target = [0, 0, 0], intensity = 0.2, angle = 30, inner = 20 }
-        [[lamps]]
+        [[lights]]
         projector = { position = [0, 2, 0], target = [0, 0, 0], up = [0, 0, -1], fov = 50, scale = 0.1 }
-        [[lamps]]
+        [[lights]]
         directional = { direction = [3, -4, 0], irradiance = 0.1 }\n";
     let irradiance = (0.3 + 0.2 + 0.1) / 4.0 + 0.1 * 0.8;
     for (opacity, passed) in [("0.5", 0.5), ("{ texture = 'third' }", 2.0 / 3.0)] {
-        for (surfaces, of_surfaces) in [(String::new(), 0.0), (lamp(""), LAMP)] {
+        for (surfaces, of_surfaces) in [(String::new(), 0.0), (punctual_light(""), LIGHT)] {
             let scene = scene(&format!(
                 "{}textures.third.checker = {{ even = 0.333333333, odd = 0.333333333, scale = 3 }}
                 materials.floor.lambertian.albedo = 0.5
@@ -131,7 +131,7 @@ fn a_screen_dims_lamps_with_and_without_surface_alike() {
             let exact = 0.5 * passed * (of_surfaces + irradiance / std::f64::consts::PI);
             for estimator in WITH_CAMERA_PATHS {
                 let found = picture(&scene, settings(estimator), RED, 512).whole();
-                // The view is a centimetre wide, and the lamps 2 m away.
+                // The view is a centimetre wide, and the lights 2 m away.
                 let allowed = 4.0 * found.variance_of_mean.sqrt() + 2e-5 * exact;
                 let what = format!("{} finds {} for {exact} through {opacity}", estimator.name(), found.mean);
                 assert!((found.mean - exact).abs() < allowed, "{what}");
@@ -140,9 +140,9 @@ fn a_screen_dims_lamps_with_and_without_surface_alike() {
     }
 }
 
-/// A ray of the floor crosses the lamp twice: near side first.
+/// A ray of the floor crosses the light twice: near side first.
 #[test]
-fn a_lamp_of_some_opacity_shows_both_of_its_sides() {
+fn a_light_of_some_opacity_shows_both_of_its_sides() {
     for alpha in [0.25, 0.8] {
         let (near, far) = (alpha, (1.0 - alpha) * alpha);
         for (side, shown) in [("", near), ("flip = true", far), ("emission.two_sided = true", near + far)] {
@@ -152,9 +152,9 @@ fn a_lamp_of_some_opacity_shows_both_of_its_sides() {
                 {}{}",
                 camera([0.0, 1.0, 0.0], 0.01),
                 sheet("floor"),
-                lamp(&format!("material = 'shell'\n{side}"))
+                punctual_light(&format!("material = 'shell'\n{side}"))
             ));
-            assert_mean(&scene, 0.5 * LAMP * shown, 512, &format!("a lamp of opacity {alpha} with `{side}`"));
+            assert_mean(&scene, 0.5 * LIGHT * shown, 512, &format!("a light of opacity {alpha} with `{side}`"));
         }
     }
 }
@@ -162,7 +162,7 @@ fn a_lamp_of_some_opacity_shows_both_of_its_sides() {
 #[test]
 fn a_texture_cuts_holes() {
     let scene = scene(&format!(
-        "{}background.radiance = 1
+        "{}environment.radiance = 1
         textures.holes.checker = {{ even = 0.0, odd = 1.0, scale = 8 }}
         materials.cut = {{ lambertian.albedo = 0.0, opacity = {{ texture = 'holes' }} }}
         {}",
@@ -177,7 +177,7 @@ fn a_texture_cuts_holes() {
 /// A room with a ball of tinted glass; `more` is added to it.
 fn room(more: &str) -> Scene {
     scene(&format!(
-        "background.radiance = 0.3
+        "environment.radiance = 0.3
         camera = {{ eye = [0, 1.5, 6], look_at = [0, 0.8, 0], fov = 40, resolution = [32, 32] }}
         materials.floor.lambertian.albedo = 0.6
         materials.hole.null = {{}}
@@ -187,7 +187,7 @@ fn room(more: &str) -> Scene {
         material = 'tinted'
         {more}",
         sheet("floor"),
-        lamp("")
+        punctual_light("")
     ))
 }
 
@@ -200,7 +200,7 @@ fn a_null_sphere_changes_nothing() {
         ("around the scene", null("[0, 0, 0]", "20")),
         ("around the camera", null("[0, 1.5, 6]", "1")),
         ("inside of glass", null("[0.3, 0.9, 0.1]", "0.5")),
-        ("across glass and lamp", null("[0, 2.2, 0]", "1.2")),
+        ("across glass and light", null("[0, 2.2, 0]", "1.2")),
     ] {
         for estimator in Estimator::ALL {
             let of = |more: &str, seed: u32| {
@@ -216,7 +216,7 @@ fn a_null_sphere_changes_nothing() {
 fn a_blend_of_diffuse_surfaces_is_one_of_their_mean_albedo() {
     let lit = |material: &str| {
         scene(&format!(
-            "background.radiance = 0.2
+            "environment.radiance = 0.2
             camera = {{ eye = [0, 2, 4], look_at = [0, 0, 0], fov = 40, resolution = [16, 16] }}
             materials.dark.lambertian.albedo = [0.1, 0.2, 0.3]
             materials.bright.lambertian.albedo = [0.9, 0.5, 0.4]
@@ -227,7 +227,7 @@ fn a_blend_of_diffuse_surfaces_is_one_of_their_mean_albedo() {
             shape.sphere = {{ center = [0, 0.6, 0], radius = 0.6 }}
             material = 'top'",
             sheet("top"),
-            lamp("")
+            punctual_light("")
         ))
     };
     let blended = lit("materials.top.blend = { first = 'inner', second = 'grey', weight = 0.4 }");
@@ -254,7 +254,7 @@ fn a_merged_blend_has_the_bits_of_its_mixture_made_by_hand() {
     std::fs::write(&mesh, "v -2 0 2 1 0 0\nv 2 0 2 0 1 0\nv 0 0 -3 0 0 1\nf 1 2 3\n").expect("it is written");
     let lit = |material: &str| {
         scene(&format!(
-            "background.radiance = 0.2
+            "environment.radiance = 0.2
             camera = {{ eye = [0, 2, 4], look_at = [0, 0, 0], fov = 40, resolution = [16, 16] }}
             textures.squares.checker = {{ even = 0.25, odd = 0.75, scale = 4 }}
             textures.painted.vertex_color.channel = 'green'
@@ -271,7 +271,7 @@ fn a_merged_blend_has_the_bits_of_its_mixture_made_by_hand() {
             [[objects]]
             shape.mesh.path = '{}'
             material = 'top'",
-            lamp(""),
+            punctual_light(""),
             mesh.display()
         ))
     };
@@ -313,12 +313,12 @@ fn a_merged_blend_has_the_bits_of_its_mixture_made_by_hand() {
 
 #[test]
 fn a_sheet_scatters_light_to_both_sides() {
-    for (eye, exact, what) in [(1.0, 0.3 * LAMP, "reflected"), (-1.0, 0.6 * LAMP, "transmitted")] {
+    for (eye, exact, what) in [(1.0, 0.3 * LIGHT, "reflected"), (-1.0, 0.6 * LIGHT, "transmitted")] {
         let scene = scene(&format!(
             "{}materials.leaf.diffuse_transmission = {{ reflectance = 0.3, transmittance = 0.6 }}\n{}{}",
             camera([0.0, eye, 0.0], 0.01),
             sheet("leaf"),
-            lamp("")
+            punctual_light("")
         ));
         assert_means(&scene, exact, 512, what, &WITH_CAMERA_PATHS);
     }
@@ -327,7 +327,7 @@ fn a_sheet_scatters_light_to_both_sides() {
 #[test]
 fn a_sheet_that_loses_nothing_vanishes_before_a_white_sky() {
     let scene = scene(
-        "background.radiance = 1
+        "environment.radiance = 1
         camera = { eye = [0, 0, 6], look_at = [0, 0, 0], fov = 40, resolution = [16, 16] }
         textures.squares.checker = { even = 0.6, odd = 0.6, scale = 3 }
         materials.leaf.diffuse_transmission = { reflectance = 0.4, transmittance = { texture = 'squares' } }

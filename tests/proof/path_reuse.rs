@@ -14,14 +14,14 @@ use crate::{
 };
 
 /// A room with all kinds of surfaces where paths may or must not be reused: walls of many colours, one of them one-sided, mirror,
-/// glass, metal and plastic, a lamp that reflects, a mesh, a texture, a sky behind an opening.
+/// glass, metal and plastic, a light that reflects, a mesh, a texture, a sky behind an opening.
 pub const ROOM: &str = r#"
 [camera]
 eye = [0.0, 1.0, 3.9]
 look_at = [0.0, 0.9, 0.0]
 fov = 70.0
 resolution = [32, 32]
-[background]
+[environment]
 radiance = [0.6, 0.9, 1.4]
 [textures.tiles]
 checker = { even = [0.9, 0.1, 0.2], odd = 0.8, scale = 6.0 }
@@ -134,7 +134,7 @@ fn reused_outliers_give_the_same_picture() {
         }
     }
     let capped = RenderSettings { max_bounces: Some(4), roulette: Roulette::fixed(0.7), ..settings(Estimator::Mis) };
-    for name in ["sky_lit", "depth_of_field", "motion_blur", "tinted_glass", "leaves", "lamps"] {
+    for name in ["sky_lit", "depth_of_field", "motion_blur", "tinted_glass", "leaves", "lights"] {
         let scene = load(Path::new(&format!("scenes/{name}.toml"))).expect("it is shipped");
         assert_same_picture(&scene, settings(Estimator::Mis), Reuse::Outliers, 600, name);
         assert_same_picture(&scene, capped, Reuse::Outliers, 300, name);

@@ -41,7 +41,7 @@ fn glass_mirror_disk_and_cylinder_agree_with_an_independent_renderer() {
 }
 
 #[test]
-fn lamps_of_all_sizes_on_plates_of_all_glosses_agree_with_an_independent_renderer() {
+fn lights_of_all_sizes_on_plates_of_all_glosses_agree_with_an_independent_renderer() {
     agrees("veach_mis");
 }
 

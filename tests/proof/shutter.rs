@@ -72,8 +72,8 @@ fn a_short_time_is_nearly_sharp() {
 }
 
 #[test]
-fn moving_lamps_light_by_where_they_are_while_it_is_open() {
-    // A spherical lamp above the horizon: E = π L (r/d)² cos θ. It moves along x from −1 to 2, two metres above.
+fn moving_lights_light_by_where_they_are_while_it_is_open() {
+    // A spherical light above the horizon: E = π L (r/d)² cos θ. It moves along x from −1 to 2, two metres above.
     let irradiance = |time: f64| {
         let x = 3.0 * time - 1.0;
         let d2 = x * x + 4.0;
@@ -102,7 +102,7 @@ fn moving_lamps_light_by_where_they_are_while_it_is_open() {
     }
 }
 
-/// Moving objects of every kind, including a lamp and the camera, frozen halfway or static at the same pose. There is one light,
+/// Moving objects of every kind, including a light and the camera, frozen halfway or static at the same pose. There is one light,
 /// because a moving light among several is chosen by all its positions.
 fn halfway(frozen: bool) -> Scene {
     let object = |shape: &str, place: &str, rest: &str| {
@@ -144,7 +144,7 @@ fn a_frozen_scene_equals_the_static_one() {
         (Estimator::Mis, Reuse::Suffixes),
     ] {
         let settings = RenderSettings { reuse, ..settings(estimator) };
-        // Directions towards moving lamps are sampled in their own space, so the samples differ.
+        // Directions towards moving lights are sampled in their own space, so the samples differ.
         let [a, b] = [&frozen, &standing].map(|scene| picture(scene, settings, RED, 256));
         let deviations: Vec<f64> = a.pixels.iter().zip(&b.pixels).map(|(a, b)| a.z_from(*b)).collect();
         assert_all_within(&deviations, &format!("{}, {reuse:?}", estimator.name()));
@@ -203,7 +203,7 @@ fn the_medium_around_the_eye_depends_on_time() {
         };
         let scene = scene(&format!(
             "camera = {{ eye = [0, 10, 0], look_at = [0, 10, -1], {eye} fov = 40.0, resolution = [8, 8], shutter = [{open:?}, {close:?}] }}
-            background.radiance = 1.0
+            environment.radiance = 1.0
             materials.tint.dielectric = {{ ior = 1.0, transmittance = 0.25 }}
             [[objects]]
             shape.sphere = {{ center = [0, 0, 0], radius = 1.0 }}

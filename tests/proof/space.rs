@@ -39,10 +39,10 @@ fn a_furnace_of_triangles_is_a_furnace() {
 }
 
 /// A scene with a shape that reflects and one that emits.
-fn lit(solid: &str, lamp: &str, motion: &str) -> Scene {
+fn lit(solid: &str, punctual_light: &str, motion: &str) -> Scene {
     scene(&format!(
         "camera = {{ eye = [0.0, 4.0, 5.0], look_at = [0.0, 0.3, 0.0], fov = 40.0, resolution = [32, 32], shutter = [0.0, 1.0] }}
-        background.radiance = [0.1, 0.1, 0.2]
+        environment.radiance = [0.1, 0.1, 0.2]
         materials.white.lambertian.albedo = 0.7
         materials.metal.conductor = {{ reflectance = 0.8, roughness = 0.7 }}
         [[objects]]
@@ -54,7 +54,7 @@ fn lit(solid: &str, lamp: &str, motion: &str) -> Scene {
         transform = [{{ scale = [0.9, 0.6, 0.7] }}, {{ rotate = {{ axis = [0, 1, 0], degrees = 30 }} }}]
         motion = [{motion}]
         [[objects]]
-        shape = {{ {lamp} }}
+        shape = {{ {punctual_light} }}
         emission.radiance = 4.0
         transform = [{{ scale = 0.6 }}, {{ translate = [1.0, 2.0, 1.0] }}]
         motion = [{motion}]"
@@ -131,7 +131,7 @@ fn a_moving_edge_covers_what_it_passes() {
 }
 
 #[test]
-fn every_estimator_finds_the_light_of_a_lamp_that_moves() {
+fn every_estimator_finds_the_light_of_a_light_that_moves() {
     const SIDE: usize = 8;
     // A ball rises from close above a white floor. Parallel rays look down beside it.
     let scene = scene(&format!(

@@ -105,7 +105,7 @@ fn shells_of_tinted_glass_and_air_are_a_pile_of_plates() {
 
 #[test]
 fn a_clear_ball_within_endless_fog_is_clear() {
-    // A flipped sphere is fog everywhere but inside it: 3 m of ball, then 6 m of fog, then the hollow's clear metre around the lamp.
+    // A flipped sphere is fog everywhere but inside it: 3 m of ball, then 6 m of fog, then the hollow's clear metre around the light.
     let text = "camera = { eye = [0.0, 0.0, 0.0], look_at = [0.0, 0.0, 1.0], fov = 1.0, resolution = [4, 4] }
         materials.clear.dielectric = { ior = 1.0 }
         materials.fog.dielectric = { ior = 1.0, transmittance = 0.5 }

@@ -15,18 +15,18 @@ const PIECE: usize = 256;
 
 /// The text of a scene file, without values that equal their defaults.
 pub fn new_text(description: &SceneDescription) -> String {
-    let SceneDescription { title, notes, camera, background, render, truth, .. } = description;
+    let SceneDescription { title, notes, camera, environment, render, reference, .. } = description;
     let around = SceneDescription {
         title: title.clone(),
         notes: notes.clone(),
         camera: camera.clone(),
-        background: background.clone(),
+        environment: environment.clone(),
         render: render.clone(),
-        truth: truth.clone(),
+        reference: reference.clone(),
         ..SceneDescription::default()
     };
     let entries = Table::of(&around).entries;
-    let is_list = |entry: &Entry| ["textures", "materials", "objects", "lamps"].contains(&entry.key);
+    let is_list = |entry: &Entry| ["textures", "materials", "objects", "lights"].contains(&entry.key);
     let first = entries.iter().position(is_list).unwrap_or(entries.len());
     let mut entries = entries.into_iter();
     let mut text = String::new();
@@ -40,8 +40,12 @@ pub fn new_text(description: &SceneDescription) -> String {
     for objects in description.objects.chunks(PIECE) {
         append_list(&mut text, "objects", &SceneDescription { objects: objects.to_vec(), ..SceneDescription::default() });
     }
-    for lamps in description.lamps.chunks(PIECE) {
-        append_list(&mut text, "lamps", &SceneDescription { lamps: lamps.to_vec(), ..SceneDescription::default() });
+    for punctual_lights in description.punctual_lights.chunks(PIECE) {
+        append_list(
+            &mut text,
+            "lights",
+            &SceneDescription { punctual_lights: punctual_lights.to_vec(), ..SceneDescription::default() },
+        );
     }
     append(&mut text, entries.filter(|entry| !is_list(entry)).collect());
     text
@@ -94,7 +98,7 @@ mod tests {
             scene.objects = vec![object.clone(); count];
             scene.materials = (0..count).map(|number| (format!("m {number}"), material.clone())).collect();
             scene.textures = (0..count).map(|number| (format!("t{number}"), Default::default())).collect();
-            scene.lamps = vec![Default::default(); count];
+            scene.punctual_lights = vec![Default::default(); count];
             assert!(new_text(&scene) == at_once(&scene), "{count} items");
         }
         assert_eq!(new_text(&SceneDescription::default()), at_once(&SceneDescription::default()));

@@ -13,7 +13,7 @@ use std::{
 
 use noisefall_base::math::SimdLevel;
 use noisefall_render::{
-    render::{Budget, RenderRequest, image_file::Format, path_reuse::resolved, threads::Threads, truth::Reference},
+    render::{Budget, RenderRequest, image_file::Format, path_reuse::resolved, reference::Reference, threads::Threads},
     render_file::Target,
 };
 use noisefall_scene::scene::{Estimator, RenderSettings, Scene};

@@ -25,9 +25,9 @@ pub struct Done<'a> {
     pub threads: usize,
     /// Seconds of building the scene and of rendering.
     pub seconds: [f64; 2],
-    /// The error against the scene's truth, if it has one.
+    /// The error against the scene's reference, if it has one.
     pub error: Option<(Comparison, Bias)>,
-    /// Message if the image contradicts the scene's truth by more than noise.
+    /// Message if the image contradicts the scene's reference by more than noise.
     pub contradiction: Option<String>,
     /// Command that replays the first invalid sample.
     pub replay: Option<String>,

@@ -1,4 +1,4 @@
-//! Adds parts to the scene: shapes and lamps where the image shows a surface, as large as suits what the camera sees there.
+//! Adds parts to the scene: shapes and lights where the image shows a surface, as large as suits what the camera sees there.
 use glam::DVec3;
 use noisefall_base::declare::{Declare, Path};
 use noisefall_edit::edit::{Document, Edit, Placement, Tree};
@@ -18,7 +18,7 @@ impl App {
         self.selection.clicked = self.window.hovered.or(self.selection.clicked);
     }
 
-    /// Adds an object or a lamp, or a material or a texture. An object gets the material of the surface where it is placed, if that is
+    /// Adds an object or a light, or a material or a texture. An object gets the material of the surface where it is placed, if that is
     /// diffuse.
     pub fn add(&mut self, new: New) {
         let (placement, exposure) = (self.placement(None, DVec3::Y), self.session.look.display.exposure.into());
@@ -30,10 +30,10 @@ impl App {
                 let material = self.diffuse_material_below();
                 document.add_shape(kind, &placement.on_floor(scene, clearance), material.as_deref())
             }
-            New::Lamp(kind) => document.add_lamp(kind, &placement.hung(scene), exposure),
-            New::LampWithoutSurface(kind) => {
+            New::AreaLight(kind) => document.add_light(kind, &placement.hung(scene), exposure),
+            New::PunctualLight(kind) => {
                 let floor = placement.on_floor(scene, 2.0 * clearance);
-                document.add_lamp_without_surface(kind, &floor, floor.lamp_height(scene), exposure)
+                document.add_punctual_light(kind, &floor, floor.light_height(scene), exposure)
             }
             New::Material => Some(added(document, "materials", "material", &mut MaterialDescription::default())),
             New::Texture => Some(added(document, "textures", "texture", &mut TextureKind::from(Checker::default()))),

@@ -33,9 +33,9 @@ impl App {
             window.marking = None;
         }
         if let Some(pixel) = output.clicked {
-            let lamp = output.area.and_then(|area| self.lamp_under(ui, &area));
-            match lamp {
-                Some(lamp) => self.pick(Some(lamp)),
+            let punctual_light = output.area.and_then(|area| self.punctual_under(ui, &area));
+            match punctual_light {
+                Some(punctual_light) => self.pick(Some(punctual_light)),
                 None => self.click(pixel),
             }
         }
@@ -73,11 +73,11 @@ impl App {
     /// Draws what lies over the picture. `second` is where B lies, if that is elsewhere.
     pub fn overlays(&mut self, ui: &mut Ui, area: &PictureArea, second: Option<&PictureArea>) {
         self.outline_selection(ui, area);
-        self.show_lamp_icons(ui, area);
+        self.show_light_icons(ui, area);
         self.show_gizmo(ui, area);
         let (session, results) = (&self.session, &self.results);
         let region = self.window.marking.or(session.budget.region);
-        let progress = self.background.denoiser.progress().filter(|_| self.shown_view().is_denoised());
+        let progress = self.environment.denoiser.progress().filter(|_| self.shown_view().is_denoised());
         let denoising = progress.map(|part| Legend {
             title: format!("Denoising, {:.0} %. This is the image without it.", 100.0 * part),
             scale: None,

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use noisefall_edit::edit::Edit;
 use noisefall_scene::{
-    scene::{Object, description::LampDescription},
+    scene::{Object, description::PunctualLightDescription},
     shape::Transform,
 };
 
@@ -15,14 +15,14 @@ use crate::viewer::{
 
 /// Distance of the middles of an object and its copy, in radii.
 const RADII: f64 = 2.2;
-/// The largest distance of a copy, and that of a lamp without surface, as fractions of the scene's size.
+/// The largest distance of a copy, and that of a punctual light, as fractions of the scene's size.
 const FARTHEST: f64 = 0.25;
-const LAMP: f64 = 0.05;
+const LIGHT: f64 = 0.05;
 /// The largest number of places that are tried.
 const MOST_STEPS: u32 = 20;
 
 impl App {
-    /// Copies a part of the scene and selects the copy. That of an object or a lamp is put beside the original, as seen by the camera.
+    /// Copies a part of the scene and selects the copy. That of an object or a light is put beside the original, as seen by the camera.
     pub fn duplicate_beside(&mut self, original: &Subject) {
         let by = self.aside(original);
         if self.duplicate(original) {
@@ -39,7 +39,7 @@ impl App {
         }
     }
 
-    /// Copies the selected object or lamp and selects the copy, which then follows the pointer.
+    /// Copies the selected object or light and selects the copy, which then follows the pointer.
     pub fn duplicate_and_move(&mut self, original: Subject) {
         if self.duplicate(&original) {
             self.selection.copy_of = Some(original);
@@ -61,28 +61,28 @@ impl App {
         self.edit_and_select(&edit, &copy)
     }
 
-    /// The edit that moves the selected object or lamp.
+    /// The edit that moves the selected object or light.
     fn moved(&self, by: &Transform) -> Option<Edit> {
         let document = &self.editor.as_ref()?.document;
         match self.selection.subject.as_ref()? {
             Subject::Object(object) => document.transformed(*object, by, DVec3::ZERO),
-            Subject::Lamp(lamp) => document.transformed_lamp(*lamp, by, DVec3::ZERO),
+            Subject::PunctualLight(punctual_light) => document.transformed_light(*punctual_light, by, DVec3::ZERO),
             _ => None,
         }
     }
 
-    /// From an object or a lamp to the first place beside it where no other one is: along the horizontal axis that the image shows widest.
+    /// From an object or a light to the first place beside it where no other one is: along the horizontal axis that the image shows widest.
     /// The distance has two digits.
     pub fn aside(&self, original: &Subject) -> Option<Transform> {
         let scene = &self.session.opened.as_ref()?.scene;
         let sphere = |object: &Object| object.shape.bounding_sphere();
-        let lamps = &self.editor.as_ref()?.document.description().lamps;
+        let punctual_lights = &self.editor.as_ref()?.document.description().punctual_lights;
         let (center, distance) = match original {
             Subject::Object(object) => {
                 let (center, radius) = framing::around(scene.objects.get(scene.objects_of(*object))?.iter().map(sphere))?;
                 (center, (RADII * radius).min(FARTHEST * scene.size))
             }
-            Subject::Lamp(lamp) => (lamps.get(*lamp)?.position()?, LAMP * scene.size),
+            Subject::PunctualLight(punctual_light) => (punctual_lights.get(*punctual_light)?.position()?, LIGHT * scene.size),
             _ => return None,
         };
         let distance: f64 = format!("{distance:.1e}").parse().ok().filter(|distance: &f64| distance.is_finite())?;
@@ -91,7 +91,7 @@ impl App {
         let is_near = |other: DVec3, by: f64| other.distance(center + axis * by) < 0.5 * distance;
         let is_free = |by: &f64| {
             let is_object = scene.objects.iter().map(sphere).any(|(at, _)| is_near(at, *by));
-            !is_object && !lamps.iter().filter_map(LampDescription::position).any(|at| is_near(at, *by))
+            !is_object && !punctual_lights.iter().filter_map(PunctualLightDescription::position).any(|at| is_near(at, *by))
         };
         let by = (1..MOST_STEPS).map(|step| f64::from(step) * distance).find(is_free).unwrap_or(distance);
         Some(Transform::Translate(axis * by))

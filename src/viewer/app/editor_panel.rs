@@ -81,7 +81,7 @@ impl App {
         let name = subject.name(editor.document.description());
         let user = ui.horizontal_wrapped(|ui| {
             ui.label(RichText::new(name).strong()).on_hover_text(place_in_file(&path));
-            if matches!(subject, Subject::Object(_) | Subject::Lamp(_)) {
+            if matches!(subject, Subject::Object(_) | Subject::PunctualLight(_)) {
                 modes::show(ui, &mut self.selection.gizmo.mode);
             }
             users::show(ui, editor.document.description(), subject)

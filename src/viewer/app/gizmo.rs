@@ -1,4 +1,4 @@
-//! Joins the gizmo with the selected object or lamp: its operations are edits of the document.
+//! Joins the gizmo with the selected object or light: its operations are edits of the document.
 use egui::Ui;
 use glam::DVec3;
 use noisefall_scene::shape::Transform;
@@ -38,10 +38,12 @@ impl App {
         output.into_iter().for_each(|output| self.follow_gizmo(&subject, &output));
     }
 
-    /// The middle of the selected object, or the position of the selected lamp. A copy is where its original is until it is compiled.
+    /// The middle of the selected object, or the position of the selected light. A copy is where its original is until it is compiled.
     fn pivot(&self) -> Option<DVec3> {
         let object = match self.selection.copy_of.as_ref().or(self.selection.subject.as_ref())? {
-            Subject::Lamp(place) => return self.editor.as_ref()?.document.description().lamps.get(*place)?.position(),
+            Subject::PunctualLight(place) => {
+                return self.editor.as_ref()?.document.description().punctual_lights.get(*place)?.position();
+            }
             Subject::Object(place) => *place,
             _ => return None,
         };
@@ -68,7 +70,7 @@ impl App {
             self.change_scene(&format!("{} of {name}", operation(change)), |editor| {
                 editor.drag_from_start(|scene| match subject {
                     Subject::Object(object) => scene.transformed(*object, change, *pivot),
-                    Subject::Lamp(lamp) => scene.transformed_lamp(*lamp, change, *pivot),
+                    Subject::PunctualLight(punctual_light) => scene.transformed_light(*punctual_light, change, *pivot),
                     _ => None,
                 })
             });

@@ -28,8 +28,8 @@ impl App {
         // Over a handle of the gizmo too.
         let opens = response.contains_pointer() && ui.input(|input| input.pointer.button_clicked(PointerButton::Secondary));
         if let Some(pixel) = self.window.hovered.filter(|_| opens) {
-            let lamp = area.and_then(|area| self.lamp_under(ui, area));
-            let subject = lamp.or_else(|| self.object_at(pixel).map(Subject::Object));
+            let punctual_light = area.and_then(|area| self.punctual_under(ui, area));
+            let subject = punctual_light.or_else(|| self.object_at(pixel).map(Subject::Object));
             self.selection.clicked = Some(pixel);
             self.pick(subject.clone());
             self.window.menu_of = subject;

@@ -49,7 +49,7 @@ impl App {
                 let Subject::Object(place) = subject else { return };
                 self.assign_texture(place, texture);
             }
-            Action::AddBackground => _ = self.edit(&Edit::insert(subject.path())),
+            Action::AddEnvironment => _ = self.edit(&Edit::insert(subject.path())),
         }
     }
 

@@ -9,7 +9,7 @@ pub struct Selection {
     pub subject: Option<Subject>,
     pub outline: OutlineFinder,
     pub gizmo: Gizmo,
-    /// What the gizmo has done to the object or lamp so far.
+    /// What the gizmo has done to the object or light so far.
     pub change: Option<Transform>,
     /// The part is a copy of this one, which the gizmo moves until it is confirmed or discarded.
     pub copy_of: Option<Subject>,
@@ -37,9 +37,9 @@ impl Selection {
         (self.change, self.copy_of) = (None, None);
     }
 
-    /// The selected part that the gizmo may move: an object or a lamp.
+    /// The selected part that the gizmo may move: an object or a light.
     pub fn movable(&self) -> Option<&Subject> {
-        self.subject.as_ref().filter(|subject| matches!(subject, Subject::Object(_) | Subject::Lamp(_)))
+        self.subject.as_ref().filter(|subject| matches!(subject, Subject::Object(_) | Subject::PunctualLight(_)))
     }
 
     /// The place in the description of the selected object.

@@ -4,7 +4,7 @@ use std::sync::Arc;
 use noisefall_kernel::{integrator::Features, measure::LogRatio};
 use noisefall_render::render::{
     Frame,
-    truth::Reference,
+    reference::Reference,
     view::{Field, Legend, Scale, Sources, View, ZScoreHistogram, draw},
 };
 
@@ -78,7 +78,7 @@ pub fn render(request: DisplayRequest) -> DisplayImage {
         request;
     let is_comparison = request.is_comparison;
     let (on_screen, most_side) = (request.on_screen, request.most_side);
-    let truth = reference.as_deref();
+    let known = reference.as_deref();
     let picture = |frame: &Frame, radiance: Option<&[[f32; 3]]>, scale: Option<Scale>| {
         let mut pixels = Vec::new();
         let (pinned, features) = (pinned.as_deref(), features.as_deref());
@@ -87,7 +87,8 @@ pub fn render(request: DisplayRequest) -> DisplayImage {
         let reduced = (to != size && (look.view == View::Radiance || radiance.is_some() && look.view.is_denoised()))
             .then(|| averaged(radiance.unwrap_or(&frame.radiance), size, to));
         let radiance = reduced.as_deref().or(radiance);
-        let sources = Sources { frame, radiance, truth, pinned, is_comparison, features, scale, materials: &materials };
+        let sources =
+            Sources { frame, radiance, reference: known, pinned, is_comparison, features, scale, materials: &materials };
         let shown = draw(look, &sources, &mut pixels);
         if to != size && reduced.is_none() {
             pixels = averaged_codes(&pixels, size, to);
@@ -108,15 +109,15 @@ pub fn render(request: DisplayRequest) -> DisplayImage {
     let second_field = second_shown.flatten().map(|(_, field)| field);
     let values = |field| PixelValues::of(look.view, field, features.as_ref());
     let compare = |frame: &Frame| {
-        let truth = truth?;
-        Some(ReferenceComparison { rel_mse: truth.compare(frame)?.rel_mse, bias: truth.bias(frame)?.z })
+        let known = known?;
+        Some(ReferenceComparison { rel_mse: known.compare(frame)?.rel_mse, bias: known.bias(frame)?.z })
     };
-    let scores = truth.filter(|_| look.view.has_scores()).and_then(|truth| ZScoreHistogram::of(&frame, truth));
+    let scores = known.filter(|_| look.view.has_scores()).and_then(|known| ZScoreHistogram::of(&frame, known));
     DisplayImage {
         is_reduced: image.size != [frame.width, frame.height].map(|side| side as usize),
         comparison: compare(&frame),
         second_comparison: second.as_ref().and_then(|second| compare(second)),
-        error_ratio: second.as_ref().and_then(|second| error_ratio([&frame, second], truth)),
+        error_ratio: second.as_ref().and_then(|second| error_ratio([&frame, second], known)),
         lit: lit(&frame),
         frame,
         second,
@@ -132,12 +133,12 @@ pub fn render(request: DisplayRequest) -> DisplayImage {
 }
 
 /// The error of a frame over that of another one.
-fn error_ratio([first, second]: [&Frame; 2], truth: Option<&Reference>) -> Option<LogRatio> {
+fn error_ratio([first, second]: [&Frame; 2], reference: Option<&Reference>) -> Option<LogRatio> {
     if first.is_coarse() || second.is_coarse() || first.width != second.width {
         return None;
     }
-    match truth {
-        Some(truth) => LogRatio::jackknife(&truth.block_errors(first)?, &truth.block_errors(second)?),
+    match reference {
+        Some(known) => LogRatio::jackknife(&known.block_errors(first)?, &known.block_errors(second)?),
         None => LogRatio::jackknife(first.block_errors.as_ref()?, second.block_errors.as_ref()?),
     }
 }

@@ -2,7 +2,7 @@
 use std::sync::Arc;
 
 use noisefall_kernel::integrator::Features;
-use noisefall_render::render::{Frame, truth::Reference, view::DisplaySettings};
+use noisefall_render::render::{Frame, reference::Reference, view::DisplaySettings};
 use noisefall_scene::scene::Strategy;
 
 /// Frames and how they are displayed.

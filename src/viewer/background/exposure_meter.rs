@@ -9,7 +9,7 @@ const MIDDLE: f64 = 0.25;
 const TOO_BRIGHT: f64 = 6.0;
 /// Displayed luminance that no block reaches if an image is too dark: an eightieth of white.
 const TOO_DARK: f64 = 0.0125;
-/// Least fraction of the pixels that must have light, for an image to be too bright: a lamp alone may be bright.
+/// Least fraction of the pixels that must have light, for an image to be too bright: a light alone may be bright.
 const LEAST_LIT: f64 = 0.05;
 /// Exposures are multiples of this, stops.
 const STEP: f64 = 0.5;
@@ -85,7 +85,7 @@ mod tests {
         for radiance in [0.02, 0.2, 2.0] {
             assert_eq!(found(&object(120, radiance), 0.0), None, "{radiance}");
         }
-        assert_eq!(found(&object(4, 100.0), 0.0), None, "a lamp in the dark");
+        assert_eq!(found(&object(4, 100.0), 0.0), None, "a light in the dark");
         assert_eq!(found(&speckled(13, 10.0, 0.0), 0.0), None, "noise with a mean that can be shown");
         for nothing in [vec![[0.0; 3]; 240], vec![[f32::NAN; 3]; 240], vec![[f32::INFINITY; 3]; 240], Vec::new()] {
             assert_eq!(found(&nothing, 0.0), None);

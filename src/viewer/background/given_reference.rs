@@ -4,7 +4,7 @@ use std::sync::Arc;
 use noisefall_render::render::{
     Frame, RenderRequest,
     image_file::{Picture, Provenance},
-    truth::Reference,
+    reference::Reference,
 };
 use noisefall_scene::{
     sampling::Sampler,

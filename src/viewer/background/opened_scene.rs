@@ -6,8 +6,8 @@ use std::{
 
 use noisefall_edit::edit::{Document, Recovery, Template};
 use noisefall_formats::import::{self, ImportOptions, Opened, Remarks};
-use noisefall_render::render::{checkpoint::is_kept_file, truth::Reference};
-use noisefall_scene::scene::{BUILT_IN, Scene, ShippedScene, Truth, built_in, description::SceneDescription, parse};
+use noisefall_render::render::{checkpoint::is_kept_file, reference::Reference};
+use noisefall_scene::scene::{BUILT_IN, Scene, SceneReference, ShippedScene, built_in, description::SceneDescription, parse};
 
 use super::{
     catalogue::{self, BUILT_IN_NAME},
@@ -20,7 +20,7 @@ pub struct OpenedScene {
     pub name: String,
     pub path: Option<PathBuf>,
     /// The reference in the scene, which is for its own camera.
-    pub truth: Option<Arc<Reference>>,
+    pub reference: Option<Arc<Reference>>,
     /// Source of the scene.
     pub description: Arc<SceneDescription>,
     /// Names of the materials by number.
@@ -59,12 +59,12 @@ impl OpenedScene {
     /// Takes over an edited scene.
     pub fn change(&mut self, scene: Arc<Scene>) {
         self.materials = scene.legend().names.into();
-        let is_same = match (&scene.truth, &self.scene.truth) {
-            (Some(Truth::Image(_, new)), Some(Truth::Image(_, old))) => Arc::ptr_eq(new, old),
+        let is_same = match (&scene.reference, &self.scene.reference) {
+            (Some(SceneReference::Image(_, new)), Some(SceneReference::Image(_, old))) => Arc::ptr_eq(new, old),
             (new, old) => new == old,
         };
         if !is_same {
-            self.truth = Reference::of(&scene).map(Arc::new);
+            self.reference = Reference::of(&scene).map(Arc::new);
         }
         self.scene = scene;
     }
@@ -138,8 +138,11 @@ pub fn restore(recovery: &Recovery, options: &ImportOptions) -> OpenResult {
 }
 
 fn opened(scene: Arc<Scene>, name: String, document: Document, path: Option<PathBuf>) -> (OpenedScene, Document) {
-    let truth = Reference::of(&scene).map(Arc::new);
+    let reference = Reference::of(&scene).map(Arc::new);
     let (materials, warnings) = (scene.legend().names.into(), scene.warnings().to_vec());
     let description = Arc::new(document.description().clone());
-    (OpenedScene { scene, name, path, truth, description, materials, warnings, remarks: Arc::default(), kept: None }, document)
+    (
+        OpenedScene { scene, name, path, reference, description, materials, warnings, remarks: Arc::default(), kept: None },
+        document,
+    )
 }

@@ -190,11 +190,11 @@ pub mod tests {
     fn a_scene_without_a_file_is_found_with_its_title() {
         let kept = tempfile::tempdir().expect("a folder");
         let mut document = Document::untitled(BUILT_IN).expect("it is a scene");
-        let edit = Edit::set(ParameterPath::of("title"), OwnedValue::Text("Two lamps".to_owned()));
+        let edit = Edit::set(ParameterPath::of("title"), OwnedValue::Text("Two lights".to_owned()));
         document.apply(&edit).expect("a title can be anything");
         let mut own = None;
         assert!(keep(kept.path(), &mut own, &document, None));
         drop(own);
-        assert_eq!(find(kept.path(), None).map(|found| found.title).as_deref(), Some("Two lamps"));
+        assert_eq!(find(kept.path(), None).map(|found| found.title).as_deref(), Some("Two lights"));
     }
 }

@@ -4,7 +4,7 @@ mod flight;
 pub mod framing;
 pub mod gizmo;
 pub mod interaction;
-pub mod lamp_icons;
+pub mod light_icons;
 pub mod navigation;
 pub mod notice;
 pub mod overlay;

@@ -35,7 +35,7 @@ mod tests {
 
     use super::*;
 
-    /// A field of balls, and a lamp that is described last and compiled first.
+    /// A field of balls, and a light that is described last and compiled first.
     fn scene() -> Scene {
         let text = r#"format = 1
             camera = { eye = [0.0, 0.0, 10.0], look_at = [0.0, 0.0, 0.0], projection.orthographic.width = 4.0, resolution = [40, 40] }

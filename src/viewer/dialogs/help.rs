@@ -35,8 +35,8 @@ const KEYS: [(&str, &[(&str, &str)]); 5] = [
     (
         "Scene and selected object",
         &[
-            ("Click", "select an object, or the icon of a lamp; Esc clears the selection"),
-            ("Shift+A", "add a shape, a lamp, a material or a texture, on the page Edit"),
+            ("Click", "select an object, or the icon of a light; Esc clears the selection"),
+            ("Shift+A", "add a shape, a light, a material or a texture, on the page Edit"),
             ("Drag from the list", "assign a material or a texture to an object"),
             ("Drop a file", "open a scene; add a mesh, a texture or a sky"),
             ("Right click", "in the list or the image: duplicate, rename, delete, change kind, rest on floor"),

@@ -59,13 +59,13 @@ const PAGES: [Page; 5] = [
     Page {
         title: "Bidirectional path tracing",
         text: "The glass focuses light to a caustic. Light paths reach it easily; camera paths rarely hit a small light through \
-               glass. A strategy (s, t) takes s vertices from the lamp and t from the camera. Bidirectional path \
+               glass. A strategy (s, t) takes s vertices from the light and t from the camera. Bidirectional path \
                tracing combines all strategies, each weighted by its pdf over the sum of all pdfs. The image stays the same. \
                Caustics have less noise, but simple scenes take more time.",
         shows: Some(InstrumentTab::Compare),
         tries: ("Compare MIS with bidirectional", TourRequest::CompareBothEnds),
         without_glass: Some((
-            "Paths can also start at the lamps. A strategy (s, t) takes s vertices from a lamp and t from the camera. Bidirectional \
+            "Paths can also start at the lights. A strategy (s, t) takes s vertices from a light and t from the camera. Bidirectional \
              path tracing combines all strategies. This pays off for caustics, the light that glass focuses, and this scene has no \
              glass. Open one that has, and compare there.",
             ("Open a scene with glass", TourRequest::OpenGlass),

@@ -23,7 +23,7 @@ pub struct Bounces {
 }
 
 impl Default for Bounces {
-    /// The first term beyond the lamps themselves.
+    /// The first term beyond the lights themselves.
     fn default() -> Bounces {
         Bounces { k: 1, up_to: false, strategy: None }
     }
@@ -198,7 +198,7 @@ fn meaning(Bounces { k, up_to, .. }: Bounces) -> String {
         (0, _) => "light without a bounce".to_owned(),
         (1, false) => "direct light: one bounce".to_owned(),
         (k, false) => format!("light after {k} bounces"),
-        (1, true) => "lamps, and light after one bounce".to_owned(),
+        (1, true) => "lights, and light after one bounce".to_owned(),
         (k, true) => format!("light after at most {k} bounces"),
     }
 }
@@ -223,7 +223,7 @@ mod tests {
     fn terms_are_said_in_words() {
         let said = |k, up_to| meaning(Bounces { k, up_to, strategy: None });
         assert_eq!(said(0, false), said(0, true));
-        assert!(said(1, false).contains("direct") && said(1, true).contains("lamps"));
+        assert!(said(1, false).contains("direct") && said(1, true).contains("lights"));
         assert!(said(5, false).contains("5 bounces") && !said(5, false).contains("most"));
         assert!(said(5, true).contains("at most 5 bounces"));
         assert!(said(LAST, true).contains("all") && said(LAST, false).contains("and more"));

@@ -15,6 +15,6 @@ pub enum PanelTab {
 pub fn show(ui: &mut Ui, page: &mut PanelTab) {
     ui.horizontal(|ui| {
         ui.selectable_value(page, PanelTab::Render, "Render").on_hover_text("Settings of the render and of the window.");
-        ui.selectable_value(page, PanelTab::Edit, "Edit").on_hover_text("Objects, materials, textures and lamps of the scene.");
+        ui.selectable_value(page, PanelTab::Edit, "Edit").on_hover_text("Objects, materials, textures and lights of the scene.");
     });
 }

@@ -2,7 +2,7 @@
 use egui::{Popup, Ui};
 use noisefall_base::declare::OneOf;
 use noisefall_edit::edit::{TEMPLATES, Template};
-use noisefall_scene::{light::lamp::LampKind, shape::ShapeKind};
+use noisefall_scene::{light::punctual_light::PunctualLightKind, shape::ShapeKind};
 
 use super::outliner::New;
 use crate::viewer::widgets::list::{closing, explained};
@@ -36,15 +36,15 @@ pub fn show(ui: &mut Ui, opens_add: bool) -> Option<SceneCommand> {
 fn add_menu(ui: &mut Ui, opens: bool) -> Option<New> {
     let menu = ui.menu_button("Add", |ui| {
         let shape = ui.menu_button("Shape", |ui| kinds::<ShapeKind>(ui).map(New::Shape)).inner.flatten();
-        let lamp = ui.menu_button("Lamp", lamps).inner.flatten();
+        let light = ui.menu_button("Light", lights).inner.flatten();
         let material = ui.button("Material").clicked().then_some(New::Material);
         let texture = ui.button("Texture").clicked().then_some(New::Texture);
-        closing(ui, shape.or(lamp).or(material).or(texture))
+        closing(ui, shape.or(light).or(material).or(texture))
     });
     if opens {
         Popup::open_id(ui.ctx(), Popup::default_response_id(&menu.response));
     }
-    let doc = "Adds an object or a lamp where you clicked last in the image, or a material or a texture. (Shift+A)";
+    let doc = "Adds an object or a light where you clicked last in the image, or a material or a texture. (Shift+A)";
     menu.response.on_hover_text(doc);
     menu.inner.flatten()
 }
@@ -63,11 +63,11 @@ fn template_menu(ui: &mut Ui) -> Option<Template> {
     menu.inner.flatten()
 }
 
-/// Shapes that emit light, and lamps without surface.
-fn lamps(ui: &mut Ui) -> Option<New> {
-    let shape = kinds::<ShapeKind>(ui).map(New::Lamp);
+/// Shapes that emit light, and punctual lights.
+fn lights(ui: &mut Ui) -> Option<New> {
+    let shape = kinds::<ShapeKind>(ui).map(New::AreaLight);
     ui.separator();
-    shape.or(kinds::<LampKind>(ui).map(New::LampWithoutSurface))
+    shape.or(kinds::<PunctualLightKind>(ui).map(New::PunctualLight))
 }
 
 fn kinds<T: OneOf>(ui: &mut Ui) -> Option<&'static str> {

@@ -1,11 +1,11 @@
 //! The parts of a scene that can be selected and edited.
 use noisefall_base::declare::{Declare, OneOf, Path, Step};
 use noisefall_scene::{
-    light::lamp::LampKind,
+    light::punctual_light::PunctualLightKind,
     material::Material,
     scene::{
         Projection,
-        description::{BackgroundDescription, Presentation, SceneDescription},
+        description::{EnvironmentDescription, Presentation, SceneDescription},
     },
     shape::ShapeKind,
     texture::TextureKind,
@@ -16,12 +16,12 @@ use noisefall_scene::{
 pub enum Subject {
     /// An object, one that emits light included, by its place in the description.
     Object(usize),
-    /// A lamp without surface, by its place in the description.
-    Lamp(usize),
+    /// A punctual light, by its place in the description.
+    PunctualLight(usize),
     Material(String),
     Texture(String),
     Camera,
-    Background,
+    Environment,
     /// Title, notes, settings and truth.
     Presentation,
 }
@@ -32,11 +32,11 @@ impl Subject {
         let top = Path::default();
         match self {
             Subject::Object(place) => top.key("objects").item(*place),
-            Subject::Lamp(place) => top.key("lamps").item(*place),
+            Subject::PunctualLight(place) => top.key("lights").item(*place),
             Subject::Material(name) => top.key("materials").key(name),
             Subject::Texture(name) => top.key("textures").key(name),
             Subject::Camera => top.key("camera"),
-            Subject::Background => top.key("background"),
+            Subject::Environment => top.key("environment"),
             Subject::Presentation => top,
         }
     }
@@ -53,11 +53,11 @@ impl Subject {
     pub fn at(path: &Path) -> Option<Subject> {
         Some(match &path.0[..] {
             [Step::Key(list), Step::Item(place)] if list == "objects" => Subject::Object(*place),
-            [Step::Key(list), Step::Item(place)] if list == "lamps" => Subject::Lamp(*place),
+            [Step::Key(list), Step::Item(place)] if list == "lights" => Subject::PunctualLight(*place),
             [Step::Key(map), Step::Key(name)] if map == "materials" => Subject::Material(name.clone()),
             [Step::Key(map), Step::Key(name)] if map == "textures" => Subject::Texture(name.clone()),
             [Step::Key(key)] if key == "camera" => Subject::Camera,
-            [Step::Key(key)] if key == "background" => Subject::Background,
+            [Step::Key(key)] if key == "environment" => Subject::Environment,
             [] => Subject::Presentation,
             _ => return None,
         })
@@ -77,11 +77,11 @@ impl Subject {
         let path = self.path();
         Some(match self {
             Subject::Object(_) => (path.key("shape"), ShapeKind::WHAT),
-            Subject::Lamp(_) => (path, LampKind::WHAT),
+            Subject::PunctualLight(_) => (path, PunctualLightKind::WHAT),
             Subject::Material(_) => (path, Material::WHAT),
             Subject::Texture(_) => (path, TextureKind::WHAT),
             Subject::Camera => (path, Projection::WHAT),
-            Subject::Background => (path, BackgroundDescription::WHAT),
+            Subject::Environment => (path, EnvironmentDescription::WHAT),
             Subject::Presentation => return None,
         })
     }
@@ -90,10 +90,10 @@ impl Subject {
     pub fn is_in(&self, description: &SceneDescription) -> bool {
         match self {
             Subject::Object(place) => *place < description.objects.len(),
-            Subject::Lamp(place) => *place < description.lamps.len(),
+            Subject::PunctualLight(place) => *place < description.punctual_lights.len(),
             Subject::Material(name) => description.materials.contains_key(name),
             Subject::Texture(name) => description.textures.contains_key(name),
-            Subject::Camera | Subject::Background | Subject::Presentation => true,
+            Subject::Camera | Subject::Environment | Subject::Presentation => true,
         }
     }
 
@@ -104,11 +104,11 @@ impl Subject {
         }
         match self {
             Subject::Object(place) => copy(description.objects.get(*place)),
-            Subject::Lamp(place) => copy(description.lamps.get(*place)),
+            Subject::PunctualLight(place) => copy(description.punctual_lights.get(*place)),
             Subject::Material(name) => copy(description.materials.get(name)),
             Subject::Texture(name) => copy(description.textures.get(name)),
             Subject::Camera => copy(Some(&description.camera)),
-            Subject::Background => copy(description.background.as_ref()),
+            Subject::Environment => copy(description.environment.as_ref()),
             Subject::Presentation => copy(Some(&Presentation::of(description))),
         }
     }
@@ -119,7 +119,7 @@ mod tests {
     use noisefall_edit::edit::Tree;
     use noisefall_scene::{
         material::Lambertian,
-        scene::description::{BackgroundDescription, LampDescription},
+        scene::description::{EnvironmentDescription, PunctualLightDescription},
         shape::Sphere,
     };
 
@@ -131,9 +131,9 @@ mod tests {
         assert_eq!(found(Subject::Object(2)), Some((Path::of("objects.2.shape"), ShapeKind::WHAT)));
         assert_eq!(found(Subject::Material("red".to_owned())), Some((Path::of("materials.red"), Material::WHAT)));
         assert_eq!(found(Subject::Texture("bark".to_owned())), Some((Path::of("textures.bark"), TextureKind::WHAT)));
-        assert_eq!(found(Subject::Lamp(1)), Some((Path::of("lamps.1"), LampKind::WHAT)));
+        assert_eq!(found(Subject::PunctualLight(1)), Some((Path::of("lights.1"), PunctualLightKind::WHAT)));
         assert_eq!(found(Subject::Camera), Some((Path::of("camera"), Projection::WHAT)));
-        assert_eq!(found(Subject::Background), Some((Path::of("background"), BackgroundDescription::WHAT)));
+        assert_eq!(found(Subject::Environment), Some((Path::of("environment"), EnvironmentDescription::WHAT)));
         assert_eq!(found(Subject::Presentation), None);
     }
 
@@ -150,12 +150,15 @@ mod tests {
         assert!(is(&ball, &room, &mut room.objects[0].clone()));
         assert_eq!([ball.path(), Subject::Material("white".to_owned()).path()], ["objects.0", "materials.white"].map(Path::of));
         assert!(is(&Subject::Camera, &room, &mut room.camera.clone()));
-        assert!([Subject::Object(1), Subject::Background].iter().all(|subject| found(subject, &room).is_none()));
-        room.background = Some(BackgroundDescription::default());
-        assert!(is(&Subject::Background, &room, &mut BackgroundDescription::default()));
-        room.lamps.push(LampDescription::default());
-        assert_eq!(Subject::at(&Path::of("lamps.0")), Some(Subject::Lamp(0)));
-        assert!(is(&Subject::Lamp(0), &room, &mut LampDescription::default()) && !Subject::Lamp(1).is_in(&room));
+        assert!([Subject::Object(1), Subject::Environment].iter().all(|subject| found(subject, &room).is_none()));
+        room.environment = Some(EnvironmentDescription::default());
+        assert!(is(&Subject::Environment, &room, &mut EnvironmentDescription::default()));
+        room.punctual_lights.push(PunctualLightDescription::default());
+        assert_eq!(Subject::at(&Path::of("lights.0")), Some(Subject::PunctualLight(0)));
+        assert!(
+            is(&Subject::PunctualLight(0), &room, &mut PunctualLightDescription::default())
+                && !Subject::PunctualLight(1).is_in(&room)
+        );
         room.title = "Room".to_owned();
         assert!(is(&Subject::Presentation, &room, &mut Presentation::of(&room)));
     }

@@ -3,7 +3,7 @@ use std::path::Path;
 
 use noisefall_base::declare::OneOf;
 use noisefall_scene::{
-    light::lamp::LampKind,
+    light::punctual_light::PunctualLightKind,
     scene::{Object, Scene},
     shape::ShapeKind,
 };
@@ -41,13 +41,13 @@ fn suits_the_view(window: &Window, what: &str) {
 }
 
 #[test]
-fn shapes_and_lamps_suit_what_the_camera_sees_before_a_far_backdrop() {
+fn shapes_and_lights_suit_what_the_camera_sees_before_a_far_backdrop() {
     let mut window = studio();
     // The wall behind, the floor before the ball, and the ball.
     for pixel in [[10, 8], [48, 60], [48, 34]] {
         window.state_mut().selection.clicked = Some(pixel);
         for kind in ShapeKind::alternatives() {
-            for new in [New::Shape(kind.name()), New::Lamp(kind.name())] {
+            for new in [New::Shape(kind.name()), New::AreaLight(kind.name())] {
                 // What is far up or at the edge may be out of the image, but is never around the camera.
                 let is_middle = pixel[0] == 48 && matches!(new, New::Shape(_));
                 window.state_mut().add(new);
@@ -63,11 +63,11 @@ fn shapes_and_lamps_suit_what_the_camera_sees_before_a_far_backdrop() {
                 window.state_mut().discard_edit();
             }
         }
-        for kind in LampKind::alternatives() {
-            window.state_mut().add(New::LampWithoutSurface(kind.name()));
-            let lamp = description(&window).lamps.last().expect("it is there").clone();
+        for kind in PunctualLightKind::alternatives() {
+            window.state_mut().add(New::PunctualLight(kind.name()));
+            let punctual_light = description(&window).punctual_lights.last().expect("it is there").clone();
             let eye = window.state().camera().eye;
-            assert!(lamp.position().is_none_or(|at| at.distance(eye) < 60.0 && at.y < 12.0), "{lamp:?}");
+            assert!(punctual_light.position().is_none_or(|at| at.distance(eye) < 60.0 && at.y < 12.0), "{punctual_light:?}");
             window.state_mut().discard_edit();
         }
     }

@@ -165,7 +165,7 @@ fn a_picture_of_the_scene_before_is_no_view_of_the_one_that_was_opened() {
         (window.state().opened().as_ref().map(|opened| opened.scene.clone()), window.state().worker().generation());
     assert!(old.is_some() && window.state().results.last_seeing.is_some());
     let app = window.state_mut();
-    app.background.loader.open(Some(shipped("inside_lit_outside")));
+    app.environment.loader.open(Some(shipped("inside_lit_outside")));
     let start = Instant::now();
     // As in a frame in which a scene is opened, and a picture of the one before arrives.
     while app.opened().as_ref().map(|opened| std::sync::Arc::as_ptr(&opened.scene)) == old.as_ref().map(std::sync::Arc::as_ptr) {
@@ -180,7 +180,7 @@ fn a_picture_of_the_scene_before_is_no_view_of_the_one_that_was_opened() {
 fn a_cap_that_leaves_nothing_is_named_without_a_way_back() {
     let mut window = window("cornell_box");
     brightness(&mut window);
-    // Beside the lamp, which is all that a cap of 0 shows.
+    // Beside the light, which is all that a cap of 0 shows.
     window.state_mut().camera_mut().fov = 2.0;
     assert!(brightness(&mut window) > 0.0);
     window.state_mut().settings_mut().max_bounces = Some(0);

@@ -151,18 +151,18 @@ impl App {
     }
 
     pub fn worker(&self) -> &RenderWorkerHandle {
-        &self.background.worker
+        &self.environment.worker
     }
 
     pub fn worker_mut(&mut self) -> &mut RenderWorkerHandle {
-        &mut self.background.worker
+        &mut self.environment.worker
     }
 
     pub fn loader(&self) -> &Loader {
-        &self.background.loader
+        &self.environment.loader
     }
 
     pub fn loader_mut(&mut self) -> &mut Loader {
-        &mut self.background.loader
+        &mut self.environment.loader
     }
 }

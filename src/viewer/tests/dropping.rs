@@ -2,7 +2,7 @@
 use noisefall_base::declare::{OwnedValue, Path, Textured};
 use noisefall_edit::edit::Tree;
 use noisefall_scene::{
-    light::background::{BackgroundDescription, image::Image},
+    light::environment::{EnvironmentDescription, image::Image},
     material::Material,
     shape::{ShapeKind, mesh::MeshSource},
 };
@@ -116,8 +116,8 @@ fn a_panorama_becomes_the_sky() {
     let mut window = window("cornell_spheres");
     let sky = file(&folder, "sky.hdr", &hdr(8, 4));
     is_one_step(&mut window, sky.clone());
-    let expected = BackgroundDescription::Image(Image { path: sky.display().to_string(), ..Image::default() });
-    assert_eq!(description(&window).background, Some(expected));
+    let expected = EnvironmentDescription::Image(Image { path: sky.display().to_string(), ..Image::default() });
+    assert_eq!(description(&window).environment, Some(expected));
     assert!(window.state().session.given_reference.is_none());
 }
 
@@ -140,7 +140,7 @@ fn what_cannot_be_used_changes_nothing_and_is_said_once() {
         window.run_steps(3);
         assert!(messages(&window).len() == 1 && messages(&window)[0].contains(reason), "{:?}", messages(&window));
     }
-    // A lamp without a material has no colour.
+    // A light without a material has no colour.
     window.state_mut().selection.select(Some(Subject::Object(7)));
     window.state_mut().dialogs.notices.0.clear();
     drop_file(&mut window, folder.path().join("paint.png"));

@@ -34,14 +34,14 @@ fn mean(app: &App) -> f32 {
 }
 
 #[test]
-fn a_brighter_lamp_makes_the_picture_brighter_and_keeps_camera_and_settings() {
+fn a_brighter_light_makes_the_picture_brighter_and_keeps_camera_and_settings() {
     let mut window = window("cornell_spheres");
     let mut description = description("cornell_spheres");
     window.state_mut().camera_mut().fov = 30.0;
     window.state_mut().settings_mut().seed = 7;
     edit(&mut window, &description);
     let before = mean(window.state());
-    description.objects.iter_mut().find_map(|object| object.emission.as_mut()).expect("a lamp").scale = 50.0;
+    description.objects.iter_mut().find_map(|object| object.emission.as_mut()).expect("a light").scale = 50.0;
     edit(&mut window, &description);
     assert!(mean(window.state()) > 10.0 * before, "{} after {before}", mean(window.state()));
     assert_eq!((window.state().camera().fov, window.state().settings().seed), (30.0, 7));

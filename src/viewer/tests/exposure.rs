@@ -10,7 +10,7 @@ fn under(folder: &FilePath, radiance: f64) -> PathBuf {
     let path = folder.join("sky.toml");
     let text = format!(
         "format = 1\n\n[camera]\neye = [0.0, 1.0, 4.0]\nlook_at = [0.0, 0.0, 0.0]\nfov = 40.0\nresolution = [48, 32]\n\n\
-         [background]\nradiance = {radiance:?}\n\n[materials.grey]\nlambertian = {{ albedo = 0.5 }}\n\n\
+         [environment]\nradiance = {radiance:?}\n\n[materials.grey]\nlambertian = {{ albedo = 0.5 }}\n\n\
          [[objects]]\nmaterial = \"grey\"\nshape.sphere = {{ center = [0.0, 0.0, 0.0], radius = 0.5 }}\n"
     );
     std::fs::write(&path, text).expect("it is written");

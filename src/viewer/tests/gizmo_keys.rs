@@ -124,10 +124,11 @@ fn a_copy_made_in_the_list_lies_beside_its_original() {
     assert!(by.x.abs() > 2.0 * 0.38 && by.y == 0.0 && by.z == 0.0, "{by}");
     undo(&mut window);
     assert!(!window.state().has_unsaved_changes());
-    window.state_mut().add(New::LampWithoutSurface("point"));
-    window.state_mut().act_on(Subject::Lamp(0), Action::Duplicate);
-    let lamps = &description(&window).lamps;
-    let [from, to] = [&lamps[0], &lamps[1]].map(|lamp| lamp.position().expect("it stands somewhere"));
+    window.state_mut().add(New::PunctualLight("point"));
+    window.state_mut().act_on(Subject::PunctualLight(0), Action::Duplicate);
+    let punctual_lights = &description(&window).punctual_lights;
+    let [from, to] =
+        [&punctual_lights[0], &punctual_lights[1]].map(|punctual_light| punctual_light.position().expect("it stands somewhere"));
     assert!(from.distance(to) > 0.05 && from.y == to.y);
     window.state_mut().act_on(Subject::Material("amber".to_owned()), Action::Duplicate);
     assert!(description(&window).materials.contains_key("amber 2"));

@@ -25,7 +25,7 @@ pub(super) fn app() -> App {
         scene,
         name: String::new(),
         path: None,
-        truth: None,
+        reference: None,
         description,
         materials,
         warnings: Vec::new(),

@@ -43,6 +43,7 @@ mod random_edits;
 mod rasteriser;
 mod ratios;
 mod recovery;
+mod reference;
 mod references;
 mod reloading;
 mod saving;
@@ -57,7 +58,6 @@ mod soak;
 mod steady;
 mod table;
 mod toolbar;
-mod truth;
 mod undo;
 mod unedited;
 mod unused;
@@ -165,7 +165,7 @@ fn the_objects_of_the_scene_are_listed_with_their_materials() {
     click(&mut window, "Edit");
     let listed =
         |name: &str| window.get_all_by_role(Role::Button).any(|row| row.accesskit_node().label().as_deref() == Some(name));
-    for (name, kind) in [("lamp", "sphere, no material"), ("amber ball", "sphere, amber"), ("back wall", "sphere, white")] {
+    for (name, kind) in [("light", "sphere, no material"), ("amber ball", "sphere, amber"), ("back wall", "sphere, white")] {
         assert!(listed(&format!("{name}{kind}")), "{name}");
     }
     assert_eq!(window.query_all_by_label_contains("sphere, ").count(), 8);
@@ -279,7 +279,7 @@ fn a_bad_scene_shows_its_diagnostic_and_the_window_lives_on() {
 #[test]
 fn scenes_are_chosen_from_the_list() {
     let mut window = window("furnace");
-    assert!(window.state().catalogue.iter().any(|entry| entry.name.starts_with("Tiny lamp")));
+    assert!(window.state().catalogue.iter().any(|entry| entry.name.starts_with("Tiny light")));
     window.get_by_role_and_label(Role::ComboBox, "Scene").click();
     window.run_steps(3);
     click(&mut window, "Bright sky: fast to converge");

@@ -56,7 +56,7 @@ fn add_object(window: &mut Window, random: &mut SmallRng) {
     let kinds = ["sphere", "cuboid", "cylinder", "disk", "rectangle", "triangle", "ellipsoid"];
     let kind = *kinds.choose(random).expect("there are kinds");
     let kind = ShapeKind::alternatives().iter().map(OneOf::name).find(|name| *name == kind).unwrap_or("sphere");
-    window.state_mut().add(if random.random_range(0..4) == 0 { New::Lamp(kind) } else { New::Shape(kind) });
+    window.state_mut().add(if random.random_range(0..4) == 0 { New::AreaLight(kind) } else { New::Shape(kind) });
 }
 
 fn add_material(window: &mut Window, random: &mut SmallRng) {
@@ -170,8 +170,8 @@ fn the_image_after_random_edits_is_that_of_the_saved_file() {
         undo(&mut window);
         settle(&mut window);
     }
-    // A lamp that is surely there.
-    window.state_mut().add(New::Lamp("sphere"));
+    // A light that is surely there.
+    window.state_mut().add(New::AreaLight("sphere"));
     save(&mut window);
     if window.state().dialogs.conflict.is_some() {
         click(&mut window, "Keep mine");

@@ -16,7 +16,7 @@ fn parts_are_added_duplicated_renamed_assigned_and_deleted() {
     let mut window = window("cornell_spheres");
     let start = bits(&window);
     window.state_mut().add(New::Shape("cuboid"));
-    window.state_mut().add(New::Lamp("disk"));
+    window.state_mut().add(New::AreaLight("disk"));
     assert_eq!(description(&window).objects.len(), 10);
     assert_eq!(window.state().selection.object(), Some(9), "what is new is selected");
     let ball = || Subject::Object(AMBER_BALL);
@@ -33,8 +33,8 @@ fn parts_are_added_duplicated_renamed_assigned_and_deleted() {
     assert_eq!(description(&window).objects[AMBER_BALL].material.as_deref(), Some("sky"));
     window.state_mut().act_on(Subject::Material("sky".to_owned()), Action::Delete);
     assert!(window.state().dialogs.notices.0.iter().any(|notice| notice.text.contains("aterial `sky` is")));
-    window.state_mut().act_on(Subject::Background, Action::AddBackground);
-    assert!(description(&window).background.is_some());
+    window.state_mut().act_on(Subject::Environment, Action::AddEnvironment);
+    assert!(description(&window).environment.is_some());
     window.state_mut().act_on(ball(), Action::Delete);
     assert_eq!((description(&window).objects.len(), window.state().selected().clone()), (10, None));
     edits(&mut window, "the picture of all of it", |w| w.run_steps(2));
@@ -56,23 +56,24 @@ fn a_shape_gets_the_diffuse_material_of_the_surface_where_it_is_added() {
 }
 
 #[test]
-fn lamps_without_surface_are_parts_like_others() {
+fn lights_without_surface_are_parts_like_others() {
     let mut window = window("cornell_spheres");
     let start = bits(&window);
-    window.state_mut().add(New::LampWithoutSurface("spot"));
-    assert_eq!(window.state().selected(), Some(Subject::Lamp(0)), "what is new is selected");
-    window.state_mut().act_on(Subject::Lamp(0), Action::Duplicate);
-    assert_eq!(window.state().selected(), Some(Subject::Lamp(1)));
-    window.state_mut().act_on(Subject::Lamp(1), Action::Rename("stage".to_owned()));
-    window.state_mut().act_on(Subject::Lamp(1), Action::ChangeKind("point"));
-    let lamps = description(&window).lamps.clone();
+    window.state_mut().add(New::PunctualLight("spot"));
+    assert_eq!(window.state().selected(), Some(Subject::PunctualLight(0)), "what is new is selected");
+    window.state_mut().act_on(Subject::PunctualLight(0), Action::Duplicate);
+    assert_eq!(window.state().selected(), Some(Subject::PunctualLight(1)));
+    window.state_mut().act_on(Subject::PunctualLight(1), Action::Rename("stage".to_owned()));
+    window.state_mut().act_on(Subject::PunctualLight(1), Action::ChangeKind("point"));
+    let punctual_lights = description(&window).punctual_lights.clone();
     assert_eq!(
-        [&lamps[0], &lamps[1]].map(|lamp| (lamp.name.clone(), lamp.kind.name())),
+        [&punctual_lights[0], &punctual_lights[1]]
+            .map(|punctual_light| (punctual_light.name.clone(), punctual_light.kind.name())),
         [("spot".to_owned(), "spot"), ("stage".to_owned(), "point")]
     );
     edits(&mut window, "the picture of both", |w| w.run_steps(2));
-    window.state_mut().act_on(Subject::Lamp(1), Action::Delete);
-    assert_eq!((description(&window).lamps.len(), window.state().selected().clone()), (1, None));
+    window.state_mut().act_on(Subject::PunctualLight(1), Action::Delete);
+    assert_eq!((description(&window).punctual_lights.len(), window.state().selected().clone()), (1, None));
     (0..5).for_each(|_| undo(&mut window));
     assert!(bits(&window).is_identical(&start));
 }
@@ -122,17 +123,17 @@ fn an_object_drops_to_the_floor() {
 }
 
 #[test]
-fn the_icon_of_a_lamp_selects_it_on_the_page_of_the_scene() {
+fn the_icon_of_a_light_selects_it_on_the_page_of_the_scene() {
     let mut window = window("cornell_spheres");
-    window.state_mut().add(New::LampWithoutSurface("point"));
-    let position = description(&window).lamps[0].position().expect("it stands somewhere");
+    window.state_mut().add(New::PunctualLight("point"));
+    let position = description(&window).punctual_lights[0].position().expect("it stands somewhere");
     let at = seen(&mut window, position);
     for (page, selected) in [(PanelTab::Render, false), (PanelTab::Edit, true)] {
         *window.state_mut().panel_mut() = page;
         window.state_mut().selection.select(None);
         window.run_steps(2);
         click_at(&mut window, at);
-        assert_eq!(window.state().selected() == Some(Subject::Lamp(0)), selected, "{page:?}");
+        assert_eq!(window.state().selected() == Some(Subject::PunctualLight(0)), selected, "{page:?}");
     }
 }
 

@@ -55,9 +55,9 @@ fn a_true_picture_of_another_size_is_told() {
     first.state_mut().save_to(folder.path().join("true.exr"));
     wait(&mut first, "the file", |app| app.last_saved().is_some());
     let text = std::fs::read_to_string(shipped("furnace")).expect("it is shipped");
-    let truth = text.find("[truth]").expect("it has one");
+    let reference = text.find("[reference]").expect("it has one");
     let path = folder.path().join("scene.toml");
-    std::fs::write(&path, format!("{}[truth]\nimage = \"true.exr\"\n", &text[..truth])).expect("it is written");
+    std::fs::write(&path, format!("{}[reference]\nimage = \"true.exr\"\n", &text[..reference])).expect("it is written");
     let mut window = opened(path);
     wait(&mut window, "the true error", |app| app.measured_error().is_some());
     window.state_mut().camera_mut().resolution = [40, 32];

@@ -223,7 +223,7 @@ fn the_gallery_is_in_an_order_that_teaches_and_its_pictures_cover_their_cards() 
     for (name, chapter) in [
         ("Cornell box", 0),
         ("Five-sphere Cornell box", 0),
-        ("Tiny lamp: slow to converge", 1),
+        ("Tiny light: slow to converge", 1),
         ("Veach's plates: why to combine", 2),
         ("From mirror to matt", 3),
         ("Isosurfaces", 4),

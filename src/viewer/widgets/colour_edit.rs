@@ -1,4 +1,4 @@
-//! A colour button that opens a picker: linear channels, sRGB hex and, for lamps, the colour temperature.
+//! A colour button that opens a picker: linear channels, sRGB hex and, for lights, the colour temperature.
 use egui::{
     Color32, Id, Popup, PopupCloseBehavior, Response, Sense, Slider, Stroke, StrokeKind, Ui, WidgetInfo,
     accesskit::Role,

@@ -21,7 +21,7 @@ const PIXELS: [[u32; 2]; 4] = [[3, 9], [24, 13], [31, 31], [16, 25]];
 /// Pixels of a partial tile.
 const OUTER_PIXELS: [[u32; 2]; 2] = [[40, 35], [47, 39]];
 
-/// In a ball of tinted glass: a lamp that a texture varies, a matt ball, and the camera.
+/// In a ball of tinted glass: a light that a texture varies, a matt ball, and the camera.
 const LANTERN: &str = r#"
 [camera]
 eye = [0.0, 0.0, 2.0]
@@ -40,7 +40,7 @@ material = "tinted"
 shape = { sphere = { center = [0.0, -0.8, 0.0], radius = 0.8 } }
 material = "white"
 [[objects]]
-name = "lamp"
+name = "light"
 shape = { sphere = { center = [0.0, 1.2, 0.0], radius = 0.6 } }
 emission = { texture = "flame", scale = 10.0 }
 "#;
@@ -224,8 +224,8 @@ fn assert_terms(vertex: &Vertex, settings: &RenderSettings, what: &str) {
         // The shadow ray ends at the light or at an occluder. Backgrounds have no position.
         let ends = if seen { light.object.is_some() } else { light.outcome == LightOutcome::Hidden };
         let has_end = light.distance.is_some_and(|distance| distance > 0.0);
-        // A lamp without surface may be infinitely far away.
-        assert!(has_end == ends || (seen && light.lamp.is_some()), "{what}");
+        // A punctual light may be infinitely far away.
+        assert!(has_end == ends || (seen && light.punctual_light.is_some()), "{what}");
         if seen {
             let scale = light.weight / light.pdf;
             let incident = product(light.radiance.map(|x| x * scale), light.passed);

@@ -20,7 +20,7 @@ pub trait Kind: Declare + Default {
 
 /// Mutually exclusive alternatives, distinguished by their keys.
 pub trait OneOf: Sized {
-    /// Name of the choice: "material", "background".
+    /// Name of the choice: "material", "environment".
     const WHAT: &'static str;
 
     /// Every alternative with its default values, in the order of the catalogue.

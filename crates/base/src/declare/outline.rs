@@ -45,7 +45,7 @@ impl Looks {
 
 /// The alternatives of a choice as a visitor sees them.
 pub struct Choice {
-    /// Name of the choice: "material", "background".
+    /// Name of the choice: "material", "environment".
     pub what: &'static str,
     /// All alternatives, in the order of the catalogue.
     pub alternatives: Vec<Alternative>,

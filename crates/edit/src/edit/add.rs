@@ -1,4 +1,4 @@
-//! Adds shapes and lamps where the pointer is.
+//! Adds shapes and lights where the pointer is.
 use super::{
     Document, Edit, put,
     references::{nameless_file, references},
@@ -6,14 +6,14 @@ use super::{
 };
 use noisefall_base::declare::{Family, OneOf, OwnedValue, Path};
 use noisefall_scene::{
-    light::lamp::LampKind,
+    light::punctual_light::PunctualLightKind,
     material::{Lambertian, Material},
-    scene::description::{EmissionDescription, LampDescription, MaterialDescription, ObjectDescription},
+    scene::description::{EmissionDescription, MaterialDescription, ObjectDescription, PunctualLightDescription},
     shape::{Placement, ShapeKind},
     texture::{TextureKind, noise::Noise},
 };
 
-/// The radiance of new lamps, W·sr⁻¹·m⁻², for an image of exposure 0.
+/// The radiance of new lights, W·sr⁻¹·m⁻², for an image of exposure 0.
 const RADIANCE: f64 = 20.0;
 /// The irradiance of those without surface below them, W/m²: white surfaces are white there and not beyond.
 const IRRADIANCE: f64 = 4.0;
@@ -52,30 +52,24 @@ impl Document {
         )
     }
 
-    /// The edit that adds a lamp with the shape of a kind, and the path of the new object. Flat ones emit away from the surface. It is
+    /// The edit that adds a light with the shape of a kind, and the path of the new object. Flat ones emit away from the surface. It is
     /// as bright as an image of this exposure, in stops, needs.
-    pub fn add_lamp(&self, kind: &str, placement: &Placement, exposure: f64) -> Option<(Edit, Path)> {
+    pub fn add_light(&self, kind: &str, placement: &Placement, exposure: f64) -> Option<(Edit, Path)> {
         let emission = EmissionDescription::radiance([brightness(RADIANCE, exposure); 3]);
-        let object = ObjectDescription { name: "lamp".to_owned(), emission: Some(emission), ..ObjectDescription::default() };
+        let object = ObjectDescription { name: "light".to_owned(), emission: Some(emission), ..ObjectDescription::default() };
         self.add(kind, placement, object)
     }
 
-    /// The edit that adds a lamp without surface of a kind at a height over the surface, in metres, and the path of the new lamp. It is
+    /// The edit that adds a punctual light of a kind at a height over the surface, in metres, and the path of the new light. It is
     /// as bright as an image of this exposure, in stops, needs.
-    pub fn add_lamp_without_surface(
-        &self,
-        kind: &str,
-        placement: &Placement,
-        height: f64,
-        exposure: f64,
-    ) -> Option<(Edit, Path)> {
-        let kind = LampKind::alternatives().into_iter().find(|lamp| lamp.name() == kind)?;
+    pub fn add_punctual_light(&self, kind: &str, placement: &Placement, height: f64, exposure: f64) -> Option<(Edit, Path)> {
+        let kind = PunctualLightKind::alternatives().into_iter().find(|punctual_light| punctual_light.name() == kind)?;
         let (position, target) = (placement.reached(height), placement.rounded(placement.at));
-        let name = self.free_name("lamps", &kind.name().replace('_', " "));
+        let name = self.free_name("lights", &kind.name().replace('_', " "));
         let kind = kind.kind().placed(position, target, brightness(IRRADIANCE, exposure));
-        let mut lamp = LampDescription { name, kind, ..LampDescription::default() };
-        let path = Path::of("lamps").item(self.description().lamps.len());
-        Some((Edit::insert_tree(path.clone(), Tree::of(&mut lamp)), path))
+        let mut punctual_light = PunctualLightDescription { name, kind, ..PunctualLightDescription::default() };
+        let path = Path::of("lights").item(self.description().punctual_lights.len());
+        Some((Edit::insert_tree(path.clone(), Tree::of(&mut punctual_light)), path))
     }
 
     /// The edit that adds an absent part with its defaults. A texture that it needs is the first of the scene, or else a new one.

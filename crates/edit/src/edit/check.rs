@@ -4,7 +4,7 @@ use super::{
     walk::{Walk, follows_walk},
 };
 use noisefall_base::declare::{Declare, Family, Parameter, Parameters, Path, Problem, Step, Value, check_value};
-use noisefall_scene::scene::{check_blend, check_camera, check_lamp, check_object, description::SceneDescription};
+use noisefall_scene::scene::{check_blend, check_camera, check_object, check_punctual, description::SceneDescription};
 
 /// Largest number of places that a message names.
 const MOST_PLACES: usize = 5;
@@ -36,7 +36,7 @@ fn names(description: &mut SceneDescription, path: &Path) -> Option<Problem> {
     unknown
 }
 
-/// The camera, the object, the lamp or the material that contains a path.
+/// The camera, the object, the light or the material that contains a path.
 fn part(description: &SceneDescription, path: &Path) -> Option<Problem> {
     match &path.0[..] {
         [Step::Key(table), ..] if table == "camera" => {
@@ -46,9 +46,9 @@ fn part(description: &SceneDescription, path: &Path) -> Option<Problem> {
             let problem = check_object(description.objects.get(*place)?).err()?;
             Some(problem.within(&Path::of("objects").item(*place)))
         }
-        [Step::Key(list), Step::Item(place), ..] if list == "lamps" => {
-            let problem = check_lamp(description.lamps.get(*place)?).err()?;
-            Some(problem.within(&Path::of("lamps").item(*place)))
+        [Step::Key(list), Step::Item(place), ..] if list == "lights" => {
+            let problem = check_punctual(description.punctual_lights.get(*place)?).err()?;
+            Some(problem.within(&Path::of("lights").item(*place)))
         }
         [Step::Key(table), Step::Key(name), ..] if table == "materials" => {
             let values = description.materials.get(name)?.kind.check().err();

@@ -4,7 +4,7 @@ use glam::DVec3;
 use super::{Document, Edit, Placement, add::with_material, tree::Tree};
 use noisefall_base::declare::Path;
 use noisefall_scene::{
-    light::background::{BackgroundDescription, image::Image},
+    light::environment::{EnvironmentDescription, image::Image},
     scene::{Scene, description::ObjectDescription},
     shape::{
         Transform,
@@ -42,10 +42,10 @@ impl Document {
 
     /// The edit that makes an equirectangular image the background.
     pub fn set_sky(&self, file: &str) -> Edit {
-        let path = Path::of("background");
-        let mut sky = BackgroundDescription::from(Image { path: file.to_owned(), ..Image::default() });
+        let path = Path::of("environment");
+        let mut sky = EnvironmentDescription::from(Image { path: file.to_owned(), ..Image::default() });
         let tree = Tree::of(&mut sky);
-        match self.description().background {
+        match self.description().environment {
             None => Edit::insert_tree(path, tree),
             Some(_) => Edit::Replace { path, tree },
         }

@@ -13,13 +13,13 @@
 //! | set a value; adds absent tables on its path | [`Edit::Set`] |
 //! | give an optional value or table its default (`objects.3.emission`) | [`Edit::Insert`] without content; [`Document::insert`] with the texture that it needs |
 //! | remove an optional value, an object, a material, an item of a list | [`Edit::Remove`] |
-//! | add an object, a lamp, a material, a texture, a transform | [`Edit::Insert`]; [`Document::add_shape`] and [`Document::add_lamp_without_surface`] place one |
+//! | add an object, a light, a material, a texture, a transform | [`Edit::Insert`]; [`Document::add_shape`] and [`Document::add_lamp_without_surface`] place one |
 //! | add a mesh file; make an image the background | [`Document::add_mesh`]; [`Document::set_sky`] |
-//! | duplicate an object, a lamp, a material, a texture | [`Document::duplicate`] |
+//! | duplicate an object, a light, a material, a texture | [`Document::duplicate`] |
 //! | change a kind: `path` is the table with the key of the kind, `choice` the [`Choice::what`](noisefall_base::declare::Choice::what) | [`Edit::Choose`] |
 //! | the same, with the parameters that depend on it, such as the camera's angle | [`Document::change_kind`] |
 //! | rename a material or texture, and all references to it | [`Edit::Rename`] |
-//! | rename an object or a lamp | [`Edit::Set`] of its `name` |
+//! | rename an object or a light | [`Edit::Set`] of its `name` |
 //! | assign a material; `None` is black | [`Document::assign`] |
 //! | reorder a list | [`Edit::Move`] |
 //! | give the scene the camera and the settings of a view | [`Document::use_view`] |
@@ -34,7 +34,7 @@
 //! | `history.rs` | undo and redo |
 //! | the crate `writer` | snapshots of a description, the part of the file that each object comes from, and the text of the file |
 //! | `kind.rs`, `meaning.rs` | changes of kind that change other parameters too; what materials keep under another key |
-//! | `names.rs`, `add.rs`, `pose.rs`, `drop_to_floor.rs` | free names; new shapes and lamps; moving objects; dropping them to the floor |
+//! | `names.rs`, `add.rs`, `pose.rs`, `drop_to_floor.rs` | free names; new shapes and lights; moving objects; dropping them to the floor |
 //! | `import.rs` | meshes and skies from files |
 //! | `view.rs` | the camera and the settings of a view |
 //! | `outside.rs` | files that were changed outside |

@@ -3,13 +3,13 @@ use super::{Document, Edit, tree::Answer};
 use noisefall_base::declare::{OwnedValue, Path, Step};
 
 impl Document {
-    /// An unused name in a table of the scene: `wanted`, or `wanted` with a number. The table is `objects`, `lamps`, `materials` or
+    /// An unused name in a table of the scene: `wanted`, or `wanted` with a number. The table is `objects`, `lights`, `materials` or
     /// `textures`.
     pub fn free_name(&self, table: &str, wanted: &str) -> String {
         let scene = self.description();
         let is_taken = |name: &str| match table {
             "objects" => scene.objects.iter().any(|object| object.name == name),
-            "lamps" => scene.lamps.iter().any(|lamp| lamp.name == name),
+            "lights" => scene.punctual_lights.iter().any(|punctual_light| punctual_light.name == name),
             "materials" => scene.materials.contains_key(name),
             _ => scene.textures.contains_key(name),
         };
@@ -19,19 +19,19 @@ impl Document {
         names.find(|name| !is_taken(name)).unwrap_or_else(|| wanted.to_owned())
     }
 
-    /// The edit that copies an object, a lamp, a material or a texture, and the path of the copy. A copied object or lamp follows its
+    /// The edit that copies an object, a light, a material or a texture, and the path of the copy. A copied object or light follows its
     /// original in the list.
     pub fn duplicate(&mut self, path: &Path) -> Option<(Edit, Path)> {
         let mut tree = self.tree(path)?;
         let copy = match &path.0[..] {
-            [Step::Key(list), Step::Item(place)] if list == "objects" || list == "lamps" => {
+            [Step::Key(list), Step::Item(place)] if list == "objects" || list == "lights" => {
                 let scene = self.description();
                 let name = match list.as_str() {
                     "objects" => &scene.objects.get(*place)?.name,
-                    _ => &scene.lamps.get(*place)?.name,
+                    _ => &scene.punctual_lights.get(*place)?.name,
                 };
                 let free = if name.is_empty() { String::new() } else { self.free_name(list, name) };
-                // The name is the first value of an object or a lamp.
+                // The name is the first value of an object or a light.
                 *tree.0.first_mut()? = Answer::Value(OwnedValue::Text(free));
                 Path::of(list).item(place + 1)
             }

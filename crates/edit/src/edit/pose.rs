@@ -1,4 +1,4 @@
-//! Moves, turns and scales objects and lamps.
+//! Moves, turns and scales objects and lights.
 use glam::{DAffine3, DVec3};
 
 use super::{Document, Edit, tree::Tree};
@@ -31,10 +31,10 @@ impl Document {
         })
     }
 
-    /// The same for a lamp without surface. Its intensity stays.
-    pub fn transformed_lamp(&self, lamp: usize, change: &Transform, pivot: DVec3) -> Option<Edit> {
-        let at = Path::of("lamps").item(lamp);
-        let described = self.description().lamps.get(lamp)?;
+    /// The same for a punctual light. Its intensity stays.
+    pub fn transformed_light(&self, punctual_light: usize, change: &Transform, pivot: DVec3) -> Option<Edit> {
+        let at = Path::of("lights").item(punctual_light);
+        let described = self.description().punctual_lights.get(punctual_light)?;
         let about = DAffine3::from_translation(pivot);
         let map = about * product(std::slice::from_ref(change)).ok()? * about.inverse();
         if !described.transform.is_empty() || map.matrix3.determinant() < 0.0 {

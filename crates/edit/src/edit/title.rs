@@ -42,17 +42,17 @@ impl Edit {
     }
 }
 
-/// Whether a path is that of the name of an object or of a lamp.
+/// Whether a path is that of the name of an object or of a light.
 fn is_name(path: &Path) -> bool {
     matches!(&path.0[..], [Step::Key(_), Step::Item(_), Step::Key(key)] if key == "name")
 }
 
-/// Whether a path is that of an object or of a lamp.
+/// Whether a path is that of an object or of a light.
 fn is_listed(path: &Path) -> bool {
     matches!(&path.0[..], [Step::Key(_), Step::Item(_)])
 }
 
-/// The name of an object or of a lamp, which is its first value.
+/// The name of an object or of a light, which is its first value.
 fn name_in(tree: &Tree) -> Option<String> {
     match tree.0.first() {
         Some(Answer::Value(OwnedValue::Text(name))) if !name.is_empty() => Some(name.clone()),
@@ -73,7 +73,7 @@ fn place(scene: &SceneDescription, path: &Path) -> String {
 fn part(scene: &SceneDescription, path: &Path) -> String {
     let name = scene.part_name(path);
     let has_name =
-        matches!(path.0.first(), Some(Step::Key(key)) if ["objects", "lamps", "materials", "textures"].contains(&key.as_str()));
+        matches!(path.0.first(), Some(Step::Key(key)) if ["objects", "lights", "materials", "textures"].contains(&key.as_str()));
     if has_name { name } else { format!("the {name}") }
 }
 

@@ -27,7 +27,7 @@ impl Notes {
     }
 }
 
-/// The place of an element of the lists `objects` and `lamps`: by its name, or else by its number.
+/// The place of an element of the lists `objects` and `lights`: by its name, or else by its number.
 pub fn element(kind: &str, number: usize, name: &str) -> String {
     if name.is_empty() { format!("{kind}s[{number}]") } else { format!("{kind} \"{name}\"") }
 }

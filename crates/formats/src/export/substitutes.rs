@@ -7,11 +7,11 @@ use super::{notes::Notes, textures::Colors};
 use noisefall_base::declare::Textured;
 use noisefall_scene::{
     light::{
-        Lamp,
+        PunctualLight,
         emission::{EmissionSource, Side},
     },
     material::{Material, Materials},
-    scene::description::{BackgroundDescription, LampDescription},
+    scene::description::{EnvironmentDescription, PunctualLightDescription},
     shape::product,
 };
 
@@ -47,21 +47,25 @@ impl Colors<'_> {
         Textured::Constant(emission.map_or([0.0; 3], |emission| emission.mean.map(f64::from)))
     }
 
-    /// A point lamp or a directional lamp with the power of a lamp; `None` if it cannot be compiled.
-    pub fn lamp_substitute(&self, lamp: &LampDescription, notes: &mut Notes) -> Option<LampDescription> {
-        let map = product(&lamp.transform).unwrap_or(DAffine3::IDENTITY);
-        let kind = lamp.kind.kind().compile(&map, self.compiler().resources).ok().map(Lamp::plain);
-        let used = kind.as_ref().map_or("nothing".to_owned(), |kind| format!("a lamp `{}` of the same power", kind.name()));
-        notes.add(format!("a lamp `{}`", lamp.kind.name()), used, "its light has another distribution");
-        Some(LampDescription { name: lamp.name.clone(), kind: kind?, transform: Vec::new() })
+    /// A point light or a directional light with the power of a light; `None` if it cannot be compiled.
+    pub fn punctual_substitute(
+        &self,
+        punctual_light: &PunctualLightDescription,
+        notes: &mut Notes,
+    ) -> Option<PunctualLightDescription> {
+        let map = product(&punctual_light.transform).unwrap_or(DAffine3::IDENTITY);
+        let kind = punctual_light.kind.kind().compile(&map, self.compiler().resources).ok().map(PunctualLight::plain);
+        let used = kind.as_ref().map_or("nothing".to_owned(), |kind| format!("a light `{}` of the same power", kind.name()));
+        notes.add(format!("a light `{}`", punctual_light.kind.name()), used, "its light has another distribution");
+        Some(PunctualLightDescription { name: punctual_light.name.clone(), kind: kind?, transform: Vec::new() })
     }
 
     /// The radiance of a constant background in place of another one: its mean.
-    pub fn background_substitute(&self, background: &BackgroundDescription, notes: &mut Notes) -> [f64; 3] {
-        let found = format!("a background `{}`", background.name());
+    pub fn environment_substitute(&self, environment: &EnvironmentDescription, notes: &mut Notes) -> [f64; 3] {
+        let found = format!("a background `{}`", environment.name());
         notes.add(found, "its mean colour", "light comes from all directions alike");
-        let compiled = background.compile(self.compiler().resources).ok().flatten();
-        compiled.map_or([0.0; 3], |background| background.mean().map(f64::from))
+        let compiled = environment.compile(self.compiler().resources).ok().flatten();
+        compiled.map_or([0.0; 3], |environment| environment.mean().map(f64::from))
     }
 }
 
@@ -73,9 +77,9 @@ mod tests {
     use noisefall_base::declare::{Assets, Resources};
     use noisefall_scene::{
         light::{
-            background::kinds::Sky,
             emission::kinds::Texture,
-            lamp::{LampKind, kinds::Spot},
+            environment::kinds::Sky,
+            punctual_light::{PunctualLightKind, kinds::Spot},
         },
         scene::describe,
     };
@@ -116,13 +120,16 @@ mod tests {
     }
 
     #[test]
-    fn a_lamp_becomes_a_point_lamp_and_a_background_its_mean() {
-        let spot = LampDescription { name: "desk".to_owned(), kind: Spot::default().into(), transform: Vec::new() };
-        let (lamp, remarks) = substituted(|colors, notes| colors.lamp_substitute(&spot, notes));
-        let lamp = lamp.expect("it can be compiled");
-        assert!(lamp.name == "desk" && matches!(&lamp.kind, LampKind::Point(point) if point.intensity[0] > 0.0));
-        assert!(remarks.len() == 1 && remarks[0].contains("a lamp `spot`") && remarks[0].contains("`point`"), "{remarks:?}");
-        let (radiance, remarks) = substituted(|colors, notes| colors.background_substitute(&Sky::default().into(), notes));
+    fn a_light_becomes_a_point_light_and_a_background_its_mean() {
+        let spot = PunctualLightDescription { name: "desk".to_owned(), kind: Spot::default().into(), transform: Vec::new() };
+        let (punctual_light, remarks) = substituted(|colors, notes| colors.punctual_substitute(&spot, notes));
+        let punctual_light = punctual_light.expect("it can be compiled");
+        assert!(
+            punctual_light.name == "desk"
+                && matches!(&punctual_light.kind, PunctualLightKind::Point(point) if point.intensity[0] > 0.0)
+        );
+        assert!(remarks.len() == 1 && remarks[0].contains("a light `spot`") && remarks[0].contains("`point`"), "{remarks:?}");
+        let (radiance, remarks) = substituted(|colors, notes| colors.environment_substitute(&Sky::default().into(), notes));
         assert!(radiance.iter().all(|x| *x > 0.0), "{radiance:?}");
         assert!(remarks.len() == 1 && remarks[0].contains("a background `sky`"), "{remarks:?}");
     }

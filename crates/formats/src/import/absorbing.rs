@@ -8,8 +8,8 @@ use noisefall_scene::{
     scene::description::{MaterialDescription, SceneDescription},
 };
 
-/// How the light of lamps differs behind [`Filling::Interface`].
-pub const INTERFACE: &str = "lamps without surface shine through it on paths from the lamps only, as with `bidirectional`";
+/// How the light of lights differs behind [`Filling::Interface`].
+pub const INTERFACE: &str = "punctual lights shine through it on paths from the lights only, as with `bidirectional`";
 
 /// How a surface holds a medium.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

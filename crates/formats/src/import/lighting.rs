@@ -16,7 +16,7 @@ use noisefall_scene::{
 };
 
 /// Least light of surfaces, as part of that of the studio sky, with which a scene is lit. The indicator lights of a device are below it,
-/// and the lamp of a room is above.
+/// and the light of a room is above.
 const LIT: f64 = 0.05;
 
 /// Sizes that tell how much light emission gives.
@@ -44,10 +44,10 @@ pub fn drop_black(to: &mut Imported, folder: &Folder) -> Vec<f64> {
     luminances
 }
 
-/// Drops black emission, and adds the neutral studio sky unless lamps or emission light the scene.
+/// Drops black emission, and adds the neutral studio sky unless lights or emission light the scene.
 pub fn complete(to: &mut Imported, folder: &Folder, sizes: &Sizes, place: &str) {
     let luminances = drop_black(to, folder);
-    if !to.description.lamps.is_empty() || to.description.background.is_some() {
+    if !to.description.punctual_lights.is_empty() || to.description.environment.is_some() {
         return;
     }
     let power = |((object, luminance), area): ((&ObjectDescription, f64), &f64)| {

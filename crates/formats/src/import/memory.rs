@@ -5,7 +5,7 @@ use noisefall_base::{
 };
 use noisefall_scene::{
     model::Model,
-    scene::description::{LampDescription, MaterialDescription, ObjectDescription, SceneDescription},
+    scene::description::{MaterialDescription, ObjectDescription, PunctualLightDescription, SceneDescription},
     texture::TextureKind,
 };
 
@@ -14,10 +14,10 @@ const BESIDES: u64 = 512;
 
 /// The bytes of a description.
 fn described(description: &SceneDescription) -> u64 {
-    let SceneDescription { objects, lamps, materials, textures, .. } = description;
+    let SceneDescription { objects, punctual_lights, materials, textures, .. } = description;
     let bytes = |count: usize, size: usize| count as u64 * (size as u64 + BESIDES);
     bytes(objects.len(), size_of::<ObjectDescription>())
-        + bytes(lamps.len(), size_of::<LampDescription>())
+        + bytes(punctual_lights.len(), size_of::<PunctualLightDescription>())
         + bytes(materials.len(), size_of::<MaterialDescription>())
         + bytes(textures.len(), size_of::<TextureKind>())
 }
@@ -54,7 +54,7 @@ mod tests {
         assets.insert("textures/a.png", vec![0u8; 100]);
         let mut description = SceneDescription::default();
         assert!(reserve_kept(&mut assets, &description).is_ok() && described(&description) == 0);
-        description.lamps = vec![LampDescription::default(); 1000];
+        description.punctual_lights = vec![PunctualLightDescription::default(); 1000];
         assert!(described(&description) > 500_000);
     }
 }

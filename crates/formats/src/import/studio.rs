@@ -3,7 +3,7 @@ use glam::DVec3;
 
 use super::Imported;
 use noisefall_scene::{
-    light::background::image::Image,
+    light::environment::image::Image,
     scene::{
         Projection,
         description::{CameraDescription, SceneDescription},
@@ -65,7 +65,7 @@ const HEIGHT: usize = 64;
 /// the right, as seen from +z.
 pub fn light(to: &mut Imported, place: &str, found: impl Into<String>, effect: &str) {
     to.assets.insert(SKY, sky());
-    to.description.background = Some(Image { path: SKY.to_owned(), ..Image::default() }.into());
+    to.description.environment = Some(Image { path: SKY.to_owned(), ..Image::default() }.into());
     to.remarks.add(place, found, "a neutral studio sky", effect);
 }
 
@@ -89,12 +89,12 @@ pub const RADIANCE: f64 = 0.75;
 /// Radiance from a unit direction, W/(m² sr). No grey surface is brighter than the display can show.
 fn radiance(direction: DVec3) -> f64 {
     let room = 0.35 + 0.25 * direction.y;
-    let lamp = |towards: DVec3, radius: f64, radiance: f64| {
+    let punctual_light = |towards: DVec3, radius: f64, radiance: f64| {
         let cos = direction.dot(towards.normalize());
         let edge = radius.to_radians().cos();
         radiance * ((cos - edge) / (1.0 - edge) * 3.0).clamp(0.0, 1.0)
     };
-    room + lamp(DVec3::new(-1.0, 1.2, 0.8), 40.0, 3.5) + lamp(DVec3::new(1.0, 0.5, 0.6), 35.0, 0.8)
+    room + punctual_light(DVec3::new(-1.0, 1.2, 0.8), 40.0, 3.5) + punctual_light(DVec3::new(1.0, 0.5, 0.6), 35.0, 0.8)
 }
 
 /// A grey pixel: mantissas of 8 bits and their common exponent.
@@ -107,7 +107,7 @@ fn rgbe(radiance: f64) -> [u8; 4] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use noisefall_scene::light::background::BackgroundDescription;
+    use noisefall_scene::light::environment::EnvironmentDescription;
 
     /// Largest coordinate of the corners of a box in the image, in half widths and half heights.
     fn extent(description: &SceneDescription, [least, greatest]: [DVec3; 2]) -> f64 {
@@ -157,7 +157,7 @@ mod tests {
     fn the_sky_is_a_file_among_the_assets_and_a_remark() {
         let mut to = Imported::default();
         light(&mut to, "a.gltf", "no light", "the light differs");
-        let Some(BackgroundDescription::Image(image)) = to.description.background else { panic!("an image") };
+        let Some(EnvironmentDescription::Image(image)) = to.description.environment else { panic!("an image") };
         let file = to.assets.get::<Vec<u8>>(&image.path).expect("the file is there");
         assert!(file.starts_with(b"#?RADIANCE") && file.len() > 4 * WIDTH * HEIGHT);
         assert_eq!(to.remarks.len(), 1);

@@ -53,7 +53,7 @@ mod tests {
     use noisefall_base::math::SimdLevel;
     use noisefall_scene::scene::{Estimator, RenderSettings, parse};
 
-    /// The mean radiance of a wall of albedo 0.5 behind three sheets of opacity 0, with a lamp or a bright sky behind the viewer.
+    /// The mean radiance of a wall of albedo 0.5 behind three sheets of opacity 0, with a light or a bright sky behind the viewer.
     fn radiance(light: &str, sheets: usize, settings: RenderSettings) -> f32 {
         let mut text = format!(
             "format = 1
@@ -85,10 +85,10 @@ mod tests {
     /// Light reaches the wall through the sheets, and the viewer through them again: one bounce and two crossings for each sheet.
     #[test]
     fn light_needs_a_bounce_and_its_crossings() {
-        let lamp = "lamps = [{ point = { position = [0, 0, 5], intensity = 100 } }]";
+        let punctual_light = "lights = [{ point = { position = [0, 0, 5], intensity = 100 } }]";
         for (light, estimators) in [
-            ("background.radiance = 1", &[Estimator::Path, Estimator::Light, Estimator::Mis][..]),
-            (lamp, &[Estimator::Light, Estimator::Mis][..]),
+            ("environment.radiance = 1", &[Estimator::Path, Estimator::Light, Estimator::Mis][..]),
+            (punctual_light, &[Estimator::Light, Estimator::Mis][..]),
         ] {
             for estimator in estimators {
                 let settings = |cap: u32, count_crossings: bool| RenderSettings {

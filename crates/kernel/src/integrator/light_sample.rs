@@ -52,6 +52,6 @@ pub(super) fn sample_light<L: Lanes>(
     if work.settings.estimator.samples_lights() {
         lights.sample(l, &work.scene.shapes, at, work.time(l, slot), &coordinates)
     } else {
-        lights.sample_lamps(l, *at, coordinates)
+        lights.sample_punctual(l, *at, coordinates)
     }
 }

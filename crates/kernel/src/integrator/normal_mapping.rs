@@ -151,7 +151,7 @@ mod tests {
     fn seen(flags: &str, tilted: V<One>, wo: V<One>) -> V<One> {
         let text = format!(
             "format = 1
-            background.radiance = 1
+            environment.radiance = 1
             camera = {{ eye = [0, 0, 4], look_at = [0, 0, 0], fov = 40, resolution = [8, 8] }}
             textures.dents.checker = {{ even = 0.2, odd = 0.6, scale = 3 }}
             [materials.ball]

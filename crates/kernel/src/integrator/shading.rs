@@ -91,15 +91,15 @@ impl<'a, L: Lanes, K: Shade> Shading<'a, L, K> {
         let (o, consistent) = vertex.leave::<K>(hit, sample.wi, wi.z);
         let lights = &work.scene.lights;
         let mut weight = work.settings.estimator.light_weight(l, sample.pdf, pdf);
-        let mut from_lamps = l.first(0);
-        if !lights.lamps.is_empty() {
-            from_lamps = lights.are_lamps(sample.target);
-            weight = from_lamps.pick(l.f(1.0), weight);
+        let mut from_punctual = l.first(0);
+        if !lights.punctual_lights.is_empty() {
+            from_punctual = lights.are_punctual(sample.target);
+            weight = from_punctual.pick(l.f(1.0), weight);
         }
         let radiance = hit.throughput * f_cos * sample.radiance * (weight / sample.pdf);
         let mut may_contribute = consistent & sample.pdf.above(0.0) & radiance.max_component().above(0.0);
         if K::TRANSMITS {
-            may_contribute = may_contribute & (from_lamps | !vertex.self_lit);
+            may_contribute = may_contribute & (from_punctual | !vertex.self_lit);
         }
         let shadow = Shadow { o, d: sample.wi, radiance, target: sample.target, slot: hit.slot };
         LightEstimate { shadow, may_contribute, sample, wi, f_cos, weight }

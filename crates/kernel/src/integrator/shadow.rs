@@ -1,6 +1,6 @@
 //! Fifth stage: tests which light samples are visible.
 //!
-//! A sample counts if the first surface along its ray is the light that it was sampled from, or if the ray reaches its lamp without
+//! A sample counts if the first surface along its ray is the light that it was sampled from, or if the ray reaches its light without
 //! surface. There is no tolerance: no distance is compared with that of a surface of the light. Light that passes
 //! through surfaces on its way is multiplied by their transmittances (`transparent_ray.rs`).
 use fearless_simd_macros::simd;

@@ -44,7 +44,7 @@ pub(super) fn surfaces<L: Lanes, const VARIED: bool>(l: L, work: &Work, batch: &
             let left = crossings.left(l, work, at.live, arrival.path.slot, *bounce);
             (live, goes_on) = (live & !left.below(0.0), live & left.above(0.0));
         }
-        add_background(l, work, previous, &arrival, live & miss, radiance);
+        add_environment(l, work, previous, &arrival, live & miss, radiance);
         let hit = live & !miss;
         if !hit.any() {
             continue;
@@ -106,7 +106,7 @@ impl<L: Lanes> Arrival<L> {
 
 /// Adds the background in the lanes of `sky`, weighted by multiple importance sampling if there are `previous` vertices.
 #[inline(always)]
-fn add_background<L: Lanes>(
+fn add_environment<L: Lanes>(
     l: L,
     work: &Work,
     previous: Option<&PathQueues>,
@@ -114,12 +114,12 @@ fn add_background<L: Lanes>(
     sky: M<L>,
     radiance: &mut [[f32; 4]],
 ) {
-    let Some(background) = &work.scene.lights.background else { return };
+    let Some(environment) = &work.scene.lights.environment else { return };
     if !sky.any() {
         return;
     }
     let path = &arrival.path;
-    let mut light = path.throughput * background.radiance(l, path.d);
+    let mut light = path.throughput * environment.radiance(l, path.d);
     if let Some(previous) = previous {
         light = light * weight_of_hit(l, work, previous, arrival.start, path, PrimitiveRef::of(l, arrival.nearest.primitive));
     }

@@ -147,11 +147,11 @@ mod tests {
     use noisefall_base::math::SimdLevel;
     use noisefall_scene::scene::{RenderSettings, parse};
 
-    /// Radiance of a ball of this material under a bright sky and a lamp.
+    /// Radiance of a ball of this material under a bright sky and a light.
     fn radiance(material: &str) -> Vec<[f32; 4]> {
         let text = format!(
             "format = 1
-            background.radiance = [0.2, 0.4, 0.6]
+            environment.radiance = [0.2, 0.4, 0.6]
             camera = {{ eye = [0, 0, 4], look_at = [0, 0, 0], fov = 40, resolution = [16, 16] }}
             textures.half.checker = {{ even = 0.5, odd = 0.5, scale = 3 }}
             textures.warm.checker = {{ even = [0.75, 0.5, 0.25], odd = [0.75, 0.5, 0.25], scale = 3 }}

@@ -186,11 +186,11 @@ impl<'a> Work<'a> {
         self.settings.estimator.compares() && self.scene.weights_lights_by_lobe()
     }
 
-    /// Whether surfaces sample a light. Lamps without surface are sampled by all estimators, because no ray can hit them.
+    /// Whether surfaces sample a light. Punctual lights are sampled by all estimators, because no ray can hit them.
     #[inline(always)]
     pub(super) fn samples_lights(&self) -> bool {
         let lights = &self.scene.lights;
-        (self.settings.estimator.samples_lights() && !lights.is_empty()) || !lights.lamps.is_empty()
+        (self.settings.estimator.samples_lights() && !lights.is_empty()) || !lights.punctual_lights.is_empty()
     }
 
     /// Whether emitter hits are weighted, because light samples could have found the same light.

@@ -48,9 +48,9 @@ pub fn sphere_irradiance(radiance: f64, radius: f64, distance: f64, cos: f64) ->
     std::f64::consts::PI * radiance * (radius / distance).powi(2) * cos
 }
 
-/// A spherical lamp.
+/// A spherical light.
 #[derive(Clone, Copy)]
-pub struct Lamp {
+pub struct SphereLight {
     /// Centre, metres.
     pub center: DVec3,
     /// Radius, metres.
@@ -60,16 +60,16 @@ pub struct Lamp {
 }
 
 /// The radiance of a diffuse unit sphere around the origin where the ray o + td first hits it from outside: ρ/π times the
-/// [irradiance](sphere_irradiance) from the lamp. `None` for a miss, and where the lamp is partly below the horizon.
-pub fn lamberts_ball(albedo: f64, lamp: Lamp, o: DVec3, d: DVec3) -> Option<f64> {
+/// [irradiance](sphere_irradiance) from the light. `None` for a miss, and where the light is partly below the horizon.
+pub fn lamberts_ball(albedo: f64, light: SphereLight, o: DVec3, d: DVec3) -> Option<f64> {
     let b = o.dot(d);
     let discriminant = b * b - (o.length_squared() - 1.0);
     let t = (discriminant > 0.0).then(|| -b - discriminant.sqrt())?;
     let p = o + d * t;
-    let to_lamp = lamp.center - p;
-    let (distance, cos) = (to_lamp.length(), p.dot(to_lamp.normalize()));
-    let above_horizon = cos * distance > lamp.radius;
-    above_horizon.then(|| albedo / std::f64::consts::PI * sphere_irradiance(lamp.radiance, lamp.radius, distance, cos))
+    let to_light = light.center - p;
+    let (distance, cos) = (to_light.length(), p.dot(to_light.normalize()));
+    let above_horizon = cos * distance > light.radius;
+    above_horizon.then(|| albedo / std::f64::consts::PI * sphere_irradiance(light.radiance, light.radius, distance, cos))
 }
 
 /// The mean of an exact radiance of rays o + td over a pixel of a pinhole camera, by the midpoint rule; `None` if it is unknown
@@ -193,14 +193,14 @@ mod tests {
         assert_eq!((mean(-1e-9), mean(1e-9), mean(0.03)), (Some(1.0), None, None));
     }
 
-    /// The edges of Lambert's ball, its outline and the line where the lamp begins to set, are in no pixel that is known: all parts of
+    /// The edges of Lambert's ball, its outline and the line where the light begins to set, are in no pixel that is known: all parts of
     /// such a pixel are known too, and their mean is that of the pixel.
     #[test]
     fn pixels_that_are_known_are_known_in_all_their_parts() {
         const PARTS: u32 = 4;
-        let lamp = Lamp { center: DVec3::new(1.7, 1.4, 1.0), radius: 0.5, radiance: 8.0 };
+        let light = SphereLight { center: DVec3::new(1.7, 1.4, 1.0), radius: 0.5, radiance: 8.0 };
         let of_scene = noisefall_scene::scene::built_in().camera;
-        let toward = lamp.center.normalize();
+        let toward = light.center.normalize();
         let camera = |side: u32| Camera {
             eye: DVec3::new(0.0, 1.0, 4.0),
             look_at: toward * 0.9,
@@ -208,7 +208,7 @@ mod tests {
             resolution: [side; 2],
             ..of_scene
         };
-        let mean = |side: u32, place: [u32; 2]| mean_over_pixel(&camera(side), place, |o, d| lamberts_ball(0.8, lamp, o, d));
+        let mean = |side: u32, place: [u32; 2]| mean_over_pixel(&camera(side), place, |o, d| lamberts_ball(0.8, light, o, d));
         let mut known = 0;
         for [x, y] in (0..16 * 16).map(|i| [i % 16, i / 16]) {
             let Some(whole) = mean(16, [x, y]) else { continue };
@@ -221,13 +221,13 @@ mod tests {
     }
 
     #[test]
-    fn lamberts_ball_is_not_known_where_the_lamp_sets() {
-        let lamp = Lamp { center: DVec3::new(0.0, 0.0, 3.0), radius: 0.5, radiance: 2.0 };
+    fn lamberts_ball_is_not_known_where_the_light_sets() {
+        let light = SphereLight { center: DVec3::new(0.0, 0.0, 3.0), radius: 0.5, radiance: 2.0 };
         let at = |height: f64| {
             let p = DVec3::new((1.0 - height * height).sqrt(), 0.0, height);
-            lamberts_ball(0.5, lamp, 5.0 * p, -p)
+            lamberts_ball(0.5, light, 5.0 * p, -p)
         };
-        // The lamp's centre is 3h − 1 above the horizon of a point of height h, and √(10 − 6h) away.
+        // The light's centre is 3h − 1 above the horizon of a point of height h, and √(10 − 6h) away.
         let exact = 0.5 * 2.0 * (0.5f64.powi(2) / 5.5) * (1.25 / 5.5f64.sqrt());
         assert!(at(0.75).is_some_and(|radiance| (radiance / exact - 1.0).abs() < 1e-12), "{:?} {exact}", at(0.75));
         assert_eq!([1.25, 0.75, -0.5].map(|above| at((1.0 + above) / 3.0).is_some()), [true, true, false]);

@@ -1,4 +1,4 @@
-//! References: the truth of the scene, a file, or a converged render that is made here and kept.
+//! References: the reference of the scene, a file, or a converged render that is made here and kept.
 use std::path::{Path, PathBuf};
 
 use super::{
@@ -10,8 +10,8 @@ use noisefall_kernel::measure::{Floor, SampleNoise, compare, relative};
 use noisefall_render::render::{
     Display, Frame,
     image_file::{self, Provenance},
+    reference::Reference as KnownReference,
     settings_text::settings_text,
-    truth,
 };
 use noisefall_scene::{
     sampling::{Directions, Sampler},
@@ -76,11 +76,11 @@ pub fn settings(study_scene: &StudyScene) -> RenderSettings {
     }
 }
 
-/// The reference of a scene with a `[truth]` or a reference file.
+/// The reference of a scene with a `[reference]` or a reference file.
 pub fn known(study_scene: &StudyScene, floor: Floor) -> Result<Option<Reference>, StudyError> {
     let Some((known, name)) = &study_scene.known else { return Ok(None) };
     let radiance = radiance(study_scene, known);
-    let provenance = if let truth::Reference::Picture(_, provenance) = known { Some(provenance) } else { None };
+    let provenance = if let KnownReference::Picture(_, provenance) = known { Some(provenance) } else { None };
     let own = provenance.and_then(|provenance| own_rel_mse(&radiance, provenance, floor));
     let noise = provenance.and_then(|provenance| provenance.noise.as_ref());
     let reference = Reference {
@@ -121,13 +121,13 @@ fn spp_of_half(spp_of_longest: u32) -> u32 {
     spp_of_longest.saturating_mul(TIMES_THE_SAMPLES / 2)
 }
 
-fn radiance(study_scene: &StudyScene, known: &truth::Reference) -> Vec<[f32; 3]> {
+fn radiance(study_scene: &StudyScene, known: &KnownReference) -> Vec<[f32; 3]> {
     match known {
-        truth::Reference::Constant(radiance) => {
+        KnownReference::Constant(radiance) => {
             let [width, height] = study_scene.camera.resolution;
             vec![*radiance; width as usize * height as usize]
         }
-        truth::Reference::Picture(picture, _) => picture.radiance.clone(),
+        KnownReference::Picture(picture, _) => picture.radiance.clone(),
     }
 }
 

@@ -3,8 +3,8 @@ use std::path::{Path, PathBuf};
 
 use super::{StudyError, plan::study_size};
 use noisefall_base::memory::{self, Reservation, TooMuch};
-use noisefall_render::render::{film::Film, truth};
-use noisefall_scene::scene::{Camera, Scene, Truth};
+use noisefall_render::render::{film::Film, reference::Reference as KnownReference};
+use noisefall_scene::scene::{Camera, Scene, SceneReference};
 
 /// Beside a scene `NAME.toml`, its reference is `NAME.ref.exr`.
 const REFERENCE_EXTENSION: &str = "ref.exr";
@@ -18,8 +18,8 @@ pub struct StudyScene {
     /// Its camera at the resolution of the study.
     pub camera: Camera,
     /// The known image or radiance and its description; without one, a converged render is made.
-    pub known: Option<(truth::Reference, String)>,
-    /// The reference is the scene's `[truth]`, not a rendered file.
+    pub known: Option<(KnownReference, String)>,
+    /// The reference is the scene's `[reference]`, not a rendered file.
     pub is_declared: bool,
 }
 
@@ -29,12 +29,12 @@ impl StudyScene {
         let unmeasurable = |reason: String| StudyError::Unmeasurable { path: path.to_owned(), reason };
         let known = known(path, &scene, reference)?;
         let own_size = match &known {
-            Some((truth::Reference::Picture(picture, _), _)) => [picture.width, picture.height],
+            Some((KnownReference::Picture(picture, _), _)) => [picture.width, picture.height],
             _ => study_size(scene.camera.resolution),
         };
         let camera = Camera { resolution: size.unwrap_or(own_size), ..scene.camera };
         camera.check().map_err(|error| unmeasurable(error.to_string()))?;
-        if let Some((truth::Reference::Picture(picture, _), name)) = &known
+        if let Some((KnownReference::Picture(picture, _), name)) = &known
             && own_size != camera.resolution
         {
             let ([width, height], [w, h]) = (camera.resolution, [picture.width, picture.height]);
@@ -43,7 +43,7 @@ impl StudyScene {
         if scene.lights.is_empty() {
             return Err(unmeasurable("nothing in this scene emits light: there is no error to measure".to_owned()));
         }
-        let is_declared = reference.is_none() && scene.truth.is_some();
+        let is_declared = reference.is_none() && scene.reference.is_some();
         Ok(StudyScene { path: path.to_owned(), scene, camera, known, is_declared })
     }
 
@@ -78,21 +78,21 @@ pub fn titles(study_scenes: &[StudyScene]) -> Vec<String> {
     titles.iter().zip(study_scenes).map(told_apart).collect()
 }
 
-fn known(path: &Path, scene: &Scene, given: Option<&Path>) -> Result<Option<(truth::Reference, String)>, StudyError> {
+fn known(path: &Path, scene: &Scene, given: Option<&Path>) -> Result<Option<(KnownReference, String)>, StudyError> {
     let beside = path.with_extension(REFERENCE_EXTENSION);
-    let beside = (scene.truth.is_none() && beside.is_file()).then_some(beside);
+    let beside = (scene.reference.is_none() && beside.is_file()).then_some(beside);
     if let Some(file) = given.map(Path::to_owned).or(beside) {
-        let reference = truth::Reference::read(&file)
+        let reference = KnownReference::read(&file)
             .map_err(|error| StudyError::Unmeasurable { path: path.to_owned(), reason: error.to_string() })?;
         return Ok(Some((reference, format!("the reference {}", file.display()))));
     }
-    let name = match &scene.truth {
-        Some(Truth::Image(file, _)) => format!("the true image {}", file.display()),
+    let name = match &scene.reference {
+        Some(SceneReference::Image(file, _)) => format!("the true image {}", file.display()),
         _ => "the exact radiance".to_owned(),
     };
-    let reference = truth::Reference::of(scene);
-    if reference.as_ref().is_some_and(truth::Reference::is_denoised) {
-        let reason = format!("{name} is denoised, and so biased; [truth] must be a render without --denoise");
+    let reference = KnownReference::of(scene);
+    if reference.as_ref().is_some_and(KnownReference::is_denoised) {
+        let reason = format!("{name} is denoised, and so biased; [reference] must be a render without --denoise");
         return Err(StudyError::Unmeasurable { path: path.to_owned(), reason });
     }
     Ok(reference.map(|reference| (reference, name)))

@@ -43,12 +43,12 @@ const CHAPTER: [(&str, &[&str]); 5] = [
         &[
             "A statement holds for the parameters that it names. No section covers these: textures and skies from image files, \
              noise textures, bump and normal maps, smooth normals, motion, instances, files of meshes, \
-             media within media, lamps that are ellipsoids, cuboids, cylinders or isosurfaces, the window. \
+             media within media, lights that are ellipsoids, cuboids, cylinders or isosurfaces, the window. \
              The tests of the program do, and `validate --stress` renders \
              meshes by formula, bump, motion and filters at random. Noise figures and stops by noise \
              are not covered either. Every row states the smallest bias that it would notice; a smaller bias may remain.",
             "Does the report notice a mistake? 35 faults were planted in the code that computes the image, one at a time: a wrong density, a \
-             lost cosine, a lamp that shines from its back. They were written down before anyone looked at what the report tests \
+             lost cosine, a light that shines from its back. They were written down before anyone looked at what the report tests \
              (crates/lab/faults.toml in the source). The quick run noticed 31 of them. It missed a random number that is used twice in the \
              tree of lights, a cosine in the weights of reused suffixes, the sides of flipped surfaces, and the largest survival probability.",
         ],

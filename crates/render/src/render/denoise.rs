@@ -69,7 +69,7 @@ fn gain(frame: &Frame) -> Option<f32> {
         for c in 0..3 {
             let [a, b] = [0, 1].map(|half| f64::from(halves.means[half][i][c]));
             let variance = f64::from(noise.variance[i][c]);
-            // Relative to the radiance, so that lamps do not decide, nor pixels that are dark by chance.
+            // Relative to the radiance, so that lights do not decide, nor pixels that are dark by chance.
             let level = f64::from(frame.radiance[i][c]).powi(2) + variance + floor;
             found += (a - b).powi(2) * scale / level;
             independent += variance / level;

@@ -103,7 +103,7 @@ mod tests {
     use super::*;
     use noisefall_scene::scene::load;
 
-    /// Hardly any path from the camera finds the lamp through the ball of glass: images without its caustic agree with each other.
+    /// Hardly any path from the camera finds the light through the ball of glass: images without its caustic agree with each other.
     #[test]
     fn paths_from_both_ends_are_chosen_for_a_caustic_and_not_for_a_diffuse_room() {
         for (name, best) in [("glass_ball_caustic", Estimator::Bidirectional), ("cornell_spheres", Estimator::Mis)] {

@@ -106,7 +106,7 @@ fn title(scene: &Scene, vertex: &Vertex) -> String {
 
 fn light_sample(scene: &Scene, light: &SampledLight, term: &mut impl FnMut(&str, &str)) {
     let aim = light.object.map_or("the background", |id| name(scene, id));
-    let aim = light.lamp.as_deref().unwrap_or(aim);
+    let aim = light.punctual_light.as_deref().unwrap_or(aim);
     term("light sample", &format!("{aim}, p {}", number(light.pdf)));
     term("", &format!("ω {}", place(light.direction)));
     term("", &format!("Le {}, weight {}", three(light.radiance), number(light.weight)));

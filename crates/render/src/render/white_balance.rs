@@ -122,7 +122,7 @@ mod tests {
     }
 
     #[test]
-    fn a_lamp_of_its_temperature_becomes_grey() {
+    fn a_light_of_its_temperature_becomes_grey() {
         for kelvin in [2000.0, 2700.0, 3200.0, 3999.0] {
             let found = balanced(WhiteBalance { kelvin: kelvin as f32, tint: 0.0 }, black_body(kelvin));
             assert!(found.iter().all(|c| (c / found[1] - 1.0).abs() < 2e-3), "{kelvin} K: {found:?}");

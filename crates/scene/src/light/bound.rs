@@ -1,11 +1,11 @@
-//! Bounds of an emitting piece or a lamp for light selection: its position, power and emitting side.
+//! Bounds of an emitting piece or a light for light selection: its position, power and emitting side.
 use std::f64::consts::PI;
 
 use glam::DVec3;
 
 use super::{
     emission::{Emission, Side},
-    lamp::{Lamp, LampBound},
+    punctual_light::{PunctualBound, PunctualLight},
 };
 use crate::geometry::{Motion, Shape};
 use noisefall_base::math::colour::luminance;
@@ -48,9 +48,9 @@ impl Bound {
         Bound { center, radius, size, normal, front, back, moves }
     }
 
-    /// Bounds a lamp without surface; `None` if it is infinitely far away.
-    pub fn of_lamp(lamp: &Lamp) -> Option<Bound> {
-        let LampBound { position, axis, light } = lamp.bound()?;
+    /// Bounds a punctual light; `None` if it is infinitely far away.
+    pub fn of_punctual(punctual_light: &PunctualLight) -> Option<Bound> {
+        let PunctualBound { position, axis, light } = punctual_light.bound()?;
         Some(Bound { center: position, radius: 0.0, size: 1.0 / PI, normal: axis, front: light, back: 0.0, moves: false })
     }
 }

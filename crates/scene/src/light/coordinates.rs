@@ -9,6 +9,6 @@ pub struct LightCoordinates<L: Lanes> {
     pub cell: (F<L>, F<L>),
     /// Selects the point on the light.
     pub place: (F<L>, F<L>),
-    /// Selects the direction to a background [that is sampled like a diffuse surface](crate::light::Background::is_even).
+    /// Selects the direction to a background [that is sampled like a diffuse surface](crate::light::Environment::is_even).
     pub sky: (F<L>, F<L>),
 }

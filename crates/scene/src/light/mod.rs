@@ -1,20 +1,20 @@
-//! Light sources: surfaces that emit, lamps without surface, and the background.
+//! Light sources: surfaces that emit, punctual lights, and the background.
 //!
 //! | type | file | description |
 //! |---|---|---|
 //! | emission | `emission/` | radiance from one or both sides of a surface, constant or textured |
-//! | lamps without surface | `lamp/` | point, spot, directional lamp, projector |
-//! | background | `background/` | radiance from all directions |
+//! | punctual lights | `punctual_light/` | point, spot, directional light, projector |
+//! | background | `environment/` | radiance from all directions |
 //!
 //! `selection/` selects a light for a point, with the light tree of `tree/` if there are many.
-pub mod background;
 mod bound;
 mod choice;
 mod coordinates;
 pub mod emission;
-pub mod lamp;
+pub mod environment;
 mod lobe;
 pub mod parameters;
+pub mod punctual_light;
 mod reference_point;
 mod selection;
 mod source;
@@ -23,11 +23,11 @@ mod tests;
 mod tree;
 
 pub use self::{
-    background::{Background, image::ImageBackground},
     choice::{LightRays, LightSample, Lights, RayCoordinates, RaySample},
     coordinates::LightCoordinates,
     emission::{Emission, Emitters, Side},
-    lamp::{Lamp, Lamps},
+    environment::{Environment, image::EnvironmentImage},
     lobe::Lobe,
+    punctual_light::{PunctualLight, PunctualLights},
     reference_point::ReferencePoint,
 };

@@ -1,13 +1,13 @@
-//! Parameters of backgrounds, lamps and truths.
+//! Parameters of backgrounds, lights and truths.
 use noisefall_base::declare::Parameter;
 
-/// The radiance of a lamp, background or truth.
+/// The radiance of a light, environment or reference.
 pub const RADIANCE: Parameter = Parameter::new("radiance", "Radiance of each channel.")
     .symbol("L_e")
     .unit("W·sr⁻¹·m⁻²")
     .required()
     .aliases("power intensity flux strength brightness watts le Le L_e color colour rgb")
-    .advice("radiance is in W·sr⁻¹·m⁻²: a flat lamp of area A with the power Φ has Φ/(π A)");
+    .advice("radiance is in W·sr⁻¹·m⁻²: a flat light of area A with the power Φ has Φ/(π A)");
 
 /// The image of a background.
 pub const IMAGE: Parameter = Parameter::new("image", "Equirectangular image, such as EXR or HDR; its centre is towards −z.")

@@ -6,12 +6,12 @@ use glam::DVec3;
 use super::{
     ReferencePoint,
     bound::Bound,
-    lamp::{Beam, Lamp, LampRows},
+    punctual_light::{Beam, PunctualLight, PunctualRows},
 };
 use crate::geometry::{Shape, Sphere};
 use noisefall_base::math::{F, Lanes, Pick, V};
 
-/// An emitting primitive, or a lamp without surface.
+/// An emitting primitive, or a punctual light.
 pub(super) struct Source {
     extent: Extent,
     /// Luminance of the front and of the back.
@@ -28,8 +28,8 @@ enum Extent {
         size: f32,
         normal: Option<[f32; 3]>,
     },
-    /// A lamp without surface. Its irradiance is known exactly, but for the image that it may cast.
-    Lamp(LampRows),
+    /// A punctual light. Its irradiance is known exactly, but for the image that it may cast.
+    PunctualLight(PunctualRows),
 }
 
 impl Source {
@@ -47,9 +47,9 @@ impl Source {
         Source { extent, front: bound.front, back: bound.back }
     }
 
-    /// Builds a source from a lamp.
-    pub fn of_lamp(lamp: &Lamp) -> Source {
-        Source { extent: Extent::Lamp(lamp.rows(0)), front: lamp.light() * FRAC_1_PI, back: 0.0 }
+    /// Builds a source from a light.
+    pub fn of_punctual(punctual_light: &PunctualLight) -> Source {
+        Source { extent: Extent::PunctualLight(punctual_light.rows(0)), front: punctual_light.light() * FRAC_1_PI, back: 0.0 }
     }
 
     /// Estimates an upper bound of the irradiance from this light, divided by π: E ≈ L A cos θ_i cos θ_e/d², which is a bound if
@@ -80,7 +80,7 @@ impl Source {
                 }
                 light * *size / distance_squared.max(l.f(*radius_squared))
             }
-            Extent::Lamp(rows) => {
+            Extent::PunctualLight(rows) => {
                 let beam = Beam::of_all(l, rows);
                 let way = beam.way_from(l, at.p);
                 let zero = l.f(0.0);

@@ -2,7 +2,8 @@
 use glam::DVec3;
 
 use super::{
-    Background, Emission, Lamp, LightCoordinates, Lights, Lobe, ReferencePoint, Side, background::constant::ConstantRadiance,
+    Emission, Environment, LightCoordinates, Lights, Lobe, PunctualLight, ReferencePoint, Side,
+    environment::constant::ConstantRadiance,
 };
 use crate::chi_squared::chi_squared_with;
 use crate::{
@@ -11,7 +12,7 @@ use crate::{
 };
 use noisefall_base::math::{F, M, One, U, V};
 
-/// Two lamps, one of them partly below the horizon, a shell that shines inwards, one that shines away, and a sky.
+/// Two lights, one of them partly below the horizon, a shell that shines inwards, one that shines away, and a sky.
 fn lights() -> (Lights, Shapes, Vec<Shapes>) {
     let spheres = [
         (DVec3::new(1.5, 0.5, 1.0), 0.6),
@@ -27,7 +28,8 @@ fn lights() -> (Lights, Shapes, Vec<Shapes>) {
     let shapes = shapes_of(&spheres);
     let emitters: Vec<_> =
         spheres.iter().cloned().zip(emissions).map(|(shape, emission)| (shape, STILL.clone(), emission)).collect();
-    let lights = Lights::new(&shapes, &emitters, &[], Some(Background::Constant(ConstantRadiance([0.5, 0.4, 0.6]))), DVec3::ZERO);
+    let lights =
+        Lights::new(&shapes, &emitters, &[], Some(Environment::Constant(ConstantRadiance([0.5, 0.4, 0.6]))), DVec3::ZERO);
     let alone = spheres.iter().map(|sphere| shapes_of(std::slice::from_ref(sphere))).collect();
     (lights, shapes, alone)
 }
@@ -119,34 +121,34 @@ fn directions_to_lights_are_distributed_as_their_pdf() {
 
 #[test]
 fn the_luminance_of_a_background_is_that_of_its_colour() {
-    let found = Background::Constant(ConstantRadiance([0.5, 0.25, 0.125])).luminance();
+    let found = Environment::Constant(ConstantRadiance([0.5, 0.25, 0.125])).luminance();
     assert!((found - (0.2126 * 0.5 + 0.7152 * 0.25 + 0.0722 * 0.125)).abs() < 1e-6, "{found}");
 }
 
-/// A ball, a point lamp, a directional lamp and a lamp below the horizon.
-fn with_lamps() -> (Lights, Shapes) {
+/// A ball, a point light, a directional light and a light below the horizon.
+fn with_punctual() -> (Lights, Shapes) {
     let ball = Shape::sphere(DVec3::new(0.0, 3.0, 1.0), 0.5);
     let light = Emission { radiance: [4.0; 3], mean: [4.0; 3], texture: None, side: Side::Front, translucent: false };
     let shapes = shapes(std::slice::from_ref(&ball));
-    let lamps = [
-        Lamp::point(DVec3::new(1.0, 2.0, 0.0), [3.0; 3]),
-        Lamp::directional(DVec3::new(0.6, 0.8, 0.0), [0.7; 3]),
-        Lamp::point(DVec3::new(0.0, -1.0, 0.0), [100.0; 3]),
+    let punctual_lights = [
+        PunctualLight::point(DVec3::new(1.0, 2.0, 0.0), [3.0; 3]),
+        PunctualLight::directional(DVec3::new(0.6, 0.8, 0.0), [0.7; 3]),
+        PunctualLight::point(DVec3::new(0.0, -1.0, 0.0), [100.0; 3]),
     ];
-    (Lights::new(&shapes, &[(ball, STILL.clone(), light)], &lamps, None, DVec3::ZERO), shapes)
+    (Lights::new(&shapes, &[(ball, STILL.clone(), light)], &punctual_lights, None, DVec3::ZERO), shapes)
 }
 
 fn on_floor() -> ReferencePoint<One> {
     ReferencePoint { p: vector(0.0, 0.0, 0.0), n: vector(0.0, 1.0, 0.0), transmits: M(false), lobe: None }
 }
 
-/// The irradiance of a ball is π L sin²θ times the cosine of its middle; of a point lamp, I cos/d²; of a directional one, E cos.
+/// The irradiance of a ball is π L sin²θ times the cosine of its middle; of a point light, I cos/d²; of a directional one, E cos.
 #[test]
-fn samples_of_surfaces_and_lamps_add_up_to_the_irradiance_of_all() {
+fn samples_of_surfaces_and_lights_add_up_to_the_irradiance_of_all() {
     const SAMPLES: u32 = 100_000;
-    let (lights, shapes) = with_lamps();
+    let (lights, shapes) = with_punctual();
     let ball = std::f64::consts::PI * 4.0 * (0.25 / 10.0) * (3.0 / 10f64.sqrt());
-    let lamps = 3.0 / 5.0 * (2.0 / 5f64.sqrt()) + 0.7 * 0.8;
+    let punctual_lights = 3.0 / 5.0 * (2.0 / 5f64.sqrt()) + 0.7 * 0.8;
     let at = on_floor();
     let mean = |sample: &dyn Fn(u32) -> super::LightSample<One>| {
         let value = |i: u32| {
@@ -159,50 +161,50 @@ fn samples_of_surfaces_and_lamps_add_up_to_the_irradiance_of_all() {
         (mean, ((sums[1] / f64::from(SAMPLES) - mean * mean).max(0.0) / f64::from(SAMPLES)).sqrt())
     };
     let (all, error) = mean(&|i| lights.sample(One, &shapes, &at, F(0.0), &coordinates(i)));
-    assert!((all - ball - lamps).abs() < 4.0 * error + 1e-5, "{all} ± {error} for {}", ball + lamps);
-    let (alone, error) = mean(&|i| lights.sample_lamps(One, at, coordinates(i)));
-    assert!((alone - lamps).abs() < 4.0 * error + 1e-5, "{alone} ± {error} for {lamps}");
+    assert!((all - ball - punctual_lights).abs() < 4.0 * error + 1e-5, "{all} ± {error} for {}", ball + punctual_lights);
+    let (alone, error) = mean(&|i| lights.sample_punctual(One, at, coordinates(i)));
+    assert!((alone - punctual_lights).abs() < 4.0 * error + 1e-5, "{alone} ± {error} for {punctual_lights}");
 }
 
 #[test]
-fn the_pdf_of_a_surface_next_to_lamps_has_its_part_of_the_choice() {
-    let (lights, shapes) = with_lamps();
+fn the_pdf_of_a_surface_next_to_lights_has_its_part_of_the_choice() {
+    let (lights, shapes) = with_punctual();
     let at = on_floor();
-    let (mut surfaces, mut lamps) = (0, 0);
+    let (mut surfaces, mut punctual_lights) = (0, 0);
     for i in 0..2000 {
         let sample = lights.sample(One, &shapes, &at, F(0.0), &coordinates(i));
-        match lights.lamp_at(sample.target.0) {
+        match lights.punctual_at(sample.target.0) {
             None => {
                 let pdf = lights.pdf(One, &shapes, &at, sample.wi, &place(sample.target));
                 assert!(
-                    (pdf.0 / sample.pdf.0 - 1.0).abs() < 1e-3 && !lights.are_lamps(sample.target).0,
+                    (pdf.0 / sample.pdf.0 - 1.0).abs() < 1e-3 && !lights.are_punctual(sample.target).0,
                     "{} {}",
                     pdf.0,
                     sample.pdf.0
                 );
                 surfaces += 1;
             }
-            Some(lamp) => {
+            Some(punctual_light) => {
                 assert!(
-                    lamp < 2 && lights.are_lamps(sample.target).0 && sample.pdf.0 <= 1.0,
-                    "the third lamp is below the horizon: {lamp}"
+                    punctual_light < 2 && lights.are_punctual(sample.target).0 && sample.pdf.0 <= 1.0,
+                    "the third light is below the horizon: {punctual_light}"
                 );
-                lamps += 1;
+                punctual_lights += 1;
             }
         }
     }
-    assert!(surfaces > 100 && lamps > 100, "{surfaces} {lamps}");
+    assert!(surfaces > 100 && punctual_lights > 100, "{surfaces} {punctual_lights}");
 }
 
 #[test]
-fn a_lamp_arrives_unless_something_is_nearer() {
-    let (lights, _) = with_lamps();
+fn a_light_arrives_unless_something_is_nearer() {
+    let (lights, _) = with_punctual();
     let arrives = |target: u32, t: f32, primitive: u32| {
         let nearest = Nearest { t: F(t), primitive: U(primitive), element: U(0) };
         let (arrives, end) = lights.arrives(One, U(target), vector(0.0, 0.0, 0.0), nearest);
         (arrives.0, end.t.0)
     };
-    // Light 0 is the ball; primitive 1 is something dark, whose number is that of a lamp.
+    // Light 0 is the ball; primitive 1 is something dark, whose number is that of a light.
     let distance = 5f32.sqrt();
     assert_eq!(arrives(1, 2.0, 1), (false, 2.0));
     assert_eq!(arrives(1, 3.0, 1), (true, distance));
@@ -216,7 +218,7 @@ fn a_lamp_arrives_unless_something_is_nearer() {
 #[test]
 fn an_even_sky_is_sampled_except_where_a_narrow_lobe_reflects_it() {
     let (several, shapes, _) = lights();
-    let sky = || Some(Background::Constant(ConstantRadiance([0.5, 0.4, 0.6])));
+    let sky = || Some(Environment::Constant(ConstantRadiance([0.5, 0.4, 0.6])));
     let alone = Lights::new(&shapes, &[], &[], sky(), DVec3::ZERO);
     let cases = [(0.0, true), (0.1, false), (0.6, true)];
     for (lights, (alpha, sampled)) in [&several, &alone].into_iter().flat_map(|lights| cases.map(|case| (lights, case))) {

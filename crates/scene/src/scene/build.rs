@@ -124,25 +124,25 @@ mod tests {
         shape::Sphere,
     };
 
-    fn lamp() -> SceneDescription {
+    fn punctual_light() -> SceneDescription {
         let mut description = SceneDescription::default();
         description.add_material("white", Lambertian::default());
         let ball = description.add_object("ball", Sphere::default());
         ball.material = Some("white".to_owned());
-        description.add_object("lamp", Sphere { radius: 0.5, ..Sphere::default() }).emission =
+        description.add_object("light", Sphere { radius: 0.5, ..Sphere::default() }).emission =
             Some(EmissionDescription::radiance([3.0, 2.0, 1.0]));
         description
     }
 
     #[test]
     fn a_scene_built_in_code_is_the_one_of_its_text() {
-        let description = lamp();
+        let description = punctual_light();
         let built = description.build(Path::new("")).expect("the description is valid");
         assert_eq!(describe("text", built.source.clone()).expect("the text is valid"), description);
         let parsed = parse("text", built.source.clone()).expect("the text is valid");
         assert_eq!((&built.owners, built.camera), (&parsed.owners, parsed.camera));
         // Emitting objects come first.
-        assert_eq!(built.objects[0].name, "lamp");
+        assert_eq!(built.objects[0].name, "light");
         assert_eq!([0, 1].map(|object| built.objects[object].described), [1, 0]);
         assert!(built.material(&built.objects[1]).is_some());
     }
@@ -150,7 +150,7 @@ mod tests {
     #[test]
     fn a_scene_built_in_code_is_checked_as_a_file_is() {
         let refused = |change: fn(&mut SceneDescription), message: &str| {
-            let mut description = lamp();
+            let mut description = punctual_light();
             change(&mut description);
             let error = description.build(Path::new("")).err().expect("it is invalid").report();
             // The report breaks its lines.

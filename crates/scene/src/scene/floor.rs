@@ -1,4 +1,4 @@
-//! Floors below points, and where new objects and lamps stand.
+//! Floors below points, and where new objects and lights stand.
 use glam::DVec3;
 
 use super::Scene;
@@ -11,9 +11,9 @@ const MOST_PASSED: usize = 64;
 const STEP: f64 = 1e-5;
 /// Smallest −y of the unit normal of a ceiling.
 const STEEPEST_CEILING: f64 = 0.7;
-/// The height of new lamps over the floor, in sizes of new objects.
-const SIZES_OF_LAMP_HEIGHT: f64 = 2.0;
-/// The largest height of new lamps, as a fraction of what is free above the floor.
+/// The height of new lights over the floor, in sizes of new objects.
+const SIZES_OF_LIGHT_HEIGHT: f64 = 2.0;
+/// The largest height of new lights, as a fraction of what is free above the floor.
 const PART_OF_ROOM: f64 = 0.6;
 
 impl Scene {
@@ -49,18 +49,18 @@ impl Placement {
         Placement { at: DVec3 { y: floor.unwrap_or(start.y), ..start }, normal: DVec3::Y, ..self }
     }
 
-    /// The place over the floor where a lamp hangs, facing down. On a ceiling it is that of the ceiling.
+    /// The place over the floor where a light hangs, facing down. On a ceiling it is that of the ceiling.
     pub fn hung(self, scene: &Scene) -> Placement {
         if self.normal.y < -STEEPEST_CEILING {
             return self;
         }
         let floor = self.on_floor(scene, self.size());
-        Placement { at: floor.at + DVec3::Y * floor.lamp_height(scene), normal: DVec3::NEG_Y, ..floor }
+        Placement { at: floor.at + DVec3::Y * floor.light_height(scene), normal: DVec3::NEG_Y, ..floor }
     }
 
-    /// The height over this floor at which a lamp has room, metres.
-    pub fn lamp_height(&self, scene: &Scene) -> f64 {
-        let wanted = SIZES_OF_LAMP_HEIGHT * self.size();
+    /// The height over this floor at which a light has room, metres.
+    pub fn light_height(&self, scene: &Scene) -> f64 {
+        let wanted = SIZES_OF_LIGHT_HEIGHT * self.size();
         let [o, d] = [self.at + DVec3::Y * (STEP * scene.size), DVec3::Y].map(|v| V::splat(One, v.as_vec3().to_array()));
         let above = scene.shapes.closest(One, M(true), o, d, F(0.0));
         if above.primitive.0 == MISS { wanted } else { wanted.min(PART_OF_ROOM * f64::from(above.t.0)) }

@@ -58,13 +58,13 @@ impl Scene {
     fn starts(&self) -> Vec<LightStart> {
         let by_object: Vec<LightStart> = self.objects.iter().map(|object| self.start_at(object)).collect();
         let owner = |primitive: u32| by_object[self.owners[primitive as usize] as usize];
-        let lamp = |number: usize| {
-            let ray = self.lights.lamps.emit(One, U(number as u32), (F(0.5), F(0.5)));
+        let punctual_light = |number: usize| {
+            let ray = self.lights.punctual_lights.emit(One, U(number as u32), (F(0.5), F(0.5)));
             if ray.far.0 { self.start_far_away() } else { self.media_around_all(&Bounds::of_points([ray.origin.lane(0)])) }
         };
         let surfaces = self.lights.primitives().map(owner);
-        let lamps = (0..self.lights.lamps.len()).map(lamp);
-        surfaces.chain(lamps).chain(self.lights.background.as_ref().map(|_| self.start_far_away())).collect()
+        let punctual_lights = (0..self.lights.punctual_lights.len()).map(punctual_light);
+        surfaces.chain(punctual_lights).chain(self.lights.environment.as_ref().map(|_| self.start_far_away())).collect()
     }
 
     /// How paths start at an object that emits light.
@@ -74,7 +74,7 @@ impl Scene {
         }
         match object.shape {
             Shape::Isosurface { .. } => Err(Obstacle::Isosurface),
-            _ if self.lets_pass(object) => Err(Obstacle::ClearLamp),
+            _ if self.lets_pass(object) => Err(Obstacle::ClearLight),
             _ => self.media_around_all(&object.shape.bounds(&object.motion)),
         }
     }
@@ -95,7 +95,7 @@ impl Scene {
         for (id, object) in self.objects.iter().enumerate().filter(|(_, object)| self.has_inside(object)) {
             let is_apart = !object.shape.bounds(&object.motion).overlaps(bounds);
             let holds = if is_apart { Some(false) } else { object.shape.holds(bounds).filter(|_| object.motion.0.is_empty()) };
-            if holds.ok_or(Obstacle::LampAtGlass)? != object.flip {
+            if holds.ok_or(Obstacle::LightAtGlass)? != object.flip {
                 around.push((id, object));
             }
         }
@@ -146,8 +146,8 @@ impl Scene {
 mod tests {
     use crate::scene::{Estimator, RenderSettings, parse};
 
-    /// What `bidirectional` and `light_tracing` say about a scene with these materials and a lamp of one of them.
-    fn notes(materials: &str, lamp: &str) -> [Option<String>; 2] {
+    /// What `bidirectional` and `light_tracing` say about a scene with these materials and a light of one of them.
+    fn notes(materials: &str, punctual_light: &str) -> [Option<String>; 2] {
         let text = format!(
             "format = 1
             camera = {{ eye = [0, 0, 4], look_at = [0, 0, 0], fov = 40, resolution = [16, 16] }}
@@ -161,7 +161,7 @@ mod tests {
             shape.sphere = {{ center = [0, 0, 2], radius = 0.5 }}
             material = 'tinted'
             [[objects]]
-            {lamp}
+            {punctual_light}
             emission.radiance = 1"
         );
         let scene = parse("lamps.toml", text).unwrap_or_else(|error| panic!("{}", error.report()));
@@ -179,30 +179,30 @@ mod tests {
     #[test]
     fn paths_start_where_the_media_are_known() {
         let ball = |x: f32, radius: f32| format!("shape.sphere = {{ center = [{x}, 0, 2], radius = {radius} }}");
-        let beside = "lamps that may touch or cross the surface of a dielectric";
-        for (lamp, obstacle) in [
+        let beside = "lights that may touch or cross the surface of a dielectric";
+        for (punctual_light, obstacle) in [
             (ball(0.0, 0.2), None),
             (ball(0.4, 0.2), Some(beside)),
             (ball(0.0, 0.6), Some(beside)),
             (ball(2.0, 0.2), None),
-            (ball(2.0, 0.2) + "\nmaterial = 'sheer'", Some("lamps that let light pass")),
+            (ball(2.0, 0.2) + "\nmaterial = 'sheer'", Some("lights that let light pass")),
         ] {
-            let notes = notes("materials.wall.lambertian.albedo = 0.5\nmaterials.sheer.null = {}", &lamp);
-            notes.iter().for_each(|note| assert_note(note, obstacle, &lamp));
+            let notes = notes("materials.wall.lambertian.albedo = 0.5\nmaterials.sheer.null = {}", &punctual_light);
+            notes.iter().for_each(|note| assert_note(note, obstacle, &punctual_light));
         }
     }
 
     #[test]
     fn a_path_does_not_get_into_tinted_glass_unseen() {
         let unseen = Some("tinted glass with opacity or in a blend");
-        let lamp = "shape.sphere = { center = [2, 0, 2], radius = 0.2 }";
+        let punctual_light = "shape.sphere = { center = [2, 0, 2], radius = 0.2 }";
         let tinted = "materials.glass.dielectric = { ior = 1.5, transmittance = 0.5 }\n";
         for (wall, obstacle) in [
             ("lambertian.albedo = 0.5\nmaterials.tinted.opacity = 0.5", unseen),
             ("blend = { first = 'glass', second = 'white', weight = 0.5 }", unseen),
             ("lambertian.albedo = 0.5\nmaterials.wall.opacity = 0.5", None),
         ] {
-            let notes = notes(&format!("{tinted}materials.wall.{wall}"), lamp);
+            let notes = notes(&format!("{tinted}materials.wall.{wall}"), punctual_light);
             notes.iter().for_each(|note| assert_note(note, obstacle, wall));
         }
     }

@@ -160,7 +160,7 @@ impl<'a> Walk<'a> {
 mod tests {
     use crate::scene::{Estimator, RenderSettings, parse};
 
-    /// Whether paths start at a lamp above a floor with these surfaces of tinted glass.
+    /// Whether paths start at a light above a floor with these surfaces of tinted glass.
     fn starts_paths(red: &[&str], blue: &[&str]) -> bool {
         let text = "format = 1
             camera = { eye = [0, 1.2, 4], look_at = [0, 0.4, 0], fov = 40, resolution = [16, 16] }

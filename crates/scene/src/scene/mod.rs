@@ -14,7 +14,6 @@ mod estimator;
 mod excerpt;
 mod floor;
 mod infinite_variance;
-mod lamp;
 mod legend;
 mod light_paths;
 mod light_starts;
@@ -27,6 +26,7 @@ mod object;
 mod parse;
 mod path_reuse;
 pub mod projection;
+mod punctual_light;
 mod rays;
 mod read;
 mod reuse;
@@ -59,11 +59,10 @@ pub use self::{
     camera::{Camera, CameraError, Lens},
     camera_path::CameraPath,
     camera_sequence::CameraSequence,
-    compile::{check_blend, check_camera, check_lamp, check_object},
+    compile::{check_blend, check_camera, check_object, check_punctual},
     compile_report::CompileReport,
     diagnostic::{SceneError, SourceText},
     estimator::{Estimator, Obstacle, power_heuristic},
-    lamp::LampInstance,
     legend::Legend,
     light_paths::EstimatorInForce,
     light_starts::LightStarts,
@@ -72,6 +71,7 @@ pub use self::{
     object::Object,
     parse::{BUILT_IN, built_in, describe, parse, parse_watched},
     projection::Projection,
+    punctual_light::PunctualLightInstance,
     rays::{CameraJoin, CameraRays},
     reuse::{PathReuse, Reuse},
     roulette::Roulette,
@@ -116,14 +116,14 @@ pub struct Scene {
     pub surfaces: Surfaces,
     /// All textures.
     pub textures: Textures,
-    /// Emitters, lamps and background, with the tables that choose among them.
+    /// Emitters, lights and background, with the tables that choose among them.
     pub lights: Arc<Lights>,
     /// The materials of the scene file.
     pub materials: Vec<MaterialInstance>,
     /// The objects in the order of their primitive ids, emitting ones first.
     pub objects: Vec<Object>,
-    /// The lamps without surface that emit light, in the order of [`Lights::lamps`].
-    pub lamps: Vec<LampInstance>,
+    /// The punctual lights that emit light, in the order of [`Lights::lights`].
+    pub punctual_lights: Vec<PunctualLightInstance>,
     /// The place of the object that a primitive is a piece of.
     pub owners: Vec<u32>,
     /// The extent of the scene in metres, as a person walking through it would say it.
@@ -145,7 +145,7 @@ pub struct Scene {
     /// Exposure that the scene is displayed with, stops.
     pub exposure: f32,
     /// What the image must converge to, if it is known.
-    pub truth: Option<Truth>,
+    pub reference: Option<SceneReference>,
     /// Largest number of media around the middle of a dielectric.
     pub deepest_media: usize,
     /// Whether rays miss part of a light that they were sampled towards: see [`Lights::are_missed_over`].
@@ -171,7 +171,7 @@ pub type SceneText = LazyLock<String, Box<dyn FnOnce() -> String + Send>>;
 
 /// The known solution of a scene.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Truth {
+pub enum SceneReference {
     /// The same exact radiance at every pixel.
     Radiance([f32; 3]),
     /// A reference image, read from this file.
@@ -186,7 +186,7 @@ impl Scene {
 
     /// Whether all lights are the background or surfaces in lists, so that any other surface on the way to one hides it.
     pub fn lights_are_listed(&self) -> bool {
-        self.lights.lamps.is_empty() && self.lights.emitters.len() <= self.shapes.first_unlisted() as usize
+        self.lights.punctual_lights.is_empty() && self.lights.emitters.len() <= self.shapes.first_unlisted() as usize
     }
 
     /// Whether pixels reuse path suffixes.

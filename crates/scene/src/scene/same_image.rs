@@ -1,4 +1,4 @@
-//! Scenes that differ only in what no image shows: title, notes, truth, exposure, names, and materials and textures that nothing uses.
+//! Scenes that differ only in what no image shows: title, notes, reference, exposure, names, and materials and textures that nothing uses.
 use std::sync::Arc;
 
 use super::{
@@ -22,7 +22,7 @@ impl SceneDescription {
     fn may_show_the_same(&self, other: &SceneDescription) -> bool {
         let same_place = |(a, b): (&ObjectDescription, &ObjectDescription)| a.transform == b.transform && a.shape == b.shape;
         self.camera == other.camera
-            && self.lamps == other.lamps
+            && self.punctual_lights == other.punctual_lights
             && self.render.renders_like(&other.render)
             && self.objects.len() == other.objects.len()
             && self.objects.iter().zip(&other.objects).all(same_place)
@@ -31,7 +31,7 @@ impl SceneDescription {
     /// The scene without what no image shows.
     fn shown(&self) -> SceneDescription {
         let render = RenderDescription { exposure: 0.0, ..self.render.clone() };
-        let mut shown = SceneDescription { title: String::new(), notes: String::new(), truth: None, render, ..self.clone() };
+        let mut shown = SceneDescription { title: String::new(), notes: String::new(), reference: None, render, ..self.clone() };
         shown.objects.iter_mut().for_each(|object| object.name.clear());
         number_names(&mut shown);
         shown
@@ -68,7 +68,7 @@ mod tests {
 
     use super::*;
     use crate::{
-        light::background::{BackgroundDescription, image::Image},
+        light::environment::{EnvironmentDescription, image::Image},
         material::{Dielectric, Lambertian},
         scene::{BUILT_IN, PathReuse, built_in, describe},
         texture::image::Image as Texels,
@@ -98,7 +98,7 @@ mod tests {
         };
         assert!(changed(|scene| scene.title = "Room".to_owned()));
         assert!(changed(|scene| scene.notes = "Bright.".to_owned()));
-        assert!(changed(|scene| scene.truth = Some(Default::default())));
+        assert!(changed(|scene| scene.reference = Some(Default::default())));
         assert!(changed(|scene| scene.render.exposure = 1.5));
         assert!(!changed(|scene| (scene.title, scene.camera.fov) = ("Room".to_owned(), Some(20.0))));
         assert!(changed(|scene| scene.objects[0].name = "wall".to_owned()));
@@ -125,7 +125,7 @@ mod tests {
         };
         write(8);
         let mut description = built_in_description();
-        description.background = Some(BackgroundDescription::from(Image { path: "sky.png".to_owned(), ..Image::default() }));
+        description.environment = Some(EnvironmentDescription::from(Image { path: "sky.png".to_owned(), ..Image::default() }));
         let before = description.build(folder.path()).expect("it is valid");
         before.path_reuse_by_trial.set(PathReuse::Suffixes).expect("it is not known yet");
         description.title = "Room".to_owned();

@@ -2,7 +2,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::description::{EmissionDescription, MaterialDescription, SceneDescription};
-use crate::{light::background::BackgroundDescription, texture::TextureKind};
+use crate::{light::environment::EnvironmentDescription, texture::TextureKind};
 use noisefall_base::declare::{Declare, Family, Parameter, Parameters, Textured, Value};
 
 type Named<T> = BTreeMap<String, T>;
@@ -24,7 +24,7 @@ pub fn used_textures(scene: &SceneDescription) -> BTreeSet<String> {
     let mut surfaces: Vec<_> = scene.objects.iter().map(|object| (object.material.clone(), object.emission.clone())).collect();
     let mut used = Used::default();
     surfaces.iter_mut().for_each(|(material, emission)| used.number_surface(material, emission));
-    used.number_background(&mut scene.background.clone());
+    used.number_background(&mut scene.environment.clone());
     used.follow(&scene.materials, &scene.textures);
     used.textures.into_keys().collect()
 }
@@ -34,7 +34,7 @@ pub fn used_textures(scene: &SceneDescription) -> BTreeSet<String> {
 pub fn number_names(scene: &mut SceneDescription) {
     let mut used = Used::default();
     scene.objects.iter_mut().for_each(|object| used.number_surface(&mut object.material, &mut object.emission));
-    used.number_background(&mut scene.background);
+    used.number_background(&mut scene.environment);
     (scene.materials, scene.textures) = used.follow(&scene.materials, &scene.textures);
 }
 
@@ -44,8 +44,8 @@ impl Used {
         emission.iter_mut().for_each(|emission| emission.parameters(self));
     }
 
-    fn number_background(&mut self, background: &mut Option<BackgroundDescription>) {
-        background.iter_mut().for_each(|background| background.parameters(self));
+    fn number_background(&mut self, environment: &mut Option<EnvironmentDescription>) {
+        environment.iter_mut().for_each(|environment| environment.parameters(self));
     }
 
     /// The used materials and textures under their numbers.

@@ -9,10 +9,10 @@ use crate::{
 };
 use noisefall_base::math::{Lanes, One, V};
 
-/// A surface in front of a lamp, closer than this fraction of the lamp's radius, blocks nearly all of its light.
+/// A surface in front of a light, closer than this fraction of the light's radius, blocks nearly all of its light.
 const HAIRS_BREADTH: f64 = 0.01;
-/// Largest number of lamps that are tested.
-const MOST_LAMPS: usize = 256;
+/// Largest number of lights that are tested.
+const MOST_LIGHTS: usize = 256;
 /// Largest number of objects that a warning names.
 const MOST_NAMED: usize = 3;
 /// Fields of view below this number of degrees are probably in radians.
@@ -66,10 +66,10 @@ impl Scene {
                 "{flipped} {have} `flip` on a dielectric: `ior` and `ior_outside` swap sides, and the medium fills the space outside"
             ));
         }
-        for (lamp, wall) in self.covered_lamps() {
+        for (punctual_light, wall) in self.covered_light() {
             warnings.push(format!(
-                "the lamp {} faces {} from almost no distance and lights nothing else: turn it by `flip = true`, or move it away",
-                self.name_of(lamp),
+                "the light {} faces {} from almost no distance and lights nothing else: turn it by `flip = true`, or move it away",
+                self.name_of(punctual_light),
                 self.name_of(wall)
             ));
         }
@@ -94,23 +94,25 @@ impl Scene {
         warnings
     }
 
-    /// Lamps whose emitting side is covered, and the objects that cover them.
-    fn covered_lamps(&self) -> impl Iterator<Item = (&Object, &Object)> {
-        let lamps = self.objects.iter().enumerate().take_while(|(_, object)| object.emission.is_some());
-        lamps.take(MOST_LAMPS).filter_map(|(number, lamp)| Some((lamp, self.cover(number, lamp)?)))
+    /// Lights whose emitting side is covered, and the objects that cover them.
+    fn covered_light(&self) -> impl Iterator<Item = (&Object, &Object)> {
+        let punctual_lights = self.objects.iter().enumerate().take_while(|(_, object)| object.emission.is_some());
+        punctual_lights
+            .take(MOST_LIGHTS)
+            .filter_map(|(number, punctual_light)| Some((punctual_light, self.cover(number, punctual_light)?)))
     }
 
-    /// The object that covers a static flat lamp.
-    fn cover(&self, number: usize, lamp: &Object) -> Option<&Object> {
-        let Shape::Flat { outline, origin, edges: [u, v], mirrored } = &lamp.shape else { return None };
-        let side = lamp.emission.map(|emission| emission.side).filter(|side| *side != Side::Both)?;
+    /// The object that covers a static flat light.
+    fn cover(&self, number: usize, punctual_light: &Object) -> Option<&Object> {
+        let Shape::Flat { outline, origin, edges: [u, v], mirrored } = &punctual_light.shape else { return None };
+        let side = punctual_light.emission.map(|emission| emission.side).filter(|side| *side != Side::Both)?;
         let turns = *mirrored != (side == Side::Back);
         let normal = u.cross(*v).try_normalize()? * if turns { -1.0 } else { 1.0 };
-        let above = normal * HAIRS_BREADTH * lamp.shape.bounding_sphere().1;
-        // A ray from above the lamp towards it first hits another object if that is in between.
+        let above = normal * HAIRS_BREADTH * punctual_light.shape.bounding_sphere().1;
+        // A ray from above the light towards it first hits another object if that is in between.
         let cover = |(a, b): (f64, f64)| {
             let met = self.first_object(*origin + *u * a + *v * b + above, -normal)?;
-            (met != number && lamp.motion.0.is_empty())
+            (met != number && punctual_light.motion.0.is_empty())
                 .then(|| &self.objects[met])
                 .filter(|object| !self.has_inside(object) && !self.lets_pass(object))
         };

@@ -50,7 +50,7 @@ const CHAPTERS: [(&str, &[&str]); 6] = [
             "caustic_in_mirror",
             "many_small_lamps",
             "five_hundred_lamps",
-            "lamps",
+            "lights",
         ],
     ),
     ("Materials", &["gloss_row", "principled", "tinted_glass", "thin_panes", "leaves", "nested_glass", "textures_and_bump"]),
@@ -174,7 +174,7 @@ fn texts(file: &mut dyn Read) -> [String; 2] {
     ["title", "notes"].map(|key| table.get(key).and_then(toml::Value::as_str).unwrap_or_default().to_owned())
 }
 
-/// The name of a scene: its title, or else its file name (`tiny_lamp.toml` is "tiny lamp").
+/// The name of a scene: its title, or else its file name (`tiny_lamp.toml` is "tiny light").
 pub fn name(title: &str, path: &Path) -> String {
     if title.is_empty() { path.file_stem().unwrap_or_default().to_string_lossy().replace('_', " ") } else { title.to_owned() }
 }

@@ -10,7 +10,7 @@ use std::{
 use noisefall_base::progress::Progress;
 use noisefall_edit::edit::{Recovery, Template};
 use noisefall_formats::import::ImportOptions;
-use noisefall_render::render::truth::Reference;
+use noisefall_render::render::reference::Reference;
 use noisefall_scene::scene::Camera;
 
 use super::{

@@ -23,7 +23,7 @@ fn the_latest_request_wins_and_an_error_names_its_file() {
     loader.open(None);
     assert!(loader.is_busy());
     let (opened, _) = wait(|| loader.take()).unwrap_or_else(|error| panic!("{error}"));
-    assert_eq!((opened.name.as_str(), opened.path, opened.truth.is_none()), (BUILT_IN_NAME, None, true));
+    assert_eq!((opened.name.as_str(), opened.path, opened.reference.is_none()), (BUILT_IN_NAME, None, true));
     assert_eq!(opened.materials.len(), opened.scene.legend().names.len());
     assert!(!loader.is_busy() && loader.take().is_none());
     loader.open(Some("no/such/scene.toml".into()));
@@ -31,7 +31,7 @@ fn the_latest_request_wins_and_an_error_names_its_file() {
     let furnace = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/furnace.toml");
     loader.open(Some(furnace.clone()));
     let (opened, _) = wait(|| loader.take()).unwrap_or_else(|error| panic!("{error}"));
-    assert_eq!((opened.name.as_str(), opened.path, opened.truth.is_some()), ("Furnace", Some(furnace), true));
+    assert_eq!((opened.name.as_str(), opened.path, opened.reference.is_some()), ("Furnace", Some(furnace), true));
 }
 
 #[test]

@@ -79,7 +79,7 @@ struct Side {
     seconds: f64,
     is_running: bool,
     noise: Option<f64>,
-    truth: Option<f64>,
+    reference: Option<f64>,
     efficiency: Option<f64>,
     /// Why it converges to another picture, or not at all.
     trouble: Option<String>,
@@ -102,7 +102,7 @@ impl Side {
             seconds,
             is_running: status.state == State::Running,
             noise: status.relative_noise(),
-            truth: comparison.map(|comparison| comparison.rel_mse.sqrt()),
+            reference: comparison.map(|comparison| comparison.rel_mse.sqrt()),
             efficiency: rel_mse.filter(|_| status.spp >= 2 && tells).map(|rel_mse| 1.0 / (rel_mse * seconds.max(1e-9))),
         }
     }
@@ -115,7 +115,7 @@ impl Side {
             self.spp.to_string(),
             format!("{:.1} s", self.seconds),
             percent(self.noise),
-            percent(self.truth),
+            percent(self.reference),
             self.efficiency.map_or_else(|| "–".to_owned(), significant),
         ];
         for (figure, (_, doc)) in figures.into_iter().zip(&HEADINGS[2..]) {
@@ -136,7 +136,7 @@ fn failure_of(status: &Status) -> Option<String> {
 
 /// Why efficiencies say nothing: noise alone does not see that one side converges to another picture.
 fn incomparable(sides: &[Side; 2]) -> Option<String> {
-    let biased = sides.iter().find(|side| side.trouble.is_some() && side.truth.is_none())?;
+    let biased = sides.iter().find(|side| side.trouble.is_some() && side.reference.is_none())?;
     let letter = biased.letter;
     Some(format!(
         "{letter} does not converge to the solution, so its efficiency cannot be compared. The layout Difference shows what is missing."
@@ -155,7 +155,7 @@ fn significant(x: f64) -> String {
 /// has an error of its own.
 fn efficiency_ratio(errors: LogRatio, sides: &[Side; 2], settings: [&RenderSettings; 2]) -> LogRatio {
     let [a, b] = sides.each_ref().map(|side| side.seconds.max(1e-9));
-    let is_known = sides.iter().all(|side| side.truth.is_some());
+    let is_known = sides.iter().all(|side| side.reference.is_some());
     let guessed = settings.iter().filter(|settings| !is_known && !settings.sampler.is_independent()).count();
     let model_error = (guessed as f64).sqrt() * MODEL_ERROR;
     LogRatio { value: errors.value + (a / b).ln(), model_error, ..errors }
@@ -196,8 +196,8 @@ mod tests {
 
     use super::*;
 
-    fn side(status: &Status, settings: &RenderSettings, truth: Option<f64>) -> Side {
-        let comparison = truth.map(|rel_mse| ReferenceComparison { rel_mse, bias: None });
+    fn side(status: &Status, settings: &RenderSettings, reference: Option<f64>) -> Side {
+        let comparison = reference.map(|rel_mse| ReferenceComparison { rel_mse, bias: None });
         Side::of("A", "a name".to_owned(), settings, SideStatus { status, comparison })
     }
 
@@ -222,11 +222,11 @@ mod tests {
         let estimated = side(&status, &unbiased, None);
         is(estimated.efficiency, 1.0 / (0.0016 * 2.5));
         is(estimated.noise, 0.04);
-        assert!(estimated.truth.is_none() && estimated.trouble.is_none() && estimated.spp == 7 && estimated.seconds == 2.5);
+        assert!(estimated.reference.is_none() && estimated.trouble.is_none() && estimated.spp == 7 && estimated.seconds == 2.5);
         // What is known to be true counts, not what is estimated.
         let known = side(&status, &unbiased, Some(0.0025));
         is(known.efficiency, 1.0 / (0.0025 * 2.5));
-        is(known.truth, 0.05);
+        is(known.reference, 0.05);
         // Noise alone does not see bias, and one sample not even noise.
         let capped = RenderSettings { max_bounces: Some(2), ..unbiased };
         assert!(side(&status, &capped, None).efficiency.is_none());

@@ -2,7 +2,7 @@
 use std::sync::{Arc, Weak};
 
 use noisefall_lab::study::{Slope, slope};
-use noisefall_render::render::{Frame, truth::Reference};
+use noisefall_render::render::{Frame, reference::Reference};
 use noisefall_scene::scene::{PathReuse, RenderSettings};
 
 use crate::viewer::background::display_image::ReferenceComparison;

@@ -1,7 +1,7 @@
 //! Errors so far: a curve over samples and time for each setting of the same image.
 use std::sync::{Arc, Weak};
 
-use noisefall_render::render::{Frame, truth::Reference};
+use noisefall_render::render::{Frame, reference::Reference};
 use noisefall_scene::scene::{Camera, PathReuse, RenderSettings, Scene};
 
 use super::{

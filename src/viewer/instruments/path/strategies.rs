@@ -70,7 +70,7 @@ fn joint(both: &BothEnds, term: &StrategyTerm, objects: &[Object]) -> String {
     let (y, z) = (format!("y{}", term.s.wrapping_sub(1)), format!("z{}", term.t - 1));
     match (term.s, term.t) {
         (0, _) => format!("{z} {}", at(camera, objects)),
-        (1, _) => format!("lamp, {z} {}", at(camera, objects)),
+        (1, _) => format!("light, {z} {}", at(camera, objects)),
         (_, 1) => match term.place {
             Some([x, y_]) => format!("{y} {}, pixel {x:.0} {y_:.0}", at(light, objects)),
             None => format!("{y} {}, camera", at(light, objects)),
@@ -99,8 +99,8 @@ fn vertices(both: &BothEnds, term: &StrategyTerm, objects: &[Object]) -> String 
 fn at(point: Option<&PathPoint>, objects: &[Object]) -> String {
     match point {
         Some(PathPoint { object: Some(object), .. }) => name(objects, *object),
-        Some(PathPoint { object: None, .. }) => "lamp or background".to_owned(),
-        None => "background".to_owned(),
+        Some(PathPoint { object: None, .. }) => "light or background".to_owned(),
+        None => "environment".to_owned(),
     }
 }
 
@@ -143,7 +143,7 @@ mod tests {
             labels.filter_map(|label| label.accesskit_node().value()).filter(|text| !text.is_empty()).collect();
         let [first, second] = [0, 1].map(|object: usize| scene.objects[object].name.clone());
         let rows = [
-            ["1, 2".to_owned(), format!("lamp, z1 {second}"), "0.250".into(), "1.000".into(), "0.500".into(), "occluded".into()],
+            ["1, 2".to_owned(), format!("light, z1 {second}"), "0.250".into(), "1.000".into(), "0.500".into(), "occluded".into()],
             [
                 "2, 2".to_owned(),
                 format!("y1 {first}, z1 {second}"),
@@ -165,6 +165,6 @@ mod tests {
         let objects = built_in().objects.clone();
         let [first, second] = [0, 1].map(|object: usize| objects[object].name.clone());
         let told = vertices(&both(), &term(2, 3, 1.0), &objects);
-        assert_eq!(told, format!("y0 lamp or background\ny1 {first}\nz2 {first}\nz1 {second}\nz0 the camera"));
+        assert_eq!(told, format!("y0 light or background\ny1 {first}\nz2 {first}\nz1 {second}\nz0 the camera"));
     }
 }

@@ -33,13 +33,13 @@ const COLUMNS: [(&str, &str); 9] = [
         "vertex",
         "Number of bounces before the vertex, and the object that the path hits. The tooltip has the point and the next direction.",
     ),
-    ("light", "Emission that the path hits, or the lamp of a light sample and whether it is visible"),
+    ("light", "Emission that the path hits, or the light of a light sample and whether it is visible"),
     ("β", "Throughput: the product of τ f cos θ / (p q) so far, times the transmittance τ of this segment"),
-    ("f cos θ", "BSDF and cosine towards the lamp"),
+    ("f cos θ", "BSDF and cosine towards the light"),
     ("L_e", "Emitted radiance, W·sr⁻¹·m⁻²"),
-    ("τ", "Transmittance of media towards the lamp, times its texture; 0 if the lamp is occluded"),
+    ("τ", "Transmittance of media towards the light, times its texture; 0 if the light is occluded"),
     ("w", "Weight of multiple importance sampling"),
-    ("p", "Pdf of the direction to the lamp, per solid angle; for punctual lights, the selection probability"),
+    ("p", "Pdf of the direction to the light, per solid angle; for punctual lights, the selection probability"),
     ("term", "β f cos θ L_e τ w / p. Terms in brackets are shared among neighbouring pixels."),
 ];
 
@@ -118,8 +118,8 @@ fn source(term: &Term, objects: &[Object]) -> String {
         TermSource::Light(target, outcome) => {
             let light = match target {
                 LightId::Object(id) => name(objects, *id),
-                LightId::Lamp(name) => name.clone(),
-                LightId::Background => "background".to_owned(),
+                LightId::PunctualLight(name) => name.clone(),
+                LightId::Environment => "environment".to_owned(),
             };
             let outcome = match outcome {
                 LightOutcome::Seen => "seen",
@@ -198,7 +198,7 @@ mod tests {
             light: Some(SampledLight {
                 direction: grey(0.0),
                 object: Some(0),
-                lamp: None,
+                punctual_light: None,
                 pdf: 0.107,
                 f_cos: grey(0.106),
                 weight: 0.108,
@@ -249,13 +249,13 @@ mod tests {
         assert_eq!(headings, COLUMNS.map(|(name, _)| name));
         let scene = built_in();
         let place = format!("3 {} (lambertian)", scene.objects[1].name);
-        let lamp = format!("{}, hidden", scene.objects[0].name);
+        let punctual_light = format!("{}, hidden", scene.objects[0].name);
         let cells: Vec<&str> = cells.iter().map(String::as_str).filter(|cell| !cell.is_empty()).collect();
         assert_eq!(
             cells,
             [
                 &[&place, "hit", "0.051", "–", "0.103", "–", "0.104", "–", "0.105"][..],
-                &[&place, &lamp, "0.051", "0.106", "0.900", "0.109", "0.108", "0.107", "0.111"],
+                &[&place, &punctual_light, "0.051", "0.106", "0.900", "0.109", "0.108", "0.107", "0.111"],
                 &["Sample", "0.216"],
             ]
             .concat()
@@ -290,9 +290,9 @@ mod tests {
         };
         assert_eq!(cells(LightOutcome::Seen), "background, seen");
         assert_eq!(cells(LightOutcome::Void), "background, not tested");
-        let light = vertex().light.map(|light| SampledLight { object: None, lamp: Some("spot".to_owned()), ..light });
-        let of_lamp = written(&of(vec![Vertex { light, emission: None, ..vertex() }]));
-        assert_eq!(of_lamp[COLUMNS.len() + 1], "spot, hidden");
+        let light = vertex().light.map(|light| SampledLight { object: None, punctual_light: Some("spot".to_owned()), ..light });
+        let of_punctual = written(&of(vec![Vertex { light, emission: None, ..vertex() }]));
+        assert_eq!(of_punctual[COLUMNS.len() + 1], "spot, hidden");
     }
 
     #[test]

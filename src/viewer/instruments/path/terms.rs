@@ -18,7 +18,7 @@ pub struct Term {
     pub throughput: Colour,
     pub f_cos: Option<Colour>,
     pub radiance: Colour,
-    /// Transmittance and visibility towards the lamp.
+    /// Transmittance and visibility towards the light.
     pub passed: Option<Colour>,
     pub weight: f32,
     pub pdf: Option<f32>,
@@ -40,9 +40,9 @@ pub enum TermSource {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum LightId {
     Object(u32),
-    /// A lamp without surface, by its name.
-    Lamp(String),
-    Background,
+    /// A punctual light, by its name.
+    PunctualLight(String),
+    Environment,
 }
 
 /// A row that closes the sum.
@@ -98,10 +98,10 @@ fn of_light(throughput: Colour, light: &SampledLight) -> Term {
 }
 
 fn target(light: &SampledLight) -> LightId {
-    match (&light.lamp, light.object) {
-        (Some(lamp), _) => LightId::Lamp(lamp.clone()),
+    match (&light.punctual_light, light.object) {
+        (Some(punctual_light), _) => LightId::PunctualLight(punctual_light.clone()),
         (None, Some(object)) => LightId::Object(object),
-        (None, None) => LightId::Background,
+        (None, None) => LightId::Environment,
     }
 }
 

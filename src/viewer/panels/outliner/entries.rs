@@ -1,6 +1,6 @@
 //! The parts of a description as entries in groups.
 use egui::{TextFormat, Visuals, text::LayoutJob};
-use noisefall_scene::scene::description::{LampDescription, MaterialDescription, ObjectDescription, SceneDescription};
+use noisefall_scene::scene::description::{MaterialDescription, ObjectDescription, PunctualLightDescription, SceneDescription};
 
 use crate::viewer::panels::subject::Subject;
 
@@ -31,18 +31,22 @@ pub fn groups(description: &SceneDescription, search: &str) -> Vec<EntryGroup> {
         let objects = description.objects.iter().enumerate().filter(move |(_, object)| object.emission.is_some() == emits);
         objects.map(|(place, object)| of_object(description, place, object))
     };
-    let background = description.background.as_ref().map_or("none", |background| background.name());
+    let environment = description.environment.as_ref().map_or("none", |environment| environment.name());
     let single = [
         Entry::single(Subject::Camera, "Camera", ""),
-        Entry::single(Subject::Background, "Background", background),
+        Entry::single(Subject::Environment, "Background", environment),
         Entry::single(Subject::Presentation, "Title and settings", ""),
     ];
-    let lamps = description.lamps.iter().enumerate().map(|(place, lamp)| of_lamp(description, place, lamp));
+    let punctual_lights = description
+        .punctual_lights
+        .iter()
+        .enumerate()
+        .map(|(place, punctual_light)| of_punctual(description, place, punctual_light));
     let materials = description.materials.iter();
     let textures = description.textures.iter();
     let groups = [
         group("Objects", &mut objects(false)),
-        group("Lamps", &mut objects(true).chain(lamps)),
+        group("Lights", &mut objects(true).chain(punctual_lights)),
         group("Materials", &mut materials.map(|(name, material)| of_material(name, material))),
         group(
             "Textures",
@@ -60,10 +64,10 @@ fn of_object(description: &SceneDescription, place: usize, object: &ObjectDescri
     Entry { name: subject.name(description), subject, given_name: object.name.clone(), kind }
 }
 
-fn of_lamp(description: &SceneDescription, place: usize, lamp: &LampDescription) -> Entry {
-    let subject = Subject::Lamp(place);
+fn of_punctual(description: &SceneDescription, place: usize, punctual_light: &PunctualLightDescription) -> Entry {
+    let subject = Subject::PunctualLight(place);
     let name = subject.name(description);
-    Entry { given_name: lamp.name.clone(), ..Entry::named(subject, &name, lamp.kind.name()) }
+    Entry { given_name: punctual_light.name.clone(), ..Entry::named(subject, &name, punctual_light.kind.name()) }
 }
 
 fn of_material(name: &str, material: &MaterialDescription) -> Entry {
@@ -100,8 +104,8 @@ mod tests {
         room.add_material("white", Lambertian::default());
         room.add_object("ball", Sphere::default()).material = Some("white".to_owned());
         room.add_object("", Sphere::default());
-        room.add_object("lamp", Sphere::default()).emission = Some(EmissionDescription::default());
-        room.lamps.push(LampDescription::default());
+        room.add_object("light", Sphere::default()).emission = Some(EmissionDescription::default());
+        room.punctual_lights.push(PunctualLightDescription::default());
         room.textures.insert("squares".to_owned(), TextureKind::default());
         room
     }
@@ -115,7 +119,7 @@ mod tests {
     fn every_part_is_in_one_group() {
         let all = [
             ("Objects", vec!["ball", "object 2"]),
-            ("Lamps", vec!["lamp", "lamp 1"]),
+            ("Lights", vec!["light", "light 1"]),
             ("Materials", vec!["white"]),
             ("Textures", vec!["squares"]),
             ("Scene", vec!["Camera", "Background", "Title and settings"]),

@@ -2,9 +2,9 @@
 use egui::Ui;
 use noisefall_base::declare::OneOf;
 use noisefall_scene::{
-    light::lamp::LampKind,
+    light::punctual_light::PunctualLightKind,
     material::Material,
-    scene::description::{BackgroundDescription, SceneDescription},
+    scene::description::{EnvironmentDescription, SceneDescription},
     shape::ShapeKind,
     texture::TextureKind,
 };
@@ -30,7 +30,7 @@ pub enum Action {
     /// Make a texture the colour of its material.
     AssignTexture(String),
     /// Give the scene a background.
-    AddBackground,
+    AddEnvironment,
 }
 
 impl Action {
@@ -50,9 +50,9 @@ pub enum New {
     /// An object with a shape of this kind.
     Shape(&'static str),
     /// The same that emits light.
-    Lamp(&'static str),
-    /// A lamp without surface of this kind.
-    LampWithoutSurface(&'static str),
+    AreaLight(&'static str),
+    /// A punctual light of this kind.
+    PunctualLight(&'static str),
     Material,
     Texture,
 }
@@ -62,13 +62,13 @@ const RESTS: &str = "Lowers the object until it stands on what is below. Raises 
 /// The choices of menus.
 pub struct Menu {
     materials: Vec<String>,
-    has_background: bool,
+    has_environment: bool,
 }
 
 impl Menu {
     pub fn of(description: &SceneDescription) -> Menu {
         let materials = description.materials.keys().cloned().collect();
-        Menu { materials, has_background: description.background.is_some() }
+        Menu { materials, has_environment: description.environment.is_some() }
     }
 
     /// Whether there is nothing to choose for a part.
@@ -85,10 +85,12 @@ impl Menu {
                 ("Rest on floor", Action::DropToFloor),
                 ("Duplicate", Action::Duplicate),
             ]),
-            Subject::Lamp(_) | Subject::Material(_) | Subject::Texture(_) => actions.push(("Duplicate", Action::Duplicate)),
+            Subject::PunctualLight(_) | Subject::Material(_) | Subject::Texture(_) => {
+                actions.push(("Duplicate", Action::Duplicate))
+            }
             Subject::Camera | Subject::Presentation => {}
-            Subject::Background if !self.has_background => actions.push(("Add", Action::AddBackground)),
-            Subject::Background => actions.push(("Delete", Action::Delete)),
+            Subject::Environment if !self.has_environment => actions.push(("Add", Action::AddEnvironment)),
+            Subject::Environment => actions.push(("Delete", Action::Delete)),
         }
         if can_rename(&entry.subject) {
             actions.extend([("Rename…", Action::Rename(entry.given_name.clone())), ("Delete", Action::Delete)]);
@@ -117,11 +119,11 @@ impl Menu {
     fn kinds(&self, subject: &Subject) -> Vec<&'static str> {
         match subject {
             Subject::Object(_) => names::<ShapeKind>(),
-            Subject::Lamp(_) => names::<LampKind>(),
+            Subject::PunctualLight(_) => names::<PunctualLightKind>(),
             Subject::Material(_) => names::<Material>(),
             Subject::Texture(_) => names::<TextureKind>(),
-            Subject::Background if self.has_background => names::<BackgroundDescription>(),
-            Subject::Background | Subject::Camera | Subject::Presentation => Vec::new(),
+            Subject::Environment if self.has_environment => names::<EnvironmentDescription>(),
+            Subject::Environment | Subject::Camera | Subject::Presentation => Vec::new(),
         }
     }
 
@@ -148,7 +150,7 @@ pub fn part_menu(ui: &mut Ui, description: &SceneDescription, subject: &Subject)
 
 /// Whether a part has a name.
 pub fn can_rename(subject: &Subject) -> bool {
-    matches!(subject, Subject::Object(_) | Subject::Lamp(_) | Subject::Material(_) | Subject::Texture(_))
+    matches!(subject, Subject::Object(_) | Subject::PunctualLight(_) | Subject::Material(_) | Subject::Texture(_))
 }
 
 fn names<T: OneOf>() -> Vec<&'static str> {

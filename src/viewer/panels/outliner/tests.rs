@@ -39,7 +39,7 @@ fn room() -> Panel {
     let mut room = SceneDescription::default();
     room.add_material("white", Lambertian::default());
     room.add_object("ball", Sphere::default()).material = Some("white".to_owned());
-    room.add_object("lamp", Sphere::default()).emission = Some(EmissionDescription::default());
+    room.add_object("light", Sphere::default()).emission = Some(EmissionDescription::default());
     outliner(room)
 }
 
@@ -71,9 +71,9 @@ fn a_click_selects_a_part() {
     let mut panel = room();
     for (name, subject) in [
         ("ball", Subject::Object(0)),
-        ("lamp", Subject::Object(1)),
+        ("light", Subject::Object(1)),
         ("white", Subject::Material("white".to_owned())),
-        ("Background", Subject::Background),
+        ("Background", Subject::Environment),
     ] {
         row(&panel, name).click();
         panel.run_steps(3);
@@ -98,7 +98,7 @@ fn the_menu_of_a_part_asks_for_what_it_says() {
     }
     let mut panel = room();
     choose(&mut panel, "Background", &["Add"]);
-    assert_eq!(last(&panel).action, Some((Subject::Background, Action::AddBackground)));
+    assert_eq!(last(&panel).action, Some((Subject::Environment, Action::AddEnvironment)));
 }
 
 #[test]

@@ -15,7 +15,7 @@ pub struct Template {
 pub const TEMPLATES: [Template; 3] = [
     Template {
         title: "Empty room",
-        doc: "A room without its front wall, lit by a lamp below the ceiling.",
+        doc: "A room without its front wall, lit by a light below the ceiling.",
         text: include_str!("empty_room.toml"),
     },
     Template { title: "Studio", doc: "A ball on a seamless backdrop, lit by two soft boxes.", text: include_str!("studio.toml") },

@@ -17,10 +17,10 @@ fn objects_are_dropped_to_what_is_below() {
         let [min, _] = extent(&document, "ball");
         assert!(min.y.abs() < 1e-6, "{min}");
     }
-    // A lamp falls onto the ball.
+    // A light falls onto the ball.
     let edit = document.drop_to_floor(&compiled(&document), 2).expect("the ball is below");
     does(&mut document, &edit);
-    let [min, _] = extent(&document, "lamp");
+    let [min, _] = extent(&document, "light");
     assert!((min.y - 1.0).abs() < 0.01, "{min}");
     // Below the floor is nothing.
     assert!(document.drop_to_floor(&compiled(&document), 0).is_none());

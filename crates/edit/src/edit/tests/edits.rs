@@ -3,8 +3,8 @@ use super::*;
 use noisefall_base::declare::Textured;
 use noisefall_scene::{
     light::{
-        background::constant::Constant,
         emission::{radiance::Radiance, texture::Texture},
+        environment::constant::Constant,
     },
     material::Material,
     scene::description::EmissionSource,
@@ -36,8 +36,8 @@ fn what_is_absent_on_the_way_appears_and_goes_again() {
     there_and_back(&Edit::set(path("render.max_bounces"), OwnedValue::Count(5)), |scene| {
         assert_eq!(scene.render.settings.max_bounces, Some(5));
     });
-    there_and_back(&Edit::set(path("background.radiance"), OwnedValue::Colour([0.5; 3])), |scene| {
-        assert_eq!(scene.background, Some(Constant { radiance: [0.5; 3] }.into()));
+    there_and_back(&Edit::set(path("environment.radiance"), OwnedValue::Colour([0.5; 3])), |scene| {
+        assert_eq!(scene.environment, Some(Constant { radiance: [0.5; 3] }.into()));
     });
     there_and_back(&Edit::insert(path("objects.1.emission")), |scene| {
         assert_eq!(
@@ -54,10 +54,10 @@ fn objects_and_transforms_come_go_and_move() {
         assert_eq!((scene.objects.len(), &*scene.objects[2].name), (4, "ball"));
     });
     there_and_back(&Edit::remove(path("objects.1")), |scene| {
-        assert_eq!(scene.objects.iter().map(|object| &*object.name).collect::<Vec<_>>(), ["floor", "lamp"]);
+        assert_eq!(scene.objects.iter().map(|object| &*object.name).collect::<Vec<_>>(), ["floor", "light"]);
     });
     there_and_back(&Edit::Move { path: path("objects.0"), to: 2 }, |scene| {
-        assert_eq!(scene.objects.iter().map(|object| &*object.name).collect::<Vec<_>>(), ["ball", "lamp", "floor"]);
+        assert_eq!(scene.objects.iter().map(|object| &*object.name).collect::<Vec<_>>(), ["ball", "light", "floor"]);
     });
     there_and_back(&Edit::insert(path("objects.1.transform.0")), |scene| {
         assert_eq!(scene.objects[1].transform, [Transform::default()]);

@@ -6,7 +6,7 @@ use glam::DVec3;
 use super::*;
 use crate::edit::Placement;
 use noisefall_scene::{
-    light::background::{BackgroundDescription, image::Image},
+    light::environment::{EnvironmentDescription, image::Image},
     shape::Transform,
 };
 
@@ -61,8 +61,8 @@ fn a_sky_replaces_the_background_or_is_added() {
         let start = document.text();
         let edit = document.set_sky(path);
         let inverse = document.apply(&edit).expect("it can be made");
-        let sky = BackgroundDescription::Image(Image { path: path.to_owned(), ..Image::default() });
-        assert_eq!(document.description().background, Some(sky));
+        let sky = EnvironmentDescription::Image(Image { path: path.to_owned(), ..Image::default() });
+        assert_eq!(document.description().environment, Some(sky));
         let again = document.apply(&inverse).expect("it can be taken back");
         assert_eq!(document.text(), start);
         does(&mut document, &again);

@@ -151,12 +151,12 @@ fn a_shape_of_another_kind_keeps_place_and_size() {
         assert!(((min + max) / 2.0).distance(DVec3::new(0.0, 0.5, 0.0)) < 0.01, "{kind} {min} {max}");
         assert!(((max - min).max_element() - 1.0).abs() < 0.02, "{kind} {min} {max}");
     }
-    // A lamp goes on facing down.
+    // A light goes on facing down.
     let mut document = room();
     let change = document.change_kind(&path("objects.2.shape"), ShapeKind::WHAT, "rectangle");
     does(&mut document, &change);
-    let ShapeKind::Rectangle(lamp) = &document.description().objects[2].shape else { panic!("it is a rectangle") };
-    assert!(lamp.edge_u.cross(lamp.edge_v).distance(DVec3::NEG_Y * 0.64) < 1e-9, "{lamp:?}");
+    let ShapeKind::Rectangle(punctual_light) = &document.description().objects[2].shape else { panic!("it is a rectangle") };
+    assert!(punctual_light.edge_u.cross(punctual_light.edge_v).distance(DVec3::NEG_Y * 0.64) < 1e-9, "{punctual_light:?}");
     // What fills a cube is placed by transforms.
     let mut document = room();
     let change = document.change_kind(&path("objects.1.shape"), ShapeKind::WHAT, "isosurface");

@@ -5,7 +5,8 @@ use super::{
 };
 use noisefall_base::declare::{Declare, Meaning, OneOf, Parameter, Parameters, Textured, Value};
 use noisefall_scene::{
-    light::lamp::LampKind, material::Material, scene::description::MaterialDescription, shape::ShapeKind, texture::TextureKind,
+    light::punctual_light::PunctualLightKind, material::Material, scene::description::MaterialDescription, shape::ShapeKind,
+    texture::TextureKind,
 };
 
 /// A table that has one of several kinds.
@@ -101,8 +102,8 @@ fn only_values_that_mean_the_same_survive_any_change_of_kind() {
     assert!(of_materials > 20, "{of_materials}");
     let of_textures = try_all::<TextureKind>(chosen);
     let of_shapes = try_all::<ShapeKind>(chosen);
-    let of_lamps = try_all::<LampKind>(chosen);
-    assert!(of_textures > 0 && of_shapes > 0, "{of_textures} {of_shapes} {of_lamps}");
+    let of_punctual = try_all::<PunctualLightKind>(chosen);
+    assert!(of_textures > 0 && of_shapes > 0, "{of_textures} {of_shapes} {of_punctual}");
 }
 
 #[test]

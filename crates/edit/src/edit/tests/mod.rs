@@ -59,7 +59,7 @@ material = "gold"
 
 # Above.
 [[objects]]
-name = "lamp"
+name = "light"
 shape = { disk = { center = [0.0, 2.5, 0.0], normal = [0.0, -1.0, 0.0], radius = 0.4 } }
 emission = { radiance = [17.0, 12.0, 4.0] }
 "#;

@@ -5,8 +5,8 @@ use super::*;
 use crate::edit::Placement;
 use noisefall_base::declare::OneOf;
 use noisefall_scene::{
-    light::lamp::LampKind,
-    scene::description::LampDescription,
+    light::punctual_light::PunctualLightKind,
+    scene::description::PunctualLightDescription,
     shape::{Rotation, ShapeKind, Transform, product},
 };
 
@@ -43,77 +43,77 @@ fn every_shape_is_added_to_every_side_of_a_surface() {
 }
 
 #[test]
-fn lamps_emit_away_from_what_they_hang_on() {
+fn lights_emit_away_from_what_they_hang_on() {
     let placement = Placement { at: DVec3::new(0.0, 2.5, 0.0), normal: DVec3::NEG_Y, extent: 5.0 };
     let mut document = room();
-    let (edit, _) = document.add_lamp("rectangle", &placement, 0.0).expect("there is such a kind");
+    let (edit, _) = document.add_light("rectangle", &placement, 0.0).expect("there is such a kind");
     does(&mut document, &edit);
-    assert_eq!(name_of(&document), "lamp 2");
-    let ShapeKind::Rectangle(lamp) = &document.description().objects[3].shape else { panic!("it is a rectangle") };
-    assert!(lamp.edge_u.cross(lamp.edge_v).normalize().distance(DVec3::NEG_Y) < 1e-9);
-    let [_, max] = extent(&document, "lamp 2");
+    assert_eq!(name_of(&document), "light 2");
+    let ShapeKind::Rectangle(punctual_light) = &document.description().objects[3].shape else { panic!("it is a rectangle") };
+    assert!(punctual_light.edge_u.cross(punctual_light.edge_v).normalize().distance(DVec3::NEG_Y) < 1e-9);
+    let [_, max] = extent(&document, "light 2");
     assert!(max.y < 2.5 && max.y > 2.49);
 }
 
 #[test]
-fn new_lamps_are_as_bright_as_the_exposure_needs() {
+fn new_lights_are_as_bright_as_the_exposure_needs() {
     let placement = Placement { at: DVec3::new(0.0, 2.5, 0.0), normal: DVec3::NEG_Y, extent: 5.0 };
     for (exposure, brightness) in [(0.0, 20.0), (3.0, 2.5), (-10.0, 2e4)] {
         let mut document = room();
-        let (edit, path) = document.add_lamp("sphere", &placement, exposure).expect("there is such a kind");
+        let (edit, path) = document.add_light("sphere", &placement, exposure).expect("there is such a kind");
         does(&mut document, &edit);
         assert_eq!(document.value(&path.key("emission").key("radiance")), Some(OwnedValue::Colour([brightness; 3])));
     }
 }
 
-fn lamp(document: &Document, place: usize) -> LampDescription {
-    document.description().lamps[place].clone()
+fn punctual_light(document: &Document, place: usize) -> PunctualLightDescription {
+    document.description().punctual_lights[place].clone()
 }
 
 #[test]
-fn lamps_without_surface_are_added_duplicated_renamed_and_deleted() {
+fn lights_without_surface_are_added_duplicated_renamed_and_deleted() {
     let placement = Placement { at: DVec3::new(0.3, 0.0, -0.4), normal: DVec3::Y, extent: 5.0 };
-    for kind in LampKind::alternatives() {
+    for kind in PunctualLightKind::alternatives() {
         let mut document = room();
         let before = document.text();
-        let (edit, added) = document.add_lamp_without_surface(kind.name(), &placement, 1.0, 0.0).expect("there is such a kind");
+        let (edit, added) = document.add_punctual_light(kind.name(), &placement, 1.0, 0.0).expect("there is such a kind");
         let inverse = does(&mut document, &edit);
-        assert_eq!(added, path("lamps.0"));
-        assert!(document.text().contains("[[lamps]]"), "{}", document.text());
-        let found = lamp(&document, 0);
+        assert_eq!(added, path("lights.0"));
+        assert!(document.text().contains("[[lights]]"), "{}", document.text());
+        let found = punctual_light(&document, 0);
         assert_eq!((found.name.as_str(), found.kind.name()), (kind.name(), kind.name()));
         assert!(found.position().is_none_or(|position| position.distance(DVec3::new(0.3, 1.0, -0.4)) < 1e-9), "{found:?}");
         let scene = compiled(&document);
-        assert_eq!((scene.lamps.len(), scene.lights.lamps.len()), (1, 1));
+        assert_eq!((scene.punctual_lights.len(), scene.lights.punctual_lights.len()), (1, 1));
         let (edit, copy) = document.duplicate(&added).expect("it is there");
         let duplicated = does(&mut document, &edit);
-        assert_eq!((copy, lamp(&document, 1).name), (path("lamps.1"), format!("{} 2", kind.name())));
-        does(&mut document, &text("lamps.1.name", "other"));
-        does(&mut document, &text("lamps.1.name", &format!("{} 2", kind.name())));
+        assert_eq!((copy, punctual_light(&document, 1).name), (path("lights.1"), format!("{} 2", kind.name())));
+        does(&mut document, &text("lights.1.name", "other"));
+        does(&mut document, &text("lights.1.name", &format!("{} 2", kind.name())));
         does(&mut document, &duplicated);
         does(&mut document, &inverse);
         assert_eq!(document.text(), before);
     }
-    assert!(room().add_lamp_without_surface("candle", &placement, 1.0, 0.0).is_none());
+    assert!(room().add_punctual_light("candle", &placement, 1.0, 0.0).is_none());
 }
 
 #[test]
-fn the_kind_and_the_parameters_of_a_lamp_change_by_their_paths() {
+fn the_kind_and_the_parameters_of_a_light_change_by_their_paths() {
     let placement = Placement { at: DVec3::ZERO, normal: DVec3::Y, extent: 5.0 };
     let mut document = room();
-    let (edit, added) = document.add_lamp_without_surface("point", &placement, 1.0, 0.0).expect("there is such a kind");
+    let (edit, added) = document.add_punctual_light("point", &placement, 1.0, 0.0).expect("there is such a kind");
     does(&mut document, &edit);
-    does(&mut document, &Edit::set(path("lamps.0.point.intensity"), OwnedValue::Colour([3.0, 2.0, 1.0])));
-    let spot = document.change_kind(&added, LampKind::WHAT, "spot");
+    does(&mut document, &Edit::set(path("lights.0.point.intensity"), OwnedValue::Colour([3.0, 2.0, 1.0])));
+    let spot = document.change_kind(&added, PunctualLightKind::WHAT, "spot");
     does(&mut document, &spot);
-    let LampKind::Spot(spot) = lamp(&document, 0).kind else { panic!("it is a spot") };
+    let PunctualLightKind::Spot(spot) = punctual_light(&document, 0).kind else { panic!("it is a spot") };
     assert_eq!((spot.intensity, spot.position.y), ([3.0, 2.0, 1.0], 1.0), "it keeps what both have");
-    let problem = refuses(&mut document, &Edit::set(path("lamps.0.spot.target"), OwnedValue::Vector(spot.position)));
+    let problem = refuses(&mut document, &Edit::set(path("lights.0.spot.target"), OwnedValue::Vector(spot.position)));
     assert!(problem.message.contains("the same point"), "{problem:?}");
 }
 
 #[test]
-fn lamps_are_transformed_as_their_points_are() {
+fn lights_are_transformed_as_their_points_are() {
     let placement = Placement { at: DVec3::new(0.5, 0.0, 0.0), normal: DVec3::Y, extent: 5.0 };
     let changes = [
         Transform::Translate(DVec3::new(0.5, -0.25, 1.0)),
@@ -122,26 +122,26 @@ fn lamps_are_transformed_as_their_points_are() {
         Transform::Translate(DVec3::X),
     ];
     let pivot = DVec3::new(0.2, 0.3, -0.1);
-    for kind in LampKind::alternatives() {
+    for kind in PunctualLightKind::alternatives() {
         let mut document = room();
-        let (edit, _) = document.add_lamp_without_surface(kind.name(), &placement, 1.0, 0.0).expect("there is such a kind");
+        let (edit, _) = document.add_punctual_light(kind.name(), &placement, 1.0, 0.0).expect("there is such a kind");
         does(&mut document, &edit);
-        let mut position = lamp(&document, 0).position();
+        let mut position = punctual_light(&document, 0).position();
         for change in &changes {
-            let edit = document.transformed_lamp(0, change, pivot).expect("it can be transformed");
+            let edit = document.transformed_light(0, change, pivot).expect("it can be transformed");
             does(&mut document, &edit);
             let map = DAffine3::from_translation(pivot)
                 * product(std::slice::from_ref(change)).expect("it is valid")
                 * DAffine3::from_translation(-pivot);
             position = position.map(|p| map.transform_point3(p));
-            let found = lamp(&document, 0).position();
+            let found = punctual_light(&document, 0).position();
             assert!(found.zip(position).is_none_or(|(a, b)| a.distance(b) < 1e-9), "{}: {found:?} {position:?}", kind.name());
             compiled(&document);
         }
         // Until it was mirrored, only its points changed.
-        assert!(!lamp(&document, 0).transform.is_empty());
+        assert!(!punctual_light(&document, 0).transform.is_empty());
     }
-    assert!(room().transformed_lamp(0, &changes[0], pivot).is_none());
+    assert!(room().transformed_light(0, &changes[0], pivot).is_none());
 }
 
 #[test]
@@ -237,7 +237,7 @@ fn closed_room() -> Document {
 }
 
 #[test]
-fn objects_that_are_added_at_a_wall_stand_on_the_floor_and_lamps_hang_over_it_facing_down() {
+fn objects_that_are_added_at_a_wall_stand_on_the_floor_and_lights_hang_over_it_facing_down() {
     let scene = compiled(&closed_room());
     let wall = Placement { at: DVec3::new(-1.5, 1.2, -1.0), normal: DVec3::X, extent: 5.0 };
     let floor = wall.on_floor(&scene, 0.5);
@@ -246,14 +246,14 @@ fn objects_that_are_added_at_a_wall_stand_on_the_floor_and_lamps_hang_over_it_fa
         let hung = placement.hung(&scene);
         assert!((0.9..=1.1).contains(&hung.at.y) && hung.normal == DVec3::NEG_Y, "{hung:?}");
         let mut document = closed_room();
-        let (edit, at) = document.add_lamp("rectangle", &hung, 0.0).expect("there is such a kind");
+        let (edit, at) = document.add_light("rectangle", &hung, 0.0).expect("there is such a kind");
         does(&mut document, &edit);
-        let ShapeKind::Rectangle(lamp) = &document.description().objects[4].shape else { panic!("it is a rectangle") };
-        assert!(lamp.edge_u.cross(lamp.edge_v).normalize().distance(DVec3::NEG_Y) < 1e-9, "{at}");
+        let ShapeKind::Rectangle(punctual_light) = &document.description().objects[4].shape else { panic!("it is a rectangle") };
+        assert!(punctual_light.edge_u.cross(punctual_light.edge_v).normalize().distance(DVec3::NEG_Y) < 1e-9, "{at}");
     }
     let ceiling = Placement { at: DVec3::new(0.5, 2.6, 0.5), normal: DVec3::NEG_Y, extent: 5.0 };
-    assert_eq!(ceiling.hung(&scene).at, ceiling.at, "lamps hang on it");
-    // Where there is little room above, a lamp is lower.
+    assert_eq!(ceiling.hung(&scene).at, ceiling.at, "lights hang on it");
+    // Where there is little room above, a light is lower.
     let low = Placement { at: DVec3::new(0.0, 2.1, 0.0), normal: DVec3::Y, extent: 5.0 };
-    assert!((low.lamp_height(&scene) - 0.6 * 0.4).abs() < 1e-3, "{}", low.lamp_height(&scene));
+    assert!((low.light_height(&scene) - 0.6 * 0.4).abs() < 1e-3, "{}", low.light_height(&scene));
 }

@@ -94,12 +94,12 @@ fn what_is_new_stands_where_a_person_looks_for_it() {
     let mut document = room();
     does(&mut document, &lens);
     does(&mut document, &Edit::insert(path("objects.1.emission")));
-    does(&mut document, &Edit::insert(path("background")));
+    does(&mut document, &Edit::insert(path("environment")));
     does(&mut document, &text("notes", "Two\nlines."));
     let after = document.text();
     assert!(after.contains("resolution = [640, 480]\nlens = {"), "{after}");
     assert!(after.contains("material = \"gold\"\nemission = { radiance = 1.0 }\n"), "{after}");
-    assert!(after.contains("\n\n[background]\nradiance = 1.0\n\n[textures.tiles]"), "{after}");
+    assert!(after.contains("\n\n[environment]\nradiance = 1.0\n\n[textures.tiles]"), "{after}");
     assert!(after.contains("title = \"Room\"\nnotes = \"\"\"\nTwo\nlines.\"\"\"\n"), "{after}");
     assert_eq!(changed(&[Edit::insert(path("textures.fine")), Edit::remove(path("textures.fine"))]), Vec::<String>::new());
 }
@@ -134,7 +134,7 @@ fn comments_go_with_their_objects() {
     does(&mut document, &Edit::Move { path: path("objects.2"), to: 0 });
     let after = document.text();
     let order =
-        ["# Above.\n[[objects]]\nname = \"lamp\"", "# The shell.\n\n# Below.\n[[objects]]\nname = \"floor\"", "name = \"ball\""];
+        ["# Above.\n[[objects]]\nname = \"light\"", "# The shell.\n\n# Below.\n[[objects]]\nname = \"floor\"", "name = \"ball\""];
     let places = order.map(|part| after.find(part).unwrap_or_else(|| panic!("{part}:\n{after}")));
     assert!(places.is_sorted(), "{after}");
     assert_eq!(difference(ROOM, &after), Vec::<String>::new());

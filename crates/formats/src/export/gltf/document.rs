@@ -11,7 +11,7 @@ pub struct Document {
     pub buffer: Buffer,
     lists: BTreeMap<&'static str, Vec<Value>>,
     extensions: BTreeSet<&'static str>,
-    lamps: Vec<Value>,
+    punctual_lights: Vec<Value>,
     /// Indices of elements that are listed once, by list and text.
     known: HashMap<(&'static str, String), usize>,
 }
@@ -35,10 +35,10 @@ impl Document {
         index
     }
 
-    /// Adds a lamp of KHR_lights_punctual, and returns its index.
-    pub fn add_lamp(&mut self, lamp: Value) -> usize {
-        self.lamps.push(lamp);
-        self.lamps.len() - 1
+    /// Adds a light of KHR_lights_punctual, and returns its index.
+    pub fn add_light(&mut self, punctual_light: Value) -> usize {
+        self.punctual_lights.push(punctual_light);
+        self.punctual_lights.len() - 1
     }
 
     /// Adds an extension to an object of the document.
@@ -51,9 +51,9 @@ impl Document {
     pub fn finish(mut self) -> Value {
         let mut all = Map::new();
         all.insert("asset".to_owned(), json!({ "version": "2.0", "generator": "Noisefall" }));
-        if !self.lamps.is_empty() {
-            let lamps = json!({ "lights": std::mem::take(&mut self.lamps) });
-            self.extend(&mut all, LAMPS, lamps);
+        if !self.punctual_lights.is_empty() {
+            let punctual_lights = json!({ "lights": std::mem::take(&mut self.punctual_lights) });
+            self.extend(&mut all, LIGHTS, punctual_lights);
         }
         if !self.extensions.is_empty() {
             all.insert("extensionsUsed".to_owned(), self.extensions.iter().copied().collect());
@@ -67,5 +67,5 @@ impl Document {
     }
 }
 
-/// The extension of lamps without surface.
-pub const LAMPS: &str = "KHR_lights_punctual";
+/// The extension of punctual lights.
+pub const LIGHTS: &str = "KHR_lights_punctual";

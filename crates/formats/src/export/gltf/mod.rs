@@ -10,7 +10,7 @@
 //! | `shapes.rs`, `units.rs` | nodes and meshes |
 //! | `materials/` | materials and the light that surfaces emit |
 //! | `textures.rs`, `pixels.rs` | colours, numbers and images |
-//! | `lights.rs` | lamps |
+//! | `lights.rs` | lights |
 //! | `camera.rs` | the camera |
 mod accessors;
 mod buffer;

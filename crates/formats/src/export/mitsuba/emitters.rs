@@ -1,4 +1,4 @@
-//! Lamps without surface, and the background.
+//! Punctual lights, and the background.
 use std::f64::consts::PI;
 
 use glam::{DAffine3, DQuat, DVec3};
@@ -10,101 +10,114 @@ use super::{
 };
 use noisefall_scene::{
     light::{
-        background::{image::Image, sky::SkyModel},
-        lamp::{
-            LampKind,
+        environment::{image::Image, sky::SkyModel},
+        punctual_light::{
+            PunctualLightKind,
             projector::Projector,
             spot::{Falloff, Spot},
         },
     },
-    scene::description::{BackgroundDescription, LampDescription},
+    scene::description::{EnvironmentDescription, PunctualLightDescription},
     shape::product,
     texture::image as texture,
 };
 
-/// Adds all lamps and the background.
+/// Adds all lights and the background.
 pub fn all(export: &mut Export) {
     let description = export.description;
-    for (number, lamp) in description.lamps.iter().enumerate() {
-        let (element, _) = export.at(notes::element("lamp", number, &lamp.name), |export| export.lamp(lamp));
+    for (number, punctual_light) in description.punctual_lights.iter().enumerate() {
+        let (element, _) =
+            export.at(notes::element("light", number, &punctual_light.name), |export| export.punctual_light(punctual_light));
         let Some(element) = element else { continue };
-        let id = export.id(&lamp.name, "lamp");
+        let id = export.id(&punctual_light.name, "light");
         export.scene.push(element.attribute("id", id));
     }
-    if let Some(background) = &description.background {
-        let (element, _) = export.at("background".to_owned(), |export| export.background(background));
+    if let Some(environment) = &description.environment {
+        let (element, _) = export.at("environment".to_owned(), |export| export.environment(environment));
         export.scene.push(element);
     }
 }
 
 impl Export<'_> {
-    fn lamp(&mut self, lamp: &LampDescription) -> Option<Element> {
-        let map = product(&lamp.transform).unwrap_or(DAffine3::IDENTITY);
+    fn punctual_light(&mut self, punctual_light: &PunctualLightDescription) -> Option<Element> {
+        let map = product(&punctual_light.transform).unwrap_or(DAffine3::IDENTITY);
         let point = |p: DVec3| map.transform_point3(p);
-        Some(match &lamp.kind {
-            LampKind::Point(lamp) => Element::plugin("emitter", "point")
-                .point("position", point(lamp.position))
-                .with(Element::color("intensity", lamp.intensity)),
-            LampKind::Directional(lamp) => Element::plugin("emitter", "directional")
-                .vector("direction", map.transform_vector3(lamp.direction))
-                .with(Element::color("irradiance", lamp.irradiance)),
-            LampKind::Spot(lamp) => self.spot(lamp, look_at(point(lamp.position), point(lamp.target), None)),
-            LampKind::Projector(lamp) => {
-                let up = map.transform_vector3(lamp.up);
-                self.projector(lamp, look_at(point(lamp.position), point(lamp.target), Some(up)))
+        Some(match &punctual_light.kind {
+            PunctualLightKind::Point(punctual_light) => Element::plugin("emitter", "point")
+                .point("position", point(punctual_light.position))
+                .with(Element::color("intensity", punctual_light.intensity)),
+            PunctualLightKind::Directional(punctual_light) => Element::plugin("emitter", "directional")
+                .vector("direction", map.transform_vector3(punctual_light.direction))
+                .with(Element::color("irradiance", punctual_light.irradiance)),
+            PunctualLightKind::Spot(punctual_light) => {
+                self.spot(punctual_light, look_at(point(punctual_light.position), point(punctual_light.target), None))
+            }
+            PunctualLightKind::Projector(punctual_light) => {
+                let up = map.transform_vector3(punctual_light.up);
+                self.projector(punctual_light, look_at(point(punctual_light.position), point(punctual_light.target), Some(up)))
             }
             #[allow(unreachable_patterns, reason = "a kind that is added later")]
             _ => {
-                let substitute = self.colors.lamp_substitute(lamp, &mut self.notes)?;
-                self.lamp(&substitute)?
+                let substitute = self.colors.punctual_substitute(punctual_light, &mut self.notes)?;
+                self.punctual_light(&substitute)?
             }
         })
     }
 
-    fn spot(&mut self, lamp: &Spot, place: Element) -> Element {
-        if lamp.falloff != Falloff::Linear && lamp.inner < lamp.angle {
+    fn spot(&mut self, punctual_light: &Spot, place: Element) -> Element {
+        if punctual_light.falloff != Falloff::Linear && punctual_light.inner < punctual_light.angle {
             self.remark("the falloff of a spot", "one that is linear in the angle", "its edge has another softness");
         }
         Element::plugin("emitter", "spot")
             .with(place)
-            .with(Element::color("intensity", lamp.intensity))
-            .float("cutoff_angle", lamp.angle)
-            .float("beam_width", lamp.inner.min(lamp.angle))
+            .with(Element::color("intensity", punctual_light.intensity))
+            .float("cutoff_angle", punctual_light.angle)
+            .float("beam_width", punctual_light.inner.min(punctual_light.angle))
     }
 
     /// The irradiance of Mitsuba's is that at a distance of 1, divided by π.
-    fn projector(&mut self, lamp: &Projector, place: Element) -> Element {
-        if lamp.tint != [1.0; 3] || lamp.angle < 180.0 || lamp.aspect != 0.0 {
+    fn projector(&mut self, punctual_light: &Projector, place: Element) -> Element {
+        if punctual_light.tint != [1.0; 3] || punctual_light.angle < 180.0 || punctual_light.aspect != 0.0 {
             self.remark(
                 "the tint, the cone or the aspect of a projector",
                 "none",
                 "its image has other colours or another outline",
             );
         }
-        if !lamp.flat {
+        if !punctual_light.flat {
             self.remark("a projector of even intensity", "one of even irradiance", "its light is brighter towards the edges");
         }
-        let element = Element::plugin("emitter", "projector").with(place).float("scale", lamp.scale / PI).float("fov", lamp.fov);
+        let element = Element::plugin("emitter", "projector")
+            .with(place)
+            .float("scale", punctual_light.scale / PI)
+            .float("fov", punctual_light.fov);
         let element = element.text("fov_axis", "x");
-        if lamp.image.is_empty() {
+        if punctual_light.image.is_empty() {
             return element.with(Element::color("irradiance", [1.0; 3]));
         }
-        let (path, encoding, filter) = (lamp.image.clone(), lamp.encoding, lamp.filter);
-        let image = texture::Image { path, encoding, filter, wrap_u: lamp.wrap, wrap_v: lamp.wrap, ..texture::Image::default() };
+        let (path, encoding, filter) = (punctual_light.image.clone(), punctual_light.encoding, punctual_light.filter);
+        let image = texture::Image {
+            path,
+            encoding,
+            filter,
+            wrap_u: punctual_light.wrap,
+            wrap_v: punctual_light.wrap,
+            ..texture::Image::default()
+        };
         element.with(self.bitmap(&image).attribute("name", "irradiance"))
     }
 
-    fn background(&mut self, background: &BackgroundDescription) -> Element {
-        match background {
-            BackgroundDescription::Constant(constant) => {
+    fn environment(&mut self, environment: &EnvironmentDescription) -> Element {
+        match environment {
+            EnvironmentDescription::Constant(constant) => {
                 Element::plugin("emitter", "constant").with(Element::color("radiance", constant.radiance))
             }
-            BackgroundDescription::Image(image) => {
+            EnvironmentDescription::Image(image) => {
                 let path = self.sky_image(image);
                 let element = Element::plugin("emitter", "envmap").text(FILE, &path).float("scale", image.scale);
                 element.transform("to_world", &turn(image))
             }
-            BackgroundDescription::Sky(sky) => {
+            EnvironmentDescription::Sky(sky) => {
                 if sky.model == SkyModel::Preetham {
                     self.remark("a sky by Preetham", "`sunsky`", "another fit of the radiance and the colour of the sky");
                 }
@@ -122,7 +135,7 @@ impl Export<'_> {
             }
             #[allow(unreachable_patterns, reason = "a kind that is added later")]
             other => {
-                let mean = self.colors.background_substitute(other, &mut self.notes);
+                let mean = self.colors.environment_substitute(other, &mut self.notes);
                 Element::plugin("emitter", "constant").with(Element::color("radiance", mean))
             }
         }

@@ -17,7 +17,7 @@ pub fn settings(export: &mut Export) {
 }
 
 impl Export<'_> {
-    /// Mitsuba counts the edges of a path, and ours are its bounces. Only its `volpath` sees lamps through masks.
+    /// Mitsuba counts the edges of a path, and ours are its bounces. Only its `volpath` sees lights through masks.
     fn integrator(&mut self) -> Element {
         let settings = &self.description.render.settings;
         let is_open = self.description.materials.values().any(|material| {

@@ -2,7 +2,7 @@
 use crate::import::pictures;
 use noisefall_scene::{
     image::{Encoding, Texels, read_light_of},
-    light::background::image::Image,
+    light::environment::image::Image,
 };
 
 use super::context::Export;
@@ -43,7 +43,7 @@ fn with_pole_rows(picture: &Texels) -> Vec<[f32; 3]> {
 mod tests {
     use super::*;
     use noisefall_base::math::{F, One, V};
-    use noisefall_scene::light::background::image::{ImageBackground, SkyTables};
+    use noisefall_scene::light::environment::image::{EnvironmentImage, SkyTables};
 
     #[test]
     fn rows_at_the_poles_give_the_same_image() {
@@ -51,7 +51,7 @@ mod tests {
         let picture = Texels { width: 4, height: 3, radiance: (0..12).map(texel).collect() };
         let doubled: Vec<[f32; 4]> = with_pole_rows(&picture).into_iter().map(|[r, g, b]| [r, g, b, 1.0]).collect();
         let doubled = Texels { width: 4, height: 7, radiance: doubled };
-        let sky = |picture: Texels, pole_rows: bool| ImageBackground::new(SkyTables::new(picture, 1.0, pole_rows).into(), 0.0);
+        let sky = |picture: Texels, pole_rows: bool| EnvironmentImage::new(SkyTables::new(picture, 1.0, pole_rows).into(), 0.0);
         let (ours, theirs) = (sky(picture, false), sky(doubled, true));
         for i in 0..200 {
             let (y, azimuth) = (1.0 - 2.0 * (i as f32 + 0.5) / 200.0, i as f32 * 2.4);

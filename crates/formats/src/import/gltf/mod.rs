@@ -90,7 +90,7 @@ fn translated(container: Container, folder: &Folder, options: &ImportOptions, fi
     instances.most += length / instances::BYTES_OF_FILE;
     instances.add(&mut to)?;
     let (bounds, areas) = (instances.bounds, instances.areas);
-    lamps(&document, &hierarchy, &mut to, file)?;
+    punctual_lights(&document, &hierarchy, &mut to, file)?;
     if !camera(&document, &hierarchy, options.size, &mut to, file)? {
         studio::frame(&mut to.description, bounds);
         to.remarks.add(file, "no camera", "a camera that shows everything", "the view differs from the original");
@@ -126,18 +126,18 @@ fn variant(document: &Document, wanted: &str) -> Found<Index> {
     })
 }
 
-fn lamps(document: &Document, hierarchy: &Hierarchy, to: &mut Imported, file: &str) -> Found<()> {
+fn punctual_lights(document: &Document, hierarchy: &Hierarchy, to: &mut Imported, file: &str) -> Found<()> {
     let lights = document.extensions.lights.as_ref().map_or(&[][..], |found| &found.lights);
     let mut names = Names::default();
     for index in &hierarchy.shown {
         let node = &document.nodes[*index as usize];
         let Some(used) = node.extensions.as_deref().and_then(|extensions| extensions.light.as_deref()) else { continue };
-        let light = element(lights, used.light, "lamp")?;
+        let light = element(lights, used.light, "light")?;
         let wanted = if node.name.is_empty() { &light.name } else { &node.name };
-        let name = names.unique(wanted, "lamp");
-        let place = format!("{file}: lamp \"{name}\"");
+        let name = names.unique(wanted, "light");
+        let place = format!("{file}: light \"{name}\"");
         let world = &hierarchy.worlds[*index as usize];
-        to.description.lamps.extend(lights::lamp(light, &name, world, &mut to.remarks, &place));
+        to.description.punctual_lights.extend(lights::punctual_light(light, &name, world, &mut to.remarks, &place));
     }
     Ok(())
 }

@@ -91,7 +91,7 @@ impl Import {
                 if kelvin <= 0.0 {
                     return Err(element.error("the temperature is not positive", "it is in kelvin"));
                 }
-                // The spectrum is in power per nm, and its luminance is that of a lamp of the same power per nm.
+                // The spectrum is in power per nm, and its luminance is that of a light of the same power per nm.
                 let scale = scale("scale")?;
                 role.of(&Spectrum::black_body(kelvin)).map(|x| x * scale)
             }

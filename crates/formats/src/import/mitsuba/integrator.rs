@@ -7,7 +7,7 @@ fn estimator(kind: &str) -> Option<(Estimator, bool)> {
     Some(match kind {
         "direct" | "direct_projective" | "path" | "ptracer" | "volpath" | "volpath_simple" | "volpathmis" | "prb"
         | "prb_basic" | "prbvolpath" | "prb_projective" => (Estimator::Mis, false),
-        // Paths from both ends, Metropolis's among them, and virtual lamps.
+        // Paths from both ends, Metropolis's among them, and virtual lights.
         "bdpt" | "mlt" | "pssmlt" | "erpt" | "vpl" => (Estimator::Bidirectional, false),
         // Density estimation.
         "photonmapper" | "ppm" | "sppm" | "vcm" | "upm" => (Estimator::Bidirectional, true),
@@ -33,7 +33,7 @@ impl Import {
             return self.nested(element, |import| import.integrator(*inner));
         }
         if element.flag("hide_emitters", false)? {
-            self.remark_value(element, "hide_emitters", "visible lamps", "the camera sees emitters and the background")?;
+            self.remark_value(element, "hide_emitters", "visible lights", "the camera sees emitters and the background")?;
         }
         let known = estimator(element.kind());
         if known.is_none() {

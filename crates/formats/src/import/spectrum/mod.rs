@@ -172,7 +172,7 @@ mod tests {
 
     #[test]
     fn values_are_linear_between_and_zero_beyond() {
-        let spectrum = Spectrum::parse("# a lamp\n400 0\n500 8 # green\n\n600\t4\r\n").expect("it is valid");
+        let spectrum = Spectrum::parse("# a light\n400 0\n500 8 # green\n\n600\t4\r\n").expect("it is valid");
         assert_eq!([399.0, 400.0, 450.0, 550.0, 600.0, 601.0].map(|nm| spectrum.value(nm)), [0.0, 0.0, 4.0, 6.0, 4.0, 0.0]);
     }
 

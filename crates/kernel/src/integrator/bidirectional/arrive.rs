@@ -89,12 +89,12 @@ pub(super) fn arrive_from_camera<L: Lanes, O: Observer<L>>(
         }
         let weigher = HitWeigher { first, partial: others, self_lit, at: ReferencePoint { p: path.o, n, transmits, lobe: None } };
         let miss = nearest.primitive.is(MISS);
-        if let Some(background) = &work.scene.lights.background
+        if let Some(environment) = &work.scene.lights.environment
             && (at.live & miss).any()
         {
             let (s, t, lanes) = (l.u(0), *bounce + 2, at.live & miss);
-            let weight = weight_of(work, s, t, weigher.of_background(l, work, rays, path.d));
-            let light = path.throughput * background.radiance(l, path.d);
+            let weight = weight_of(work, s, t, weigher.of_environment(l, work, rays, path.d));
+            let light = path.throughput * environment.radiance(l, path.d);
             observer.left(lanes, &arrival);
             observer.found(lanes, &Term { s, t, light, weight, seen: lanes, light_pdf: l.f(1.0) });
             add(radiance, lanes, path.slot, light * weight);
@@ -140,20 +140,20 @@ struct HitWeigher<L: Lanes> {
     /// The camera sees the lights directly, and no other strategy finds that.
     first: bool,
     partial: Partial<L>,
-    /// The vertex before, and the lanes where it samples only lamps without surface.
+    /// The vertex before, and the lanes where it samples only punctual lights.
     at: ReferencePoint<L>,
     self_lit: M<L>,
 }
 
 impl<L: Lanes> HitWeigher<L> {
     #[inline(always)]
-    fn of_background(&self, l: L, work: &Work, rays: &LightRays, d: V<L>) -> F<L> {
+    fn of_environment(&self, l: L, work: &Work, rays: &LightRays, d: V<L>) -> F<L> {
         if self.first {
             return l.f(1.0);
         }
         let lights = &work.scene.lights;
         let place = PrimitiveRef::of(l, l.u(MISS));
-        self.weight(lights.pdf(l, &work.scene.shapes, &self.at, d, &place), rays.density_of_background(l, lights, d))
+        self.weight(lights.pdf(l, &work.scene.shapes, &self.at, d, &place), rays.density_of_environment(l, lights, d))
     }
 
     #[inline(always)]

@@ -125,7 +125,7 @@ fn queue_light_sample<L: Lanes>(
     let sample = call_sample_light(l, work, &point, &stream, direction, hit.slot, reflection);
     let Evaluated { f_cos, pdf: bsdf_pdf, reverse } = evaluate(l, work, stage, hits, at, [*back, sample.wi]);
     let radiance = hit.throughput * f_cos * sample.radiance * (1.0 / sample.pdf);
-    let allowed = *live & (work.scene.lights.are_lamps(sample.target) | !are_self_lit(l, stage, hits, at));
+    let allowed = *live & (work.scene.lights.are_punctual(sample.target) | !are_self_lit(l, stage, hits, at));
     let keep = allowed & sample.pdf.above(0.0) & radiance.max_component().above(0.0);
     let height = sample.wi.dot(hit.n);
     let o = height.above(0.0).pick(hit.p, hit.p - hit.n * depth(l, stage, hits, at));

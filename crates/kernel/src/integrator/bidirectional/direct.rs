@@ -46,14 +46,14 @@ pub(super) fn test_light_samples<L: Lanes, O: Observer<L>>(
         }
         let sky = seen & target.is(MISS);
         if sky.any() {
-            density = sky.pick(rays.density_of_background(l, lights, d), density);
+            density = sky.pick(rays.density_of_environment(l, lights, d), density);
         }
-        let lamps = seen & lights.are_lamps(target);
-        if lamps.any() {
-            let (of_lamps, far) = rays.density_of_lamps(l, lights, lamps, target);
-            density = lamps.pick(of_lamps, density);
-            of_sample = lamps.pick(sample.pdf * far.pick(l.f(1.0), t * t), of_sample);
-            by_direction = lamps.pick(l.f(0.0), by_direction);
+        let punctual_lights = seen & lights.are_punctual(target);
+        if punctual_lights.any() {
+            let (of_punctual, far) = rays.density_of_punctual(l, lights, punctual_lights, target);
+            density = punctual_lights.pick(of_punctual, density);
+            of_sample = punctual_lights.pick(sample.pdf * far.pick(l.f(1.0), t * t), of_sample);
+            by_direction = punctual_lights.pick(l.f(0.0), by_direction);
         }
         let weight = 1.0 / (1.0 + by_direction + sample.partial * (density / of_sample));
         let (s, t) = (l.u(1), batch.bounce + 2);

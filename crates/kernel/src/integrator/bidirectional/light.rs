@@ -105,29 +105,36 @@ fn at_first_surface<L: Lanes>(
     let [light, primitive, element, _] = l.rows(&state.sources, hit.slot);
     let (light, primitive, element) = (light.bits(), primitive.bits(), element.bits());
     let at = ReferencePoint { p: hit.p, n: hit.n, transmits: transmits(l, stage), lobe: None };
-    let lamps = *live & lights.are_lamps(light);
+    let punctual_lights = *live & lights.are_punctual(light);
     // Lanes that are not live may hold the source of a path in another scene.
-    let on_surface = *live & !lamps & !light.is(MISS);
+    let on_surface = *live & !punctual_lights & !light.is(MISS);
     let (primitive, element) = (on_surface.pick(primitive, l.u(MISS)), on_surface.pick(element, l.u(0)));
     let place = PrimitiveRef { primitive, element, time: work.time(l, hit.slot) };
     let mut pdf = self_lit.pick(l.f(0.0), lights.pdf(l, &work.scene.shapes, &at, *back, &place));
     let mut finds_light = l.f(1.0);
-    if lamps.any() {
-        pdf = lamps.pick(pdf_of_lamps(l, work, rays, &at, lamps, light), pdf);
-        finds_light = lamps.pick(l.f(0.0), finds_light);
+    if punctual_lights.any() {
+        pdf = punctual_lights.pick(pdf_of_punctual(l, work, rays, &at, punctual_lights, light), pdf);
+        finds_light = punctual_lights.pick(l.f(0.0), finds_light);
     }
     let cos = cosine(*back, hit.n);
     let v = pdf * inverse_density / cos;
     Partial { v, c: finds_light * inverse_density / cos }
 }
 
-/// The pdf of light samples of lamps, in the unit of the light density: per area across the ray, or for directional lamps none.
+/// The pdf of light samples of lights, in the unit of the light density: per area across the ray, or for directional lights none.
 #[inline(always)]
-fn pdf_of_lamps<L: Lanes>(l: L, work: &Work, rays: &LightRays, at: &ReferencePoint<L>, lamps: M<L>, light: U<L>) -> F<L> {
+fn pdf_of_punctual<L: Lanes>(
+    l: L,
+    work: &Work,
+    rays: &LightRays,
+    at: &ReferencePoint<L>,
+    punctual_lights: M<L>,
+    light: U<L>,
+) -> F<L> {
     let lights = &work.scene.lights;
-    let (_, far) = rays.density_of_lamps(l, lights, lamps, light);
-    let distance = lights.distance_of_lamps(l, lamps, light, at.p);
-    lights.probability_of_lamp(l, at, lamps, light) * far.pick(l.f(1.0), distance * distance)
+    let (_, far) = rays.density_of_punctual(l, lights, punctual_lights, light);
+    let distance = lights.distance_of_punctual(l, punctual_lights, light, at.p);
+    lights.probability_of_punctual(l, at, punctual_lights, light) * far.pick(l.f(1.0), distance * distance)
 }
 
 /// Queues joins with the camera that would contribute if nothing lies between.

@@ -90,7 +90,7 @@ pub(super) fn transmits<L: Lanes>(l: L, stage: Stage) -> M<L> {
     l.first(if stage.transmits() { L::N } else { 0 })
 }
 
-/// Lanes that sample only lamps without surface: see [`SELF_LIT`].
+/// Lanes that sample only punctual lights: see [`SELF_LIT`].
 #[inline(always)]
 pub(super) fn are_self_lit<L: Lanes>(l: L, stage: Stage, hits: &HitQueues, at: Register<L>) -> M<L> {
     if stage.transmits() { is_set(Detail::read(l, &hits.details, at.start).surface, SELF_LIT) } else { l.first(0) }

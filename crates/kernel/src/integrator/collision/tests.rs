@@ -48,7 +48,7 @@ fn a_camera_stops_just_before_every_wall_of_the_built_in_scene() {
         let stop = way(&scene, [0.0, 1.0, 3.7], to);
         assert!((stop - (wall - margin)).abs() < 1e-5, "{to:?}: {stop}");
     }
-    // The way into the room and to its back wall, between the balls and below the lamp.
+    // The way into the room and to its back wall, between the balls and below the light.
     assert!((way(&scene, [0.0, 1.0, 3.7], [0.0, 1.0, -5.0]) - (4.7 - margin)).abs() < 1e-5);
     assert_eq!(way(&scene, [0.0, 1.0, 3.7], [0.0, 1.0, -0.99]), 4.69, "up to there nothing is in the way");
     let near = way(&scene, [0.0, 1.0, 3.7], [0.0, 1.0, -0.998]);
@@ -66,8 +66,8 @@ fn light_from_any_one_direction_is_seen_and_none_where_there_is_none() {
             let mut center = [0.0; 3];
             center[axis] = 0.99 * side;
             let normal = center.map(|x| -x);
-            let lamp = format!("disk = {{ center = {center:?}, normal = {normal:?}, radius = 0.3 }}");
-            let scene = scene(&[object(cube, ""), object(&lamp, "emission = { radiance = 1.0 }")]);
+            let punctual_light = format!("disk = {{ center = {center:?}, normal = {normal:?}, radius = 0.3 }}");
+            let scene = scene(&[object(cube, ""), object(&punctual_light, "emission = { radiance = 1.0 }")]);
             assert!(!is_blind(&scene, DVec3::ZERO), "{center:?}");
             assert!(is_blind(&scene, DVec3::splat(2.0)), "outside");
         }

@@ -5,7 +5,7 @@ use noisefall_base::math::{Lanes, M, Pick, U, V};
 
 /// Light passes at the vertex before, and lights were sampled on both of its sides.
 const TRANSMITS: f32 = 1.0;
-/// Light passes there, and only lamps without surface were sampled.
+/// Light passes there, and only punctual lights were sampled.
 const SELF_LIT: f32 = 2.0;
 
 /// Paths from one end, by slot.
@@ -81,7 +81,7 @@ impl PathState {
         put(lanes, slot, n, sides, &mut self.before);
     }
 
-    /// The normals of the vertices before, the lanes where light passes there, and those that sample only lamps without surface.
+    /// The normals of the vertices before, the lanes where light passes there, and those that sample only punctual lights.
     #[inline(always)]
     pub fn before<L: Lanes>(&self, l: L, slot: U<L>) -> (V<L>, M<L>, M<L>) {
         let [x, y, z, sides] = l.rows(&self.before, inside(slot));

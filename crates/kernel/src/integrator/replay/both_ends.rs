@@ -30,7 +30,7 @@ pub struct BothEnds {
 pub struct PathPoint {
     /// Metres. Of light from far away, a point outside of the scene.
     pub position: [f32; 3],
-    /// Index of the object; `None` for the background and for lamps without surface.
+    /// Index of the object; `None` for the background and for punctual lights.
     pub object: Option<u32>,
 }
 
@@ -151,8 +151,8 @@ impl Observer<One> for Recorder<'_, '_> {
         let object = ray.on_surface.0.then(|| scene.owners[ray.place.primitive.0 as usize]);
         self.both.light.push(PathPoint { position: ray.o.lane(0), object });
         let cos = if ray.on_surface.0 { ray.d.dot(ray.point.n_geometric).abs().0 } else { 1.0 };
-        let is_near_lamp = || !self.rays.density_of_lamps(One, &scene.lights, ray.is_lamp, ray.light).1.0;
-        let is_near = ray.on_surface.0 || ray.is_lamp.0 && is_near_lamp();
+        let is_near_punctual = || !self.rays.density_of_punctual(One, &scene.lights, ray.is_punctual, ray.light).1.0;
+        let is_near = ray.on_surface.0 || ray.is_punctual.0 && is_near_punctual();
         let path = &mut self.ends[PathStart::Light as usize];
         path.pdf = f64::from(cos) / f64::from(ray.inverse_density.0);
         path.step = if is_near { PdfMeasure::Direction } else { PdfMeasure::Parallel };

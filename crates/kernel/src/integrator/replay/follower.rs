@@ -189,7 +189,7 @@ fn hit_emitter<const VARIED: bool>(
 ) -> Option<(V<One>, PrimitiveRef<One>)> {
     let lights = &work.scene.lights;
     let Some(interaction) = interaction else {
-        return lights.background.as_ref().map(|sky| (sky.radiance(One, path.d), PrimitiveRef::of(One, U(MISS))));
+        return lights.environment.as_ref().map(|sky| (sky.radiance(One, path.d), PrimitiveRef::of(One, U(MISS))));
     };
     let emits = lights.emitters.emits(interaction.place.primitive);
     if !emits.0 {

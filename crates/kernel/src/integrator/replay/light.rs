@@ -23,12 +23,12 @@ pub(super) fn sampled_light(
 ) -> SampledLight {
     let target = sample.target.0;
     let lights = &work.scene.lights;
-    let lamp = lights.lamp_at(target);
+    let punctual_light = lights.punctual_at(target);
     let place = |light: u32| lights.place(One, U(light), F(0.0));
     let mut light = SampledLight {
         direction: sample.wi.lane(0),
-        object: (target != MISS && lamp.is_none()).then(|| work.scene.owners[place(target).primitive.0 as usize]),
-        lamp: lamp.map(|lamp| work.scene.lamps[lamp].title()),
+        object: (target != MISS && punctual_light.is_none()).then(|| work.scene.owners[place(target).primitive.0 as usize]),
+        punctual_light: punctual_light.map(|punctual_light| work.scene.punctual_lights[punctual_light].title()),
         pdf: sample.pdf.0,
         f_cos: f_cos.lane(0),
         weight: if sample.pdf.0 > 0.0 { weight.0 } else { 0.0 },

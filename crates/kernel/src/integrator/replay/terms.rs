@@ -129,18 +129,18 @@ pub struct SharedLight {
 pub struct SampledLight {
     /// Unit direction towards the light.
     pub direction: [f32; 3],
-    /// Index of the sampled object; `None` for the background and for lamps without surface.
+    /// Index of the sampled object; `None` for the background and for punctual lights.
     pub object: Option<u32>,
-    /// Name of the sampled lamp without surface.
-    pub lamp: Option<String>,
+    /// Name of the sampled punctual light.
+    pub punctual_light: Option<String>,
     /// Pdf of the direction, including the probability of choosing the light; 0 if no light is on this side, or if the lobe is so narrow
-    /// that the sky is left to the next direction. For a lamp without surface, that probability alone.
+    /// that the sky is left to the next direction. For a punctual light, that probability alone.
     pub pdf: f32,
     /// BSDF times |cos θ_i|.
     pub f_cos: [f32; 3],
     /// MIS weight (power heuristic); 1 if emitter hits are not counted or cannot happen, 0 if the pdf is 0.
     pub weight: f32,
-    /// L_e of the light; with a texture, the factor of the texture. For a lamp without surface, the irradiance of a surface that faces
+    /// L_e of the light; with a texture, the factor of the texture. For a punctual light, the irradiance of a surface that faces
     /// it, W/m².
     pub radiance: [f32; 3],
     /// The outcome of the sample.

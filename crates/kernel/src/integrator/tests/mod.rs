@@ -1,6 +1,6 @@
 //! The random numbers that a path reads.
-mod lamps;
 mod nested_glass;
+mod punctual_lights;
 mod sides;
 
 use std::collections::BTreeMap;
@@ -12,11 +12,11 @@ use noisefall_scene::{
     scene::{Estimator, RenderSettings, Reuse, Roulette, Scene, parse},
 };
 
-/// A scene that samples everything: a lens, motion, lobes, opacity, blends, lamps and a background image.
+/// A scene that samples everything: a lens, motion, lobes, opacity, blends, lights and a background image.
 fn scene() -> Scene {
     let text = format!(
         "format = 1
-        background.image = '{}/../../scenes/assets/sky.exr'
+        environment.image = '{}/../../scenes/assets/sky.exr'
         [camera]
         eye = [0.0, 0.0, 4.0]
         look_at = [0.0, 0.0, 0.0]
@@ -152,7 +152,7 @@ fn a_reflection_carries_the_throughput_of_the_next_vertex() {
 fn under_white_sky(rest: &str) -> Scene {
     let text = format!(
         "format = 1
-        background.radiance = 1
+        environment.radiance = 1
         camera = {{ eye = [0, 0, 4], look_at = [0, 0, 0], fov = 40, resolution = [8, 8] }}
         {rest}"
     );

@@ -11,7 +11,7 @@ fn roulette_allows_for_the_radiance_in_nested_glass() {
     };
     let text = "format = 1
         camera = { eye = [0.0, 0.0, 4.0], look_at = [0.0, 0.0, 0.0], fov = 20.0, resolution = [8, 8] }
-        background.radiance = 1.0
+        environment.radiance = 1.0
         materials.glass.dielectric.ior = 1.5
         materials.water.dielectric = { ior = 1.33, ior_outside = 1.5 }
         materials.bubble.dielectric = { ior = 1.0, ior_outside = 1.33, specular_transmittance = 0.9999999 }\n";

@@ -11,7 +11,7 @@ use crate::study::{
 };
 use noisefall_base::math::{SimdLevel, colour::srgb_from_linear};
 use noisefall_kernel::measure::Floor;
-use noisefall_render::render::{Display, threads::Threads, truth};
+use noisefall_render::render::{Display, reference::Reference as KnownReference, threads::Threads};
 use noisefall_scene::{
     sampling::{Directions, Sampler},
     scene::{Camera, Estimator, RenderSettings, Roulette, Setting, parse},
@@ -21,7 +21,7 @@ use noisefall_scene::{
 fn furnace() -> StudyScene {
     let scene = parse("scene.toml", include_str!("../../../../../scenes/furnace.toml").to_owned()).expect("a scene");
     let camera = Camera { resolution: [8, 8], ..scene.camera };
-    let known = Some((truth::Reference::Constant([2.0; 3]), "the exact radiance".to_owned()));
+    let known = Some((KnownReference::Constant([2.0; 3]), "the exact radiance".to_owned()));
     StudyScene { path: "scene.toml".into(), scene, camera, known, is_declared: true }
 }
 

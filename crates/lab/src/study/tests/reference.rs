@@ -10,14 +10,14 @@ use noisefall_base::math::SimdLevel;
 use noisefall_kernel::measure::{Floor, SampleNoise, compare};
 use noisefall_render::render::{
     image_file::{Picture, Provenance},
+    reference::Reference as KnownReference,
     threads::Threads,
-    truth,
 };
 use noisefall_scene::scene::parse;
 
 const SIZE: [u32; 2] = [32, 8];
 
-fn study_scene(known: Option<truth::Reference>, is_declared: bool) -> StudyScene {
+fn study_scene(known: Option<KnownReference>, is_declared: bool) -> StudyScene {
     let scene = parse("scene.toml", include_str!("../../../../../scenes/furnace.toml").to_owned()).expect("a scene");
     let camera = noisefall_scene::scene::Camera { resolution: SIZE, ..scene.camera };
     StudyScene {
@@ -30,7 +30,7 @@ fn study_scene(known: Option<truth::Reference>, is_declared: bool) -> StudyScene
 }
 
 /// An image of radiance 2 with this variance and this estimate of relMSE.
-fn rendered(variance: Option<f32>, rel_mse_estimate: Option<f64>) -> truth::Reference {
+fn rendered(variance: Option<f32>, rel_mse_estimate: Option<f64>) -> KnownReference {
     let picture = Picture { width: 16, height: 16, radiance: vec![[2.0; 3]; 256] };
     let noise = variance.map(|v| SampleNoise {
         width: 16,
@@ -39,7 +39,7 @@ fn rendered(variance: Option<f32>, rel_mse_estimate: Option<f64>) -> truth::Refe
         block_degrees: 7.0,
         effective_samples: 1e4,
     });
-    truth::Reference::Picture(Arc::new(picture), Arc::new(Provenance { noise, rel_mse_estimate, ..Provenance::default() }))
+    KnownReference::Picture(Arc::new(picture), Arc::new(Provenance { noise, rel_mse_estimate, ..Provenance::default() }))
 }
 
 #[test]
@@ -59,19 +59,19 @@ fn the_own_error_of_a_reference_is_what_its_file_says_of_it() {
     near(own(rendered(Some(0.0404), Some(0.002)), false, Floor::DEFAULT), 0.002);
     near(own(rendered(Some(0.0404), Some(0.5)), false, Floor::DEFAULT), 0.01);
     assert_eq!(own(rendered(None, None), false, Floor::DEFAULT), (0.0, true, 0.0));
-    // The truth of a scene is exact.
+    // The reference of a scene is exact.
     assert_eq!(own(rendered(None, None), true, Floor::DEFAULT), (0.0, false, 0.0));
-    assert_eq!(own(truth::Reference::Constant([2.0; 3]), true, Floor::DEFAULT), (0.0, false, 0.0));
+    assert_eq!(own(KnownReference::Constant([2.0; 3]), true, Floor::DEFAULT), (0.0, false, 0.0));
 }
 
 #[test]
 fn a_black_reference_is_refused_and_others_have_an_identity() {
-    let black = truth::Reference::Constant([0.0; 3]);
+    let black = KnownReference::Constant([0.0; 3]);
     assert!(
         known(&study_scene(Some(black), true), Floor::DEFAULT).is_err_and(|error| error.to_string().contains("entirely black"))
     );
     let of = |known, spp| identity(&study_scene(known, true), spp);
-    let constant = |x| Some(truth::Reference::Constant([x; 3]));
+    let constant = |x| Some(KnownReference::Constant([x; 3]));
     assert_ne!(of(constant(1.0), 4), of(constant(2.0), 4));
     assert_eq!(of(constant(1.0), 4), of(constant(1.0), 8));
     assert_ne!(of(None, 4), of(None, 8));
@@ -126,7 +126,7 @@ fn a_converged_render_keeps_its_channels_apart() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut study_scene = study_scene(None, false);
     let sky = "format = 1\ncamera = { eye = [0, 0, 0], look_at = [0, 0, 1], fov = 60, resolution = [8, 8] }\n\
-               background.radiance = [0.25, 0.5, 1.0]\n";
+               environment.radiance = [0.25, 0.5, 1.0]\n";
     study_scene.scene = parse("sky.toml", sky.to_owned()).expect("a scene");
     study_scene.camera = study_scene.scene.camera;
     let threads = Threads::new(1, SimdLevel::best()).expect("threads");

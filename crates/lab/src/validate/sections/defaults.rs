@@ -79,7 +79,7 @@ pub fn section(validation: &Validation) -> Section {
         claim: "The default settings, all together and one by one, give the exact means.",
         derivation: &[
             "The defaults are MIS, Sobol points, BSDF directions, roulette by throughput from the fourth bounce on, and path reuse or reused outliers if a trial shows a gain; adaptive sampling is optional. These rows render like the program itself, in passes over a film and after the same decisions. The estimators with paths from lights have rows, too. Path reuse and adaptive sampling have rows where the program applies them: paths are not reused at glass, for example, and uniform noise leaves nothing to adapt to.",
-            "The radiance of a wall of the textured integrating sphere is L_e + ρ H, with H from the section on that room. The ground under a lamp that is partly below the horizon has (ρ/π) E. The wall of the closed sphere has 0.5, and a clear ball of glass in a uniform field of 1 has 1. On Lambert’s ball the lit pixels are summed.",
+            "The radiance of a wall of the textured integrating sphere is L_e + ρ H, with H from the section on that room. The ground under a light that is partly below the horizon has (ρ/π) E. The wall of the closed sphere has 0.5, and a clear ball of glass in a uniform field of 1 has 1. On Lambert’s ball the lit pixels are summed.",
             "These samples are not independent of each other, so their variance does not give the standard error. The image is rendered with several seeds. The means are independent, and their spread gives the standard error (Student’s t).",
         ],
         source: "P. Bekaert, M. Sbert and J. Halton, “Accelerating Path Tracing by Re-Using Paths”, 2002, for path reuse; D. Lin et al., “Generalized Resampled Importance Sampling”, 2022, for the random replay of outliers.",
@@ -145,13 +145,13 @@ impl KnownScene {
 
 fn subjects() -> Vec<KnownScene> {
     let (sin, cos) = 75f64.to_radians().sin_cos();
-    let lamp = lit(&format!("shape.sphere = {{ center = [{sin:?}, {cos:?}, 0.0], radius = 0.3 }}"));
+    let punctual_light = lit(&format!("shape.sphere = {{ center = [{sin:?}, {cos:?}, 0.0], radius = 0.3 }}"));
     let irradiance = horizon_sphere_irradiance(1.0, 0.3, 1.0, cos);
     let inside = shipped("inside_lit_inside");
     let inside = Scene { camera: Camera { resolution: [64; 2], ..inside.camera }, ..inside };
     let glass = scene(
         "camera = { eye = [0.0, 0.5, 4.0], look_at = [0.0, 0.0, 0.0], fov = 30.0, resolution = [64, 64] }
-        background.radiance = 1.0
+        environment.radiance = 1.0
         materials.glass.dielectric = { ior = 1.5 }
         [[objects]]
         shape.sphere = { center = [0.0, 0.0, 0.0], radius = 1.0 }
@@ -161,7 +161,7 @@ fn subjects() -> Vec<KnownScene> {
     let (sphere, wall) = wall_of_sphere();
     vec![
         KnownScene::constant("textured integrating sphere", sphere, wall),
-        KnownScene::constant("ground under a lamp", lamp, direct_light::ALBEDO / std::f64::consts::PI * irradiance),
+        KnownScene::constant("ground under a light", punctual_light, direct_light::ALBEDO / std::f64::consts::PI * irradiance),
         KnownScene::constant("closed sphere", inside, 0.5),
         KnownScene::constant("clear ball", glass, 1.0),
         KnownScene { name: "Lambert’s ball", scene: ball, exact },

@@ -19,9 +19,9 @@ use noisefall_scene::{
     sampling::Directions,
 };
 
-/// Quadrature points along each side of a cell. Pdfs of lamps are discontinuous at an outline, so they need more.
+/// Quadrature points along each side of a cell. Pdfs of lights are discontinuous at an outline, so they need more.
 const STEPS: usize = 64;
-const STEPS_OF_LAMPS: usize = 160;
+const STEPS_OF_LIGHTS: usize = 160;
 const ALPHAS: [f64; 3] = [0.05, 0.3, 1.0];
 
 pub fn section(validation: &Validation) -> Section {
@@ -35,15 +35,15 @@ pub fn section(validation: &Validation) -> Section {
         curves.push(curve(name, Style::Line, density));
     }
     statements.extend(surfaces(validation));
-    statements.extend(lamps(validation));
+    statements.extend(punctual_lights(validation));
     let caption = "Directions by cos θ: measured frequencies (points) against the densities 2 cos θ and 1.";
     Section {
         title: "Sampled directions",
-        claim: "Sampled directions follow the pdf that the estimator divides by, at surfaces and towards lamps.",
+        claim: "Sampled directions follow the pdf that the estimator divides by, at surfaces and towards lights.",
         derivation: &[
             "Over the hemisphere, dω = dμ dφ with μ = cos θ. A uniform direction has the density 1/(2π), so μ is uniform in [0, 1]. A cosine-distributed one has μ/π, so μ has the density 2μ. The azimuth φ is uniform in both. Both are compared with their formulas, in 24 × 8 cells.",
-            "For other surfaces, and for lamps seen from a point, the renderer’s own pdf is integrated over each of 12 × 8 cells around the mirrored \
-             or refracted direction, or the centre of the lamp, at 64 × 64 points each (160 × 160 for lamps), and compared with the frequencies of its own samples. \
+            "For other surfaces, and for lights seen from a point, the renderer’s own pdf is integrated over each of 12 × 8 cells around the mirrored \
+             or refracted direction, or the centre of the light, at 64 × 64 points each (160 × 160 for lights), and compared with the frequencies of its own samples. \
              Rejected samples and samples of delta lobes are counted in a separate cell, whose expected fraction is one minus the sum of the others.",
         ],
         source: "χ² at the significance 10⁻⁴, each with random numbers of its own.",
@@ -165,7 +165,7 @@ fn surfaces(validation: &Validation) -> Vec<Statement> {
 }
 
 /// Directions from the origin towards shapes.
-fn lamps(validation: &Validation) -> Vec<Statement> {
+fn punctual_lights(validation: &Validation) -> Vec<Statement> {
     let [x, y, z] = [DVec3::X, DVec3::Y, DVec3::Z];
     let flat = |outline, origin, edges| Shape::Flat { outline, origin, edges, mirrored: false };
     use noisefall_scene::geometry::Outline::{Parallelogram, Triangle};
@@ -190,7 +190,7 @@ fn lamps(validation: &Validation) -> Vec<Statement> {
         };
         let density = |w: DVec3| if is_met(lanes(w)) { f64::from(all.pdf_toward(One, &place, o, lanes(w)).0) } else { 0.0 };
         let width = (0.5 * (radius / center.length()).min(1.0).asin()).tan();
-        let grid = Cells::around(center.normalize(), width, STEPS_OF_LAMPS);
+        let grid = Cells::around(center.normalize(), width, STEPS_OF_LIGHTS);
         compared(validation, &format!("towards a {name}"), &[grid], sample, density)
     };
     shapes.iter().map(of).collect()

@@ -18,8 +18,8 @@ use noisefall_kernel::measure::{
 use noisefall_scene::scene::{Estimator, RenderSettings, Scene};
 
 pub const ALBEDO: f64 = 0.8;
-const LAMP: f64 = 0.3;
-/// Zenith angles of a spherical lamp: above the horizon, partly below it, almost entirely below it.
+const LIGHT: f64 = 0.3;
+/// Zenith angles of a spherical light: above the horizon, partly below it, almost entirely below it.
 const DEGREES: [f64; 5] = [0.0, 45.0, 75.0, 90.0, 103.0];
 /// Origin and two edges. The large one is so near that its solid angle is sampled instead of its area.
 pub const RECTANGLES: [(&str, [[f64; 3]; 3]); 3] = [
@@ -28,13 +28,13 @@ pub const RECTANGLES: [(&str, [[f64; 3]; 3]); 3] = [
     ("rectangle that the horizon cuts", [[0.5, -0.7, -0.4], [0.0, 0.0, 1.0], [0.0, 1.2, 0.0]]),
 ];
 
-/// A lamp over a diffuse floor. The camera sees so small a part of the floor that all pixels are equal.
-pub fn lit(lamp: &str) -> Scene {
-    lit_in("", lamp)
+/// A light over a diffuse floor. The camera sees so small a part of the floor that all pixels are equal.
+pub fn lit(punctual_light: &str) -> Scene {
+    lit_in("", punctual_light)
 }
 
 /// The same, and what is around them.
-fn lit_in(surroundings: &str, lamp: &str) -> Scene {
+fn lit_in(surroundings: &str, punctual_light: &str) -> Scene {
     scene(&format!(
         "camera = {{ eye = [0.0, 1.0, 2.0], look_at = [0.0, 0.0, 0.0], fov = 0.001, resolution = [32, 32] }}
         materials.ground.lambertian.albedo = {ALBEDO}
@@ -43,7 +43,7 @@ fn lit_in(surroundings: &str, lamp: &str) -> Scene {
         shape.disk = {{ center = [0.0, 0.0, 0.0], normal = [0.0, 1.0, 0.0], radius = 0.01 }}
         material = 'ground'
         [[objects]]
-        {lamp}
+        {punctual_light}
         emission.radiance = 1.0"
     ))
 }
@@ -51,7 +51,7 @@ fn lit_in(surroundings: &str, lamp: &str) -> Scene {
 pub fn section(validation: &Validation) -> Section {
     let mut statements = Vec::new();
     let mut costs = Vec::new();
-    let mut lamp = |what: &str, scene: &Scene, irradiance: f64| {
+    let mut punctual_light = |what: &str, scene: &Scene, irradiance: f64| {
         for estimator in of_a_point() {
             let settings = RenderSettings { max_bounces: Some(1), ..validation.settings(estimator) };
             let start = Instant::now();
@@ -63,8 +63,8 @@ pub fn section(validation: &Validation) -> Section {
     };
     for degrees in DEGREES {
         let (sin, cos) = degrees.to_radians().sin_cos();
-        let scene = lit(&format!("shape.sphere = {{ center = [{sin:?}, {cos:?}, 0.0], radius = {LAMP} }}"));
-        lamp(&format!("sphere at {degrees}°"), &scene, horizon_sphere_irradiance(1.0, LAMP, 1.0, cos));
+        let scene = lit(&format!("shape.sphere = {{ center = [{sin:?}, {cos:?}, 0.0], radius = {LIGHT} }}"));
+        punctual_light(&format!("sphere at {degrees}°"), &scene, horizon_sphere_irradiance(1.0, LIGHT, 1.0, cos));
     }
     for (what, [origin, u, v]) in RECTANGLES {
         let corner = |a: f64, b: f64| DVec3::from_array(origin) + DVec3::from_array(u) * a + DVec3::from_array(v) * b;
@@ -72,24 +72,24 @@ pub fn section(validation: &Validation) -> Section {
         let shape = format!("shape.rectangle = {{ origin = {origin:?}, edge_u = {u:?}, edge_v = {v:?} }}");
         // The front looks at the origin.
         let flip = DVec3::from_array(u).cross(DVec3::from_array(v)).dot(corners[0]) > 0.0;
-        lamp(what, &lit(&format!("{shape}\nflip = {flip}")), polygon_irradiance(1.0, &corners));
+        punctual_light(what, &lit(&format!("{shape}\nflip = {flip}")), polygon_irradiance(1.0, &corners));
     }
     let (scene, irradiance) = before_a_sky();
-    lamp("sphere at 45°, before a sky", &scene, irradiance);
+    punctual_light("sphere at 45°, before a sky", &scene, irradiance);
     let (scene, irradiance) = in_fog();
-    lamp("sphere at 0°, in fog", &scene, irradiance);
+    punctual_light("sphere at 0°, in fog", &scene, irradiance);
     Section {
         title: "Direct light",
         claim: "The irradiance under a sphere and under a rectangle, under a sky and in fog, agrees with the closed forms, with every estimator but `light_tracing`, whose paths find no view as small as a point.",
         derivation: &[
-            "E = ∫ L cos θ dω over the part of the lamp above the horizon; the radiance of diffuse ground is (ρ/π) E. For a sphere entirely above the horizon this is π L (r/d)² cos θ; partly below it, with h = d/r and y = √(h² − 1), it is \
+            "E = ∫ L cos θ dω over the part of the light above the horizon; the radiance of diffuse ground is (ρ/π) E. For a sphere entirely above the horizon this is π L (r/d)² cos θ; partly below it, with h = d/r and y = √(h² − 1), it is \
              L {[cos θ acos(−y cot θ) − y √(sin²θ − y² cos²θ)]/h² + atan(√(1 − h² cos²θ)/y)}. For a polygon E = (L/2) Σ β_i (n · g_i): \
              β_i is the angle that edge i subtends and g_i the unit normal of the plane through it and the point, after clipping at the horizon. Here L = 1, ρ = 0.8, r/d = 0.3; rectangles by origin and edges in metres, y upwards: \
              small (0.3, 1, −0.2), (0.3, 0, 0), (0, 0, 0.3); large (−0.8, 0.4, −0.7), (1.6, 0, 0), (0, 0, 1.2); cut \
              (0.5, −0.7, −0.4), (0, 0, 1), (0, 1.2, 0).",
-            "A sky of radiance S gives π S, less the part that the lamp hides: E = π S + (L − S) π (r/d)² cos θ, here with S = 0.2. In fog that transmits t = 1/2 per metre, the lamp overhead gives \
-             2π L ∫ tˢ cos θ sin θ dθ, where s = d cos θ − √(r² − d² sin² θ) is the distance to the lamp; the integral is evaluated numerically. The fog absorbs again on the √5 m from the ground to the camera.",
-            "“Path” finds the lamp by directions drawn from the bsdf, “light” by directions towards it (a sphere by the cone in which \
+            "A sky of radiance S gives π S, less the part that the light hides: E = π S + (L − S) π (r/d)² cos θ, here with S = 0.2. In fog that transmits t = 1/2 per metre, the light overhead gives \
+             2π L ∫ tˢ cos θ sin θ dθ, where s = d cos θ − √(r² − d² sin² θ) is the distance to the light; the integral is evaluated numerically. The fog absorbs again on the √5 m from the ground to the camera.",
+            "“Path” finds the light by directions drawn from the bsdf, “light” by directions towards it (a sphere by the cone in which \
              it is seen, a rectangle by its solid angle if it is large and near, else by its area), “mis” by both, weighted by the \
              power heuristic.",
         ],
@@ -101,16 +101,16 @@ pub fn section(validation: &Validation) -> Section {
     }
 }
 
-/// A lamp that hides some of a sky.
+/// A light that hides some of a sky.
 fn before_a_sky() -> (Scene, f64) {
     const SKY: f64 = 0.2;
     let side = 45f64.to_radians().sin();
-    let lamp = format!("shape.sphere = {{ center = [{side:?}, {side:?}, 0.0], radius = {LAMP} }}");
-    let irradiance = PI * SKY + (1.0 - SKY) * horizon_sphere_irradiance(1.0, LAMP, 1.0, side);
-    (lit_in(&format!("background.radiance = {SKY}"), &lamp), irradiance)
+    let punctual_light = format!("shape.sphere = {{ center = [{side:?}, {side:?}, 0.0], radius = {LIGHT} }}");
+    let irradiance = PI * SKY + (1.0 - SKY) * horizon_sphere_irradiance(1.0, LIGHT, 1.0, side);
+    (lit_in(&format!("environment.radiance = {SKY}"), &punctual_light), irradiance)
 }
 
-/// A lamp overhead within a medium that does not bend light, and the irradiance that the camera, within it too, sees the effect of.
+/// A light overhead within a medium that does not bend light, and the irradiance that the camera, within it too, sees the effect of.
 fn in_fog() -> (Scene, f64) {
     const PASSED: f64 = 0.5;
     const STEPS: u32 = 10_000;
@@ -122,12 +122,12 @@ fn in_fog() -> (Scene, f64) {
     );
     // Over u = sin²θ/r², whose differential holds the sine and the cosine.
     let passed = |step: u32| {
-        let sine_squared = (f64::from(step) + 0.5) / f64::from(STEPS) * LAMP * LAMP;
-        PASSED.powf((1.0 - sine_squared).sqrt() - (LAMP * LAMP - sine_squared).sqrt())
+        let sine_squared = (f64::from(step) + 0.5) / f64::from(STEPS) * LIGHT * LIGHT;
+        PASSED.powf((1.0 - sine_squared).sqrt() - (LIGHT * LIGHT - sine_squared).sqrt())
     };
     let mean = (0..STEPS).map(passed).sum::<f64>() / f64::from(STEPS);
-    let lamp = format!("shape.sphere = {{ center = [0.0, 1.0, 0.0], radius = {LAMP} }}");
-    (lit_in(&fog, &lamp), PI * LAMP * LAMP * mean * PASSED.powf(5f64.sqrt()))
+    let punctual_light = format!("shape.sphere = {{ center = [0.0, 1.0, 0.0], radius = {LIGHT} }}");
+    (lit_in(&fog, &punctual_light), PI * LIGHT * LIGHT * mean * PASSED.powf(5f64.sqrt()))
 }
 
 /// Errors at equal time, which are no statements: times differ from run to run.
@@ -143,6 +143,6 @@ fn equal_time(costs: &[(String, Estimator, Mean, f64)]) -> Figure {
         caption:
             "Standard error of a pixel after rendering 1024 pixels for one second, as measured in this run. MIS takes two rays per sample, which is worthwhile where neither strategy alone is good."
                 .to_owned(),
-        element: format!("<table><tr><th>lamp</th>{heads}</tr>{rows}</table>"),
+        element: format!("<table><tr><th>light</th>{heads}</tr>{rows}</table>"),
     }
 }

@@ -40,7 +40,7 @@ pub fn ball(material: &str) -> Scene {
     scene(&format!(
         "camera = {{ eye = [0.0, 0.0, 5.0], look_at = [0.0, 0.0, 0.0], projection.orthographic.width = 2.0, \
          resolution = [{SIDE}, {SIDE}] }}
-        background.radiance = 1.0
+        environment.radiance = 1.0
         materials.ball.{material}
         [[objects]]
         shape.sphere = {{ center = [0.0, 0.0, 0.0], radius = 1.0 }}

@@ -1,4 +1,4 @@
-//! Meshes, lenses, disks and many lamps, in scenes with exact solutions.
+//! Meshes, lenses, disks and many lights, in scenes with exact solutions.
 use std::f64::consts::PI;
 
 use glam::DVec3;
@@ -21,7 +21,7 @@ use noisefall_scene::{
 };
 
 pub fn section(validation: &Validation) -> Section {
-    let mut statements = vec![room(validation), checkered_lamp(validation)];
+    let mut statements = vec![room(validation), checkered_light(validation)];
     statements.extend(turned_away(validation));
     let corners = corners();
     let triangles = format!(
@@ -30,12 +30,12 @@ pub fn section(validation: &Validation) -> Section {
         (corners[1] - corners[0]).cross(corners[3] - corners[0]).dot(corners[0]) > 0.0
     );
     let disk = "shape.disk = { center = [0.0, 1.2, 0.0], normal = [0.0, -1.0, 0.0], radius = 0.5 }";
-    let (lamps, irradiance) = many_lamps();
+    let (punctual_lights, irradiance) = many_light();
     for (what, scene, irradiance) in [
         ("rectangle as a mesh", lit(&triangles), polygon_irradiance(1.0, &corners)),
         // π L r²/(r² + h²) below its centre.
         ("disk overhead", lit(disk), PI * 0.25 / (0.25 + 1.44)),
-        ("300 spheres", lamps, irradiance),
+        ("300 spheres", punctual_lights, irradiance),
     ] {
         for estimator in of_a_point() {
             let settings = RenderSettings { max_bounces: Some(1), ..validation.settings(estimator) };
@@ -47,13 +47,13 @@ pub fn section(validation: &Validation) -> Section {
     statements.push(lens(validation));
     statements.extend(edges::statements(validation));
     Section {
-        title: "Meshes, many lamps, lenses and filters",
-        claim: "The same scene described in another way gives the same light: triangles in place of faces, hundreds of lamps in place of one, a lens in place of a pinhole. An edge is as soft as lens and pixel filter make it.",
+        title: "Meshes, many lights, lenses and filters",
+        claim: "The same scene described in another way gives the same light: triangles in place of faces, hundreds of lights in place of one, a lens in place of a pinhole. An edge is as soft as lens and pixel filter make it.",
         derivation: &[
             "A box of twelve triangles whose inside emits 1 and reflects 1/2 is a furnace: every sample is 2. A path that hits a wall within rounding of an edge continues from a rounded point that may lie outside; such losses must cost less than 10⁻⁶ of the light. The small rectangle of the section on direct \
              light as two triangles of a mesh has the same irradiance. A disk of radius r at the height h has E = π L r²/(r² + h²) under its \
-             middle. The irradiances of lamps that do not occlude each other add up; with 300 lamps the light tree chooses among them.",
-            "A checkered lamp is seen such that each square covers 2 × 2 pixels: every pixel has the radiance of its square. The small rectangle, turned away from the ground, does not light it.",
+             middle. The irradiances of lights that do not occlude each other add up; with 300 lights the light tree chooses among them.",
+            "A checkered light is seen such that each square covers 2 × 2 pixels: every pixel has the radiance of its square. The small rectangle, turned away from the ground, does not light it.",
             "A lens averages over rays from all of its points. Where the radiance is the same everywhere, that changes nothing: 0.5 inside the closed sphere.",
             "For a half-plane of radiance 1 in front of black, a sample is 1 or 0, and the mean of n samples of probability p has the variance p (1 − p)/n. Every column of \
              the image has its own p. Behind a filter with the distribution function F it is 1 − F(e), e being the place of the edge relative to the middle of the \
@@ -91,8 +91,8 @@ fn room(validation: &Validation) -> Statement {
     Statement::within("furnace of twelve triangles: mean of the image", found.mean, 2.0, 2e-6)
 }
 
-/// A lamp with squares of two radiances. Their edges coincide with edges of pixels.
-fn checkered_lamp(validation: &Validation) -> Statement {
+/// A light with squares of two radiances. Their edges coincide with edges of pixels.
+fn checkered_light(validation: &Validation) -> Statement {
     let scene = scene(
         "camera = { eye = [0.0, 0.0, 1.0], look_at = [0.0, 0.0, 0.0], projection.orthographic.width = 1.0, resolution = [8, 8] }
         textures.squares.checker = { even = 1.0, odd = 0.25, scale = 4.0 }
@@ -103,10 +103,10 @@ fn checkered_lamp(validation: &Validation) -> Statement {
     let found = picture(&scene, validation.path(Directions::Cosine), RED, validation.spp(400));
     let exact = |i: usize| if (i % 8 / 2 + i / 8 / 2).is_multiple_of(2) { 1.0 } else { 0.25 };
     let worst = largest(found.pixels.iter().enumerate().map(|(i, pixel)| (pixel.mean - exact(i)).abs()));
-    Statement::below("checkered lamp: largest error of a pixel", worst, 1e-5)
+    Statement::below("checkered light: largest error of a pixel", worst, 1e-5)
 }
 
-/// A lamp with its back to the ground.
+/// A light with its back to the ground.
 fn turned_away(validation: &Validation) -> Vec<Statement> {
     let [origin, u, v] = RECTANGLES[0].1;
     let back = DVec3::from_array(u).cross(DVec3::from_array(v)).dot(DVec3::from_array(origin)) < 0.0;
@@ -125,11 +125,11 @@ fn turned_away(validation: &Validation) -> Vec<Statement> {
 }
 
 /// Small spheres distributed over the sky above a point, and their irradiance at the point.
-fn many_lamps() -> (Scene, f64) {
+fn many_light() -> (Scene, f64) {
     const COUNT: usize = 300;
     const RADIUS: f64 = 0.02;
     let mut irradiance = 0.0;
-    let lamp = |i: usize| {
+    let punctual_light = |i: usize| {
         // Distributed evenly over the upper part of the hemisphere; none covers another.
         let cos = 0.08 + 0.9 * (i as f64 + 0.5) / COUNT as f64;
         let (sin, turn) = ((1.0 - cos * cos).sqrt(), 2.399_963_23 * i as f64);
@@ -137,8 +137,8 @@ fn many_lamps() -> (Scene, f64) {
         irradiance += horizon_sphere_irradiance(1.0, RADIUS, 1.0, cos);
         format!("shape.sphere = {{ center = {center:?}, radius = {RADIUS} }}")
     };
-    let lamps: Vec<String> = (0..COUNT).map(lamp).collect();
-    (lit(&lamps.join("\nemission.radiance = 1.0\n[[objects]]\n")), irradiance)
+    let punctual_lights: Vec<String> = (0..COUNT).map(punctual_light).collect();
+    (lit(&punctual_lights.join("\nemission.radiance = 1.0\n[[objects]]\n")), irradiance)
 }
 
 fn lens(validation: &Validation) -> Statement {
@@ -163,14 +163,14 @@ mod tests {
     use noisefall_scene::geometry::Shape;
 
     #[test]
-    fn the_many_lamps_lie_on_the_unit_sphere_and_none_covers_another() {
-        let (scene, _) = many_lamps();
+    fn the_many_lights_lie_on_the_unit_sphere_and_none_covers_another() {
+        let (scene, _) = many_light();
         let center = |shape: &Shape| if let Shape::Sphere { center, .. } = shape { Some(*center) } else { None };
         let centers: Vec<DVec3> = scene.objects.iter().filter_map(|object| center(&object.shape)).collect();
         assert_eq!(centers.len(), 300);
         for (i, a) in centers.iter().enumerate() {
-            assert!((a.length() - 1.0).abs() < 1e-9, "lamp {i} is {} m from the point", a.length());
-            assert!(centers[..i].iter().all(|b| a.distance(*b) > 0.05), "lamp {i} covers another");
+            assert!((a.length() - 1.0).abs() < 1e-9, "light {i} is {} m from the point", a.length());
+            assert!(centers[..i].iter().all(|b| a.distance(*b) > 0.05), "light {i} covers another");
         }
     }
 }

@@ -145,7 +145,7 @@ fn plates(validation: &Validation) -> Vec<Statement> {
 /// Panes without thickness, before half a field of radiance 1 and in a whole one.
 fn thin_panes(validation: &Validation) -> Vec<Statement> {
     const PASSED: f64 = 0.5;
-    const WHOLE: &str = "[background]\nradiance = 1.0";
+    const WHOLE: &str = "[environment]\nradiance = 1.0";
     let glass = format!("thin_dielectric = {{ ior = {IOR:?}, transmittance = {PASSED:?} }}");
     let rectangle = "rectangle = { origin = [-1.0, -1.0, 0.0], edge_u = [2.0, 0.0, 0.0], edge_v = [0.0, 2.0, 0.0] }";
     // A hemisphere behind the pane, whose edge is behind it too.
@@ -171,7 +171,7 @@ fn thin_panes(validation: &Validation) -> Vec<Statement> {
 fn ball(camera: &str, material: &str, radius: f64) -> Scene {
     scene(&format!(
         "camera = {{ {camera}, resolution = [32, 32] }}
-        background.radiance = 1.0
+        environment.radiance = 1.0
         materials.glass.dielectric = {{ ior = {IOR:?}, {material} }}
         [[objects]]
         shape.sphere = {{ center = [0.0, 0.0, 0.0], radius = {radius:?} }}

@@ -221,7 +221,7 @@ mod tests {
 
     /// All pixels of two blocks have radiance 0.5 in every sample.
     const SCENE: &str = "format = 1\ncamera = { eye = [0, 0, 0], look_at = [0, 0, 1], fov = 60, resolution = [32, 16] }\n\
-                         [background]\nradiance = 0.5\n";
+                         [environment]\nradiance = 0.5\n";
 
     fn write(folder: &Path, name: &str, means: &str) {
         fs::write(folder.join(name).with_extension("toml"), SCENE).expect("it is written");

@@ -1,4 +1,4 @@
-//! Camera and lamp inside or outside a sphere.
+//! Camera and light inside or outside a sphere.
 use base64::{Engine, prelude::BASE64_STANDARD};
 use glam::DVec3;
 
@@ -12,21 +12,21 @@ use crate::{
 use noisefall_base::math::colour::srgb_from_linear;
 use noisefall_kernel::measure::{
     Mean, Picture,
-    exact::{Lamp, lamberts_ball, mean_over_pixel},
+    exact::{SphereLight, lamberts_ball, mean_over_pixel},
     picture,
 };
 use noisefall_scene::scene::{Camera, Estimator, RenderSettings, Roulette, Scene, ShippedScene, parse};
 
 /// Albedo of the ball in `outside_lit_outside.toml`.
 const ALBEDO: f64 = 0.8;
-const LAMP: Lamp = Lamp { center: DVec3::new(1.7, 1.4, 1.0), radius: 0.5, radiance: 8.0 };
+const LIGHT: SphereLight = SphereLight { center: DVec3::new(1.7, 1.4, 1.0), radius: 0.5, radiance: 8.0 };
 
 const SIDE: u32 = 96;
 const CASES: [(&str, &str); 4] = [
-    ("inside_lit_inside", "camera inside, lamp inside"),
-    ("inside_lit_outside", "camera inside, lamp outside"),
-    ("outside_lit_inside", "camera outside, lamp inside"),
-    ("outside_lit_outside", "camera outside, lamp outside"),
+    ("inside_lit_inside", "camera inside, light inside"),
+    ("inside_lit_outside", "camera inside, light outside"),
+    ("outside_lit_inside", "camera outside, light inside"),
+    ("outside_lit_outside", "camera outside, light outside"),
 ];
 
 pub fn section(validation: &Validation) -> Section {
@@ -51,14 +51,14 @@ pub fn section(validation: &Validation) -> Section {
         }
     }
     Section {
-        title: "Camera and lamp inside or outside a sphere",
-        claim: "No light passes through a closed opaque sphere from either side. If camera and lamp are on the same side, the radiance has its exact value. This holds for paths, for shadow rays and for both together.",
+        title: "Camera and light inside or outside a sphere",
+        claim: "No light passes through a closed opaque sphere from either side. If camera and light are on the same side, the radiance has its exact value. This holds for paths, for shadow rays and for both together.",
         derivation: &[
-            "Inside: a lamp of radius r at the centre of a sphere of radius R fills the fraction F = (r/R)² of the cosine-weighted hemisphere of every wall point, and the wall fills the rest. The radiance B of the wall is B = ρ (L F + B (1 − F)), here \
+            "Inside: a light of radius r at the centre of a sphere of radius R fills the fraction F = (r/R)² of the cosine-weighted hemisphere of every wall point, and the wall fills the rest. The radiance B of the wall is B = ρ (L F + B (1 − F)), here \
              with ρ = 1/2, L = 8.5 and F = 1/16: B = 1/2 everywhere.",
-            "Outside: where the whole lamp is above the horizon, the radiance of a ball is (ρ/π) E = ρ L (r/d)² cos θ, where d is the distance of the lamp's centre and θ its angle from the normal (Lambert's ball). Here the ball is the unit sphere with ρ = 0.8, the lamp is at (1.7, 1.4, 1) with r = 0.5 and L = 8. Pixels where the lamp is partly below the horizon are left out. The others are summed over an image of the lit side, each against its own exact mean.",
-            "With a wall between lamp and camera no light arrives: every pixel is exactly 0, because no ray may pass through a surface. The \
-             estimators “light” and “mis” send shadow rays to the lamp from every point of the wall.",
+            "Outside: where the whole light is above the horizon, the radiance of a ball is (ρ/π) E = ρ L (r/d)² cos θ, where d is the distance of the light's centre and θ its angle from the normal (Lambert's ball). Here the ball is the unit sphere with ρ = 0.8, the light is at (1.7, 1.4, 1) with r = 0.5 and L = 8. Pixels where the light is partly below the horizon are left out. The others are summed over an image of the lit side, each against its own exact mean.",
+            "With a wall between light and camera no light arrives: every pixel is exactly 0, because no ray may pass through a surface. The \
+             estimators “light” and “mis” send shadow rays to the light from every point of the wall.",
         ],
         source: "Form factor of a concentric sphere; P. Moon, “The Scientific Basis of Illuminating Engineering”, 1936.",
         statements,
@@ -82,9 +82,9 @@ pub fn shipped(name: &str) -> Scene {
 /// A view of the lit side of the ball, and the exact means of its pixels where they are known.
 pub fn lit_ball() -> (Scene, Vec<Option<f64>>) {
     let scene = shipped("outside_lit_outside");
-    let toward = LAMP.center.normalize();
+    let toward = LIGHT.center.normalize();
     let camera = Camera { eye: DVec3::new(0.0, 1.0, 4.0), look_at: toward * 0.9, fov: 14.0, resolution: [64; 2], ..scene.camera };
-    let exact = |pixel: u32| mean_over_pixel(&camera, [pixel % 64, pixel / 64], |o, d| lamberts_ball(ALBEDO, LAMP, o, d));
+    let exact = |pixel: u32| mean_over_pixel(&camera, [pixel % 64, pixel / 64], |o, d| lamberts_ball(ALBEDO, LIGHT, o, d));
     let exact = (0..64 * 64).map(exact).collect();
     (Scene { camera, ..scene }, exact)
 }
@@ -93,7 +93,7 @@ pub fn lit_ball() -> (Scene, Vec<Option<f64>>) {
 fn lit(validation: &Validation, estimator: Estimator, what: &str) -> [Statement; 2] {
     const BLOCK: usize = 8;
     let (scene, exact) = lit_ball();
-    // One path in twelve finds the lamp.
+    // One path in twelve finds the light.
     let found = pixels(validation, &scene, estimator, if estimator == Estimator::Path { 9000 } else { 900 });
     let known: Vec<(usize, f64)> = exact.iter().enumerate().filter_map(|(i, exact)| Some((i, (*exact)?))).collect();
     let mean = |part: &[&(usize, f64)]| {

@@ -44,7 +44,7 @@ fn integrands() -> [Integrand; 3] {
         },
         // The albedo of the ground is 0.8.
         Integrand {
-            name: "lamp with an edge",
+            name: "light with an edge",
             scene: ground(sine),
             directions: Directions::Cosine,
             cap: 1,
@@ -87,7 +87,7 @@ pub fn section(validation: &Validation) -> Section {
              distributed as X but independent of w. Hence E X² = L_e² + 2 L_e ρ L + ρ² (4/3) E X², which gives \
              Var X = (L_e² + 2 L_e ρ L)/(1 − 4ρ²/3) − L², finite while ρ² < 3/4. Here ρ = 0.5 and L_e = 1.",
             "With one reflection only, X = L_e (1 + 2ρ cos θ) and Var X = 4ρ² L_e² (1/3 − 1/4) = ρ² L_e²/3. The variances of independent samples add. Stratified samples are not independent, and for a smooth integrand their error falls faster.",
-            "Errors are the root mean square over 1024 pixels of the estimate minus the exact value, not minus its own mean, so the curve of a sampler that converges to another value flattens out. Three integrands: one reflection (smooth, in two dimensions), a lamp that covers part of the \
+            "Errors are the root mean square over 1024 pixels of the estimate minus the exact value, not minus its own mean, so the curve of a sampler that converges to another value flattens out. Three integrands: one reflection (smooth, in two dimensions), a light that covers part of the \
              sky (discontinuous), and 20 reflections (smooth, in 40 dimensions). Slopes of log error over log N are fitted to each of \
              10 images with different seeds; their spread gives the standard error (Student’s t with 9 degrees of freedom), even if pixels are correlated.",
         ],

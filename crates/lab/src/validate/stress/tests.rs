@@ -45,7 +45,7 @@ fn scenes_are_functions_of_family_and_number() {
 fn errors_are_relative_to_what_is_expected() {
     let text = "format = 1
         camera = { eye = [0.0, 0.0, 0.0], look_at = [0.0, 0.0, 1.0], fov = 40.0, resolution = [8, 8] }
-        background.radiance = 1.0
+        environment.radiance = 1.0
         [[objects]]
         shape.sphere = { center = [0.0, 0.0, -5.0], radius = 1.0 }
         emission.radiance = 1.0";

@@ -119,7 +119,7 @@ impl Furnace {
             "camera = {{ {camera} }}\n\
              render = {{ estimator = 'path', directions = 'cosine', sampler = '{sampler}', roulette = 'off', max_bounces = {}, \
              seed = {} }}\n\
-             truth.radiance = {exact:?}\n\
+             reference.radiance = {exact:?}\n\
              materials.grey.lambertian.albedo = {albedo:?}\n\
              materials.mirror.mirror.reflectance = {albedo:?}\n\
              {}{}",

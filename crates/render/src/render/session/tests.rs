@@ -157,7 +157,7 @@ fn a_region_comes_first_once_every_pixel_has_a_sample_and_until_it_is_done() {
 fn figures_are_those_of_the_whole_picture_so_far() {
     // Every path is one segment.
     let text = "format = 1\n[camera]\neye = [0, 0, 0]\nlook_at = [0, 0, 1]\nfov = 60\nresolution = [40, 40]\n\
-                [background]\nradiance = 1\n";
+                [environment]\nradiance = 1\n";
     let scene = parse("sky.toml", text.to_owned()).expect("it is good");
     let mut session = Session::new(4, request_of(scene, [40, 40]), Publish::Sparse, None, &Budget::default(), None);
     for spp in [2, 5] {

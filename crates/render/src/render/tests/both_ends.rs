@@ -10,7 +10,7 @@ use noisefall_scene::{
     scene::{Estimator, RenderSettings, Reuse, Roulette, Scene, Strategy, parse},
 };
 
-/// Two panels, a ball and a lamp that do not touch each other: near an edge, a strategy alone would have no variance.
+/// Two panels, a ball and a light that do not touch each other: near an edge, a strategy alone would have no variance.
 const PANELS: &str = "
     format = 1
     [camera]
@@ -178,7 +178,7 @@ fn assert_alike(scene: &Scene, [a, b]: [[u32; 2]; 2], spp: u32) {
     assert!((of_a - of_b).abs() < 4.0 * error, "{a:?}, {b:?}: {of_a} and {of_b} ± {error}");
 }
 
-/// A lamp whose light a bent mirror brings to the floor. Its smooth normals are up to 30° off those of its faces.
+/// A light whose light a bent mirror brings to the floor. Its smooth normals are up to 30° off those of its faces.
 const BENT_MIRROR: &str = "
     format = 1
     [camera]
@@ -221,7 +221,7 @@ fn glass_and(seen: &str, height: f64) -> String {
 
 /// A white ball in glass, in light from everywhere.
 const BALL_IN_GLASS: &str = "
-    background.radiance = 1
+    environment.radiance = 1
     [[objects]]
     shape.sphere = { center = [0, 0, 0], radius = 0.5 }
     material = 'glass'
@@ -249,16 +249,16 @@ const FLOOR_AND_GLASS: &str = "
 
 #[test]
 fn light_that_starts_in_glass_is_attenuated() {
-    let lamp = "[[objects]]\nshape.sphere = { center = [0, 2, 0], radius = 0.25 }\nemission.radiance = 4";
-    let scene = parsed(&(glass_and(FLOOR_AND_GLASS, 2.0) + lamp));
+    let punctual_light = "[[objects]]\nshape.sphere = { center = [0, 2, 0], radius = 0.25 }\nemission.radiance = 4";
+    let scene = parsed(&(glass_and(FLOOR_AND_GLASS, 2.0) + punctual_light));
     assert_alike(&scene, [[0, 4], [3, 1]], 8000);
     assert_alike(&scene, [[1, 3], [2, 2]], 8000);
 }
 
-/// Rough glass that emits samples only lamps without surface, and paths from lights start there, too. Paths start neither where light passes
-/// through the lamp, nor where no point is sampled, nor where the medium may change.
+/// Rough glass that emits samples only punctual lights, and paths from lights start there, too. Paths start neither where light passes
+/// through the light, nor where no point is sampled, nor where the medium may change.
 #[test]
-fn lamps_of_every_kind_shine_as_with_mis() {
+fn lights_of_every_kind_shine_as_with_mis() {
     let shape = "{ expression = 'x^2 + y^2 + z^2 - 0.16', bounds = { min = [-0.5, -0.5, -0.5], max = [0.5, 0.5, 0.5] } }";
     let isosurface = format!(
         "[[objects]]\nshape.isosurface = {shape}\ntransform = [{{ translate = [0.5, 1.0, -0.5] }}]\nemission.radiance = 2\n"

@@ -7,8 +7,8 @@ mod layers;
 mod merging;
 mod noise;
 mod passes;
+mod reference;
 mod tile;
-mod truth;
 mod views;
 
 use super::tile::Tile;

@@ -70,7 +70,7 @@ fn the_estimate_is_the_variance_of_independent_samples_at_any_number_of_them() {
     }
 }
 
-/// A wall that emits 2, the left half of which is a lamp of the same kind that is noisy.
+/// A wall that emits 2, the left half of which is a light of the same kind that is noisy.
 #[test]
 fn a_region_has_an_estimate_of_its_own_by_the_floor_of_the_whole() {
     let scene = shipped("furnace");
@@ -84,7 +84,7 @@ fn a_region_has_an_estimate_of_its_own_by_the_floor_of_the_whole() {
     assert_eq!(rel_mse_estimate_in(&film, &Region { from: [128, 0], to: [140, 9] }), None);
 }
 
-/// A room with its lamp this many times as bright.
+/// A room with its light this many times as bright.
 fn room(scale: f32) -> Scene {
     let text = include_str!("../../../../../scenes/cornell_spheres.toml");
     let emission = "emission = { radiance = [15.0, 13.0, 10.5] }";

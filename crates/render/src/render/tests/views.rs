@@ -7,10 +7,10 @@ use crate::render::{
     film::Film,
     frame::Frame,
     image_file::{Picture, Provenance},
+    reference::Reference,
     series::Series,
     threads::{PassJob, Threads},
     tone::to_srgb,
-    truth::Reference,
     view::{DisplaySettings, Field, Scale, Sources, View, ZScoreHistogram, draw},
 };
 use noisefall_kernel::integrator::Features;
@@ -49,7 +49,7 @@ fn features() -> Features {
 }
 
 fn sources<'a>(frame: &'a Frame, materials: &'a [String]) -> Sources<'a> {
-    Sources { frame, radiance: None, truth: None, pinned: None, is_comparison: false, features: None, scale: None, materials }
+    Sources { frame, radiance: None, reference: None, pinned: None, is_comparison: false, features: None, scale: None, materials }
 }
 
 fn numbers(view: View, sources: &Sources) -> Vec<f32> {
@@ -84,7 +84,7 @@ fn scores_are_what_is_too_much_in_standard_errors() {
     frame.standard_error[4] = 0.0;
     (frame.radiance[5], frame.standard_error[5]) = ([2.0; 3], 0.0);
     let truth = Reference::Constant([2.0; 3]);
-    let scored = Sources { truth: Some(&truth), ..sources(&frame, &[]) };
+    let scored = Sources { reference: Some(&truth), ..sources(&frame, &[]) };
     is(&numbers(View::ZScore, &scored), &[-10.0, 0.0, 10.0 / 3.0, 5.0, f32::INFINITY, 0.0, 50.0 / 7.0, 7.5]);
     let scores = ZScoreHistogram::of(&frame, &truth).expect("scores");
     // −10, 50/7, 7.5 and ∞ lie beyond ±5, 5 itself too; 0 twice and 10/3 do not.
@@ -162,7 +162,7 @@ fn without_a_pinned_image_the_reference_is_subtracted() {
     let one = |radiance: f32| Frame { width: 1, height: 1, radiance: vec![[radiance; 3]], ..Frame::default() };
     let (frame, pinned, truth) = (one(3.0), one(1.0), Reference::Constant([2.0; 3]));
     let shown = |pinned| {
-        let all = Sources { truth: Some(&truth), pinned, ..sources(&frame, &[]) };
+        let all = Sources { reference: Some(&truth), pinned, ..sources(&frame, &[]) };
         let look = DisplaySettings { view: View::Difference, ..DisplaySettings::default() };
         let (legend, _) = draw(look, &all, &mut Vec::new()).expect("a legend");
         (legend.title, numbers(View::Difference, &all)[0])
@@ -180,15 +180,15 @@ fn numbers_have_the_colours_of_their_scale() {
     let truth = Reference::Constant([2.0; 3]);
     let mut pixels = vec![[1; 4]; 3];
     let look = DisplaySettings { view: View::ZScore, map: ColourMap::Cividis, ..DisplaySettings::default() };
-    let (legend, _) = draw(look, &Sources { truth: Some(&truth), ..sources(&frame, &[]) }, &mut pixels).expect("scores");
+    let (legend, _) = draw(look, &Sources { reference: Some(&truth), ..sources(&frame, &[]) }, &mut pixels).expect("scores");
     let scale = legend.scale.expect("a scale");
     assert_eq!((scale.map, scale.ends, scale.log), (ColourMap::Diverging, [-4.0, 4.0], false));
     let table = ColourMap::Diverging.table();
     assert_eq!([pixels[0], pixels[1], pixels[3], pixels[7]], [table[0], table[128], table[255], GREY]);
     // That of another picture takes the place of its own.
     let given = Scale { ends: [0.0, 2.0], ..scale };
-    let (legend, _) =
-        draw(look, &Sources { truth: Some(&truth), scale: Some(given), ..sources(&frame, &[]) }, &mut pixels).expect("scores");
+    let (legend, _) = draw(look, &Sources { reference: Some(&truth), scale: Some(given), ..sources(&frame, &[]) }, &mut pixels)
+        .expect("scores");
     assert_eq!((legend.scale, pixels[1]), (Some(given), table[0]));
     let (legend, _) =
         draw(DisplaySettings { view: View::StandardError, ..look }, &sources(&frame, &[]), &mut pixels).expect("errors");
@@ -200,7 +200,7 @@ fn numbers_have_the_colours_of_their_scale() {
 fn a_scale_has_the_unit_of_its_view_and_what_is_missing_is_asked_for() {
     let (frame, features) = (Frame { counts: (0..8).collect(), ..frame() }, features());
     let truth = Reference::Constant([2.0; 3]);
-    let all = Sources { features: Some(&features), truth: Some(&truth), pinned: Some(&frame), ..sources(&frame, &[]) };
+    let all = Sources { features: Some(&features), reference: Some(&truth), pinned: Some(&frame), ..sources(&frame, &[]) };
     let legend = |view, sources: &Sources| {
         draw(DisplaySettings { view, ..DisplaySettings::default() }, sources, &mut Vec::new()).expect("a legend").0
     };
@@ -224,7 +224,7 @@ fn a_scale_has_the_unit_of_its_view_and_what_is_missing_is_asked_for() {
 fn colours_are_compared_by_luminance() {
     let one = |radiance| Frame { width: 1, height: 1, radiance: vec![radiance], standard_error: vec![0.25], ..Frame::default() };
     let (green, pinned, truth) = (one([0.0, 1.0, 0.0]), one([1.0, 0.0, 0.0]), Reference::Constant([0.0, 0.0, 1.0]));
-    let all = Sources { truth: Some(&truth), pinned: Some(&pinned), ..sources(&green, &[]) };
+    let all = Sources { reference: Some(&truth), pinned: Some(&pinned), ..sources(&green, &[]) };
     is(&numbers(View::ZScore, &all), &[(0.7152 - 0.0722) / 0.25]);
     // The mean square of red, green and blue is a third: 1 % of that is the floor.
     is(&numbers(View::Difference, &all), &[(0.7152 - 0.2126) / (0.2126f32.powi(2) + 0.01 / 3.0).sqrt()]);

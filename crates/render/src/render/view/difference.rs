@@ -24,7 +24,7 @@ impl Quantity for Difference {
     fn title(sources: &Sources) -> &'static str {
         match sources.pinned {
             _ if sources.is_comparison => "Difference A − B",
-            None if sources.truth.is_some() => "Difference image − reference",
+            None if sources.reference.is_some() => "Difference image − reference",
             _ => "Difference image − pinned image",
         }
     }
@@ -32,7 +32,7 @@ impl Quantity for Difference {
     fn unit_of(sources: &Sources) -> &'static str {
         match sources.pinned {
             _ if sources.is_comparison => "relative to B",
-            None if sources.truth.is_some() => "relative to the reference",
+            None if sources.reference.is_some() => "relative to the reference",
             _ => "relative to the pinned image",
         }
     }
@@ -55,7 +55,7 @@ fn difference(sources: &Sources) -> Option<Vec<f32>> {
     let frame = sources.frame;
     let other: Cow<[[f32; 3]]> = match sources.pinned {
         Some(pinned) => (pinned.width == frame.width).then(|| pinned.radiance.as_slice().into())?,
-        None => sources.truth?.radiance_of(frame)?,
+        None => sources.reference?.radiance_of(frame)?,
     };
     let radiance = sources.radiance.unwrap_or(&frame.radiance);
     let floor = Floor::DEFAULT.of_picture(&other);

@@ -24,7 +24,7 @@ pub use self::{
     legend::{Legend, Scale},
     z_scores::ZScoreHistogram,
 };
-use super::{colour_map::ColourMap, frame::Frame, tone::Display, truth::Reference};
+use super::{colour_map::ColourMap, frame::Frame, reference::Reference, tone::Display};
 use noisefall_base::declare::Word;
 use noisefall_kernel::integrator::Features;
 
@@ -160,7 +160,7 @@ pub struct Sources<'a> {
     /// Radiance to show in place of the frame's own, of the same length: a term of its series, or the denoised image.
     pub radiance: Option<&'a [[f32; 3]]>,
     /// The truth to compare with.
-    pub truth: Option<&'a Reference>,
+    pub reference: Option<&'a Reference>,
     /// The image that the difference subtracts.
     pub pinned: Option<&'a Frame>,
     /// Whether the difference is that of the two sides of a comparison.

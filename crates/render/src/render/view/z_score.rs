@@ -1,6 +1,6 @@
-//! The deviation from the truth in standard errors.
+//! The deviation from the reference in standard errors.
 use super::{Field, Quantity, Sources};
-use crate::render::{frame::Frame, truth::Reference};
+use crate::render::{frame::Frame, reference::Reference};
 use noisefall_base::{declare::Word, math::colour::luminance};
 
 pub(super) struct ZScore;
@@ -23,7 +23,7 @@ impl Quantity for ZScore {
     }
 
     fn field(sources: &Sources) -> Field {
-        sources.truth.and_then(|truth| scores(sources.frame, truth)).map_or(Field::Missing, Field::Numbers)
+        sources.reference.and_then(|reference| scores(sources.frame, reference)).map_or(Field::Missing, Field::Numbers)
     }
 
     fn ends(_: &[f32]) -> [f32; 2] {
@@ -33,11 +33,11 @@ impl Quantity for ZScore {
 
 /// The luminance minus the exact one, in standard errors; NaN before the second sample, 0 if there is neither difference nor
 /// variance.
-pub(super) fn scores(frame: &Frame, truth: &Reference) -> Option<Vec<f32>> {
-    let score = |((radiance, truth), error): ((&[f32; 3], &[f32; 3]), &f32)| {
-        let difference = luminance(*radiance) - luminance(*truth);
+pub(super) fn scores(frame: &Frame, reference: &Reference) -> Option<Vec<f32>> {
+    let score = |((radiance, reference), error): ((&[f32; 3], &[f32; 3]), &f32)| {
+        let difference = luminance(*radiance) - luminance(*reference);
         if difference == 0.0 && *error == 0.0 { 0.0 } else { difference / error }
     };
-    let truth = truth.radiance_of(frame)?;
-    Some(frame.radiance.iter().zip(truth.iter()).zip(&frame.standard_error).map(score).collect())
+    let reference = reference.radiance_of(frame)?;
+    Some(frame.radiance.iter().zip(reference.iter()).zip(&frame.standard_error).map(score).collect())
 }

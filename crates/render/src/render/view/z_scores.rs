@@ -4,7 +4,7 @@
 //! narrower for stratified and Sobol samples, whose error is smaller than their variance suggests, and for uncorrelated channels,
 //! whose errors are added as if they were correlated.
 use super::z_score::scores;
-use crate::render::{frame::Frame, truth::Reference};
+use crate::render::{frame::Frame, reference::Reference};
 
 /// A histogram of z-scores.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,8 +27,8 @@ impl ZScoreHistogram {
     pub const WIDTH: f64 = 0.2;
 
     /// The histogram of all pixels with a standard error; `None` if there are none, or if the reference has another size.
-    pub fn of(frame: &Frame, truth: &Reference) -> Option<ZScoreHistogram> {
-        let all: Vec<f64> = scores(frame, truth)?.into_iter().map(f64::from).filter(|z| !z.is_nan()).collect();
+    pub fn of(frame: &Frame, reference: &Reference) -> Option<ZScoreHistogram> {
+        let all: Vec<f64> = scores(frame, reference)?.into_iter().map(f64::from).filter(|z| !z.is_nan()).collect();
         if all.is_empty() {
             return None;
         }
@@ -77,7 +77,7 @@ mod tests {
     fn scores_of_a_true_picture_are_normal_and_those_of_a_capped_one_are_not() {
         let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/furnace.toml");
         let scene = load(path.as_ref()).expect("it is shipped");
-        let truth = Reference::of(&scene).expect("it says what is true");
+        let reference = Reference::of(&scene).expect("it says what is true");
         let rays = scene.rays(&Camera { resolution: [128, 128], ..scene.camera });
         let threads = Threads::new(1, SimdLevel::best()).expect("a thread can be had");
         let scores = |max_bounces| {
@@ -91,7 +91,7 @@ mod tests {
             };
             let mut film = Film::new([128, 128]);
             threads.pass(PassJob { scene: &scene, rays: &rays, settings: &settings }, &mut film, 1024, &|| false);
-            ZScoreHistogram::of(&Frame::of_film(&film, 1, [128, 128], [128, 128]), &truth).expect("it has scores")
+            ZScoreHistogram::of(&Frame::of_film(&film, 1, [128, 128], [128, 128]), &reference).expect("it has scores")
         };
         let right = scores(None);
         let total: f64 = right.density.iter().map(|density| density * ZScoreHistogram::WIDTH).sum::<f64>() + right.beyond;

@@ -31,7 +31,7 @@ impl Mesh {
             let items = Items::of(count, corners);
             let (bvh, order) = items.tree(count, corners, progress)?;
             progress.check()?;
-            // Without copies, each of which would be a lamp that no ray reaches.
+            // Without copies, each of which would be a light that no ray reaches.
             if let Some(present) = items.present(count, &order) {
                 vertices.retain_triangles(|triangle, _| present[triangle]);
                 continue;

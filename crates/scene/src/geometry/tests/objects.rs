@@ -115,7 +115,7 @@ fn rays_in_lanes_meet_what_single_rays_meet() {
 }
 
 /// A unit square at this height, and a larger one in the same plane.
-fn lamp_in_ceiling() -> [Shape; 2] {
+fn punctual_in_ceiling() -> [Shape; 2] {
     let square = |half: f64| Shape::Flat {
         outline: Outline::Parallelogram,
         origin: DVec3::new(-half, 20.0, -half),
@@ -131,7 +131,7 @@ fn of_surfaces_that_coincide_the_first_one_is_met_with_a_tree_and_without() {
     let crowd: Vec<Shape> = sphere_field(600, DVec3::splat(-2.0), DVec3::splat(4.0), 1);
     for order in [[0, 1], [1, 0]] {
         for count in [0, 100, crowd.len()] {
-            let pair = order.map(|i| lamp_in_ceiling()[i].clone());
+            let pair = order.map(|i| punctual_in_ceiling()[i].clone());
             let shapes: Vec<Shape> = pair.into_iter().chain(crowd[..count].iter().cloned()).collect();
             let shapes = Shapes::new(shapes.iter().map(|shape| (shape, &still)), DVec3::ZERO);
             assert_eq!(shapes.has_tree(), count == crowd.len());

@@ -2,7 +2,7 @@
 //!
 //! A light is chosen in proportion to an estimate of its unoccluded irradiance at the point, E ≈ π L sin²θ · max(cos) over its
 //! cone of half angle θ; textured emitters count with their mean radiance (Shirley et al. 1996 discuss good choices).
-mod lamps;
+mod punctual_lights;
 mod rays;
 
 use std::f64::consts::PI;
@@ -11,30 +11,30 @@ use glam::DVec3;
 
 pub use self::rays::{LightRays, RayCoordinates, RaySample};
 use super::{
-    background::Background,
     bound::Bound,
     coordinates::LightCoordinates,
     emission::{Emission, Emitters},
-    lamp::{Lamp, Lamps},
+    environment::Environment,
+    punctual_light::{PunctualLight, PunctualLights},
     reference_point::ReferencePoint,
     selection::{Selection, Sky},
 };
 use crate::geometry::{MISS, Motion, PrimitiveRef, Shape, Shapes};
 use noisefall_base::math::{F, Lanes, One, Pick, U, V};
 
-/// All lights of a scene: the emitting primitives 0, 1, 2, …, every triangle of emitting meshes, the lamps without surface, and the
+/// All lights of a scene: the emitting primitives 0, 1, 2, …, every triangle of emitting meshes, the punctual lights, and the
 /// background.
 #[derive(Default)]
 pub struct Lights {
     /// The emitting primitives.
     pub emitters: Emitters,
     /// Absent when black.
-    pub background: Option<Background>,
-    /// The lamps without surface, numbered after the surfaces.
-    pub lamps: Lamps,
+    pub environment: Option<Environment>,
+    /// The punctual lights, numbered after the surfaces.
+    pub punctual_lights: PunctualLights,
     selection: Selection,
-    /// Selection among the lamps without surface alone.
-    selection_of_lamps: Selection,
+    /// Selection among the punctual lights alone.
+    selection_of_punctual: Selection,
     /// Number of lights with a surface.
     count: usize,
     /// Primitive and triangle of every light, as bits; empty if every light's number is its primitive.
@@ -57,9 +57,9 @@ fn flux(bound: &Bound) -> f32 {
 pub struct LightSample<L: Lanes> {
     /// Unit direction towards the light.
     pub wi: V<L>,
-    /// Unoccluded radiance that arrives; from a lamp without surface the irradiance of a surface that faces it.
+    /// Unoccluded radiance that arrives; from a punctual light the irradiance of a surface that faces it.
     pub radiance: V<L>,
-    /// Pdf of `wi` per solid angle, including the probability of choosing the light; 0 if there is no light. For a lamp without
+    /// Pdf of `wi` per solid angle, including the probability of choosing the light; 0 if there is no light. For a light without
     /// surface, that probability alone.
     pub pdf: F<L>,
     /// The light, or [`MISS`] for the background: see [`Lights::arrives`].
@@ -72,14 +72,14 @@ impl Lights {
     pub fn new(
         shapes: &Shapes,
         emitters: &[(Shape, Motion, Emission)],
-        lamps: &[Lamp],
-        background: Option<Background>,
+        punctual_lights: &[PunctualLight],
+        environment: Option<Environment>,
         near: DVec3,
     ) -> Lights {
         let mut lights = Lights {
             emitters: Emitters::new(&emitters.iter().map(|(.., emission)| *emission).collect::<Vec<_>>()),
-            background,
-            lamps: Lamps::new(lamps),
+            environment,
+            punctual_lights: PunctualLights::new(punctual_lights),
             ..Lights::default()
         };
         let have_elements = emitters.iter().any(|(piece, ..)| matches!(piece, Shape::Mesh { .. }));
@@ -103,14 +103,15 @@ impl Lights {
         lights.count = sources.len();
         lights.least_width = sources.iter().map(|(piece, ..)| piece.least_width()).fold(f64::INFINITY, f64::min);
         lights.fluxes = sources.iter().map(|(piece, motion, emission)| flux(&Bound::new(piece, motion, emission))).collect();
-        let sky = lights.background.as_ref().map_or(0.0, Background::luminance);
-        lights.selection = Selection::new(&sources, lamps, Sky { luminance: sky, is_even: lights.have_even_sky() }, near);
-        lights.selection_of_lamps = Selection::new(&[], lamps, Sky::default(), near);
+        let sky = lights.environment.as_ref().map_or(0.0, Environment::luminance);
+        lights.selection =
+            Selection::new(&sources, punctual_lights, Sky { luminance: sky, is_even: lights.have_even_sky() }, near);
+        lights.selection_of_punctual = Selection::new(&[], punctual_lights, Sky::default(), near);
         lights
     }
 
     /// The number of the light at a triangle of a primitive, [`MISS`] for the background. A primitive that does not emit has a number
-    /// that no light has: its own could be that of a lamp without surface.
+    /// that no light has: its own could be that of a punctual light.
     #[inline(always)]
     pub fn light_at<L: Lanes>(&self, l: L, primitive: U<L>, element: U<L>) -> U<L> {
         let dark = primitive.is(MISS).pick(primitive, l.u(MISS - 1));
@@ -155,17 +156,17 @@ impl Lights {
 
     /// Whether there are no lights.
     pub fn is_empty(&self) -> bool {
-        !self.can_be_hit() && self.lamps.is_empty()
+        !self.can_be_hit() && self.punctual_lights.is_empty()
     }
 
     /// Whether rays can hit a light: an emitting surface or the background.
     pub fn can_be_hit(&self) -> bool {
-        self.count > 0 || self.background.is_some()
+        self.count > 0 || self.environment.is_some()
     }
 
     /// Whether there are several lights.
     pub fn are_several(&self) -> bool {
-        self.count + self.lamps.len() + usize::from(self.background.is_some()) > 1
+        self.count + self.punctual_lights.len() + usize::from(self.environment.is_some()) > 1
     }
 
     /// Whether light samples depend on [`ReferencePoint::lobe`].
@@ -175,12 +176,12 @@ impl Lights {
 
     /// Whether the background is sampled by cells.
     pub fn have_cells(&self) -> bool {
-        self.background.as_ref().is_some_and(Background::has_cells)
+        self.environment.as_ref().is_some_and(Environment::has_cells)
     }
 
     /// Whether the background is sampled like a diffuse surface, and not at all at narrow lobes.
     pub fn have_even_sky(&self) -> bool {
-        self.background.as_ref().is_some_and(Background::is_even)
+        self.environment.as_ref().is_some_and(Environment::is_even)
     }
 
     /// A direction towards a light.
@@ -197,7 +198,7 @@ impl Lights {
         let sky = target.is(MISS);
         let mut sample = LightSample { wi: at.n, radiance: V::splat(l, [0.0; 3]), pdf: l.f(0.0), target };
         let mut on_surface = !sky;
-        if !self.lamps.is_empty() {
+        if !self.punctual_lights.is_empty() {
             on_surface = on_surface & target.below(self.count as u32);
         }
         if on_surface.any() {
@@ -207,20 +208,20 @@ impl Lights {
             let (radiance, lit) = self.emitters.radiance(l, on_surface, place.primitive, side);
             sample.wi = toward.wi;
             sample.radiance = radiance;
-            // Behind the near side of a translucent lamp, its far side may be lit.
+            // Behind the near side of a translucent light, its far side may be lit.
             let may_shine = if self.emitters.are_translucent() { !sky } else { lit };
             sample.pdf = may_shine.pick(toward.pdf, l.f(0.0));
         }
-        if let Some(background) = &self.background
+        if let Some(environment) = &self.environment
             && sky.any()
         {
-            let (wi, pdf) = background.sample(l, at, u.cell, u.sky);
+            let (wi, pdf) = environment.sample(l, at, u.cell, u.sky);
             sample.wi = sky.pick(wi, sample.wi);
-            sample.radiance = sky.pick(background.radiance(l, wi), sample.radiance);
+            sample.radiance = sky.pick(environment.radiance(l, wi), sample.radiance);
             sample.pdf = sky.pick(pdf, sample.pdf);
         }
-        if !self.lamps.is_empty() {
-            sample = self.with_lamps(l, at.p, sample);
+        if !self.punctual_lights.is_empty() {
+            sample = self.with_punctual(l, at.p, sample);
         }
         sample.pdf = sample.pdf * pmf;
         sample
@@ -241,10 +242,10 @@ impl Lights {
             };
             density = emits.pick(shapes.pdf_toward(l, &place, at.p, wi), density);
         }
-        if let Some(background) = &self.background
+        if let Some(environment) = &self.environment
             && sky.any()
         {
-            density = sky.pick(background.pdf(l, at, wi), density);
+            density = sky.pick(environment.pdf(l, at, wi), density);
         }
         if !self.are_several() {
             return density;
@@ -257,7 +258,7 @@ impl Lights {
     #[inline(always)]
     fn choose<L: Lanes>(&self, l: L, at: &ReferencePoint<L>, u: &LightCoordinates<L>) -> (U<L>, F<L>) {
         if !self.are_several() {
-            return (l.u(if self.count + self.lamps.len() == 0 { MISS } else { 0 }), l.f(1.0));
+            return (l.u(if self.count + self.punctual_lights.len() == 0 { MISS } else { 0 }), l.f(1.0));
         }
         self.selection.choose(l, at, u)
     }

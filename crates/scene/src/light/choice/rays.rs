@@ -1,7 +1,7 @@
 //! Light that leaves its source: a light, a point of it, and a direction.
 //!
 //! A light is chosen in proportion to an estimate of its flux. Points of surfaces are sampled by area and their directions by the cosine.
-//! Light from far away, of backgrounds and directional lamps, enters through a disk that is as large as the scene.
+//! Light from far away, of backgrounds and directional lights, enters through a disk that is as large as the scene.
 use std::f32::consts::FRAC_1_PI;
 
 use fearless_simd_macros::simd;
@@ -55,8 +55,8 @@ pub struct RaySample<L: Lanes> {
     pub light: U<L>,
     /// The media around it.
     pub media: U<L>,
-    /// Lanes whose light is a lamp without surface.
-    pub is_lamp: M<L>,
+    /// Lanes whose light is a punctual light.
+    pub is_punctual: M<L>,
     /// Lanes whose light has a surface, the place there, and the point.
     pub on_surface: M<L>,
     pub place: PrimitiveRef<L>,
@@ -65,25 +65,25 @@ pub struct RaySample<L: Lanes> {
 
 /// The light density is the probability of a light times
 /// * the pdf of the point per area and that of the direction per projected solid angle, on surfaces,
-/// * the pdf of the direction per solid angle, of lamps with a position,
-/// * the pdf of the point on the disk per area and that of the direction per solid angle, far away; of directional lamps without
+/// * the pdf of the direction per solid angle, of lights with a position,
+/// * the pdf of the point on the disk per area and that of the direction per solid angle, far away; of directional lights without
 ///   that of the direction.
 impl LightRays {
     /// Most lights among which the table can choose.
     const MOST: usize = 1 << 23;
 
-    /// Builds the table for a scene with this bounding sphere. `starts` are the media around all lights with a surface, all lamps without
+    /// Builds the table for a scene with this bounding sphere. `starts` are the media around all lights with a surface, all lights without
     /// one and the background, as paths carry them; `None` where no path starts. `None` if no path starts at any light, or if there are too many.
     pub fn new(lights: &Lights, starts: &[Option<u32>], center: DVec3, radius: f64) -> Option<LightRays> {
         let disk = std::f64::consts::PI * radius * radius;
-        let lamp = |number: usize| {
-            let (pdf, far) = lights.lamps.direction_pdf(One, U(number as u32));
+        let punctual_light = |number: usize| {
+            let (pdf, far) = lights.punctual_lights.direction_pdf(One, U(number as u32));
             let extent = if far.0 { disk } else { 1.0 / f64::from(pdf.0) };
-            (f64::from(lights.lamps.power(number)) * extent, far.0)
+            (f64::from(lights.punctual_lights.power(number)) * extent, far.0)
         };
-        let sky = lights.background.as_ref().map(|sky| (4.0 * std::f64::consts::PI * disk * f64::from(sky.luminance()), true));
+        let sky = lights.environment.as_ref().map(|sky| (4.0 * std::f64::consts::PI * disk * f64::from(sky.luminance()), true));
         let surfaces = lights.fluxes.iter().map(|flux| (f64::from(*flux), false));
-        let all = surfaces.chain((0..lights.lamps.len()).map(lamp)).chain(sky);
+        let all = surfaces.chain((0..lights.punctual_lights.len()).map(punctual_light)).chain(sky);
         let begun = |((flux, far), start): ((f64, bool), &Option<u32>)| (if start.is_some() { flux } else { 0.0 }, far);
         let fluxes: Vec<(f64, bool)> = all.zip(starts).map(begun).collect();
         let sum = |of: bool| fluxes.iter().filter(|(_, far)| *far == of).map(|(flux, _)| flux).sum::<f64>();
@@ -107,31 +107,41 @@ impl LightRays {
     pub fn sample<L: Lanes>(&self, l: L, lights: &Lights, shapes: &Shapes, time: F<L>, u: &RayCoordinates<L>) -> RaySample<L> {
         let (light, chance) = self.choice.sample(l, u.choice);
         let count = lights.count as u32;
-        let is_lamp = lights.are_lamps(light);
+        let is_punctual = lights.are_punctual(light);
         let on_surface = light.below(count);
         let zero = V::splat(l, [0.0; 3]);
         let place = PrimitiveRef { primitive: l.u(0), element: l.u(0), time };
         let point = SurfacePoint { p: zero, n_geometric: zero, error: l.f(0.0) };
-        let sky = !(on_surface | is_lamp);
+        let sky = !(on_surface | is_punctual);
         let media = if self.media.is_empty() { l.u(0) } else { l.rows(&self.media, light)[0].bits() };
         let light = sky.pick(l.u(MISS), light);
         let density = l.f(0.0);
-        let mut ray =
-            RaySample { o: zero, d: zero, flux: zero, inverse_density: density, light, media, is_lamp, on_surface, place, point };
+        let mut ray = RaySample {
+            o: zero,
+            d: zero,
+            flux: zero,
+            inverse_density: density,
+            light,
+            media,
+            is_punctual,
+            on_surface,
+            place,
+            point,
+        };
         if on_surface.any() {
             self.leave_surfaces(l, lights, shapes, chance, u, &mut ray);
         }
-        if is_lamp.any() {
-            self.leave_lamps(l, lights, chance, u, &mut ray);
+        if is_punctual.any() {
+            self.leave_punctual(l, lights, chance, u, &mut ray);
         }
-        if let Some(background) = &lights.background
+        if let Some(environment) = &lights.environment
             && sky.any()
         {
-            let (towards, pdf) = background.sample_inwards(l, u.cell, u.direction);
+            let (towards, pdf) = environment.sample_inwards(l, u.cell, u.direction);
             let inverse_density = 1.0 / (chance * pdf * self.disk_pdf());
             ray.o = sky.pick(self.on_disk(l, towards, u.place), ray.o);
             ray.d = sky.pick(-towards, ray.d);
-            ray.flux = sky.pick(background.radiance(l, towards) * inverse_density, ray.flux);
+            ray.flux = sky.pick(environment.radiance(l, towards) * inverse_density, ray.flux);
             ray.inverse_density = (sky & pdf.above(0.0)).pick(inverse_density, ray.inverse_density);
         }
         ray
@@ -162,9 +172,9 @@ impl LightRays {
     }
 
     #[inline(always)]
-    fn leave_lamps<L: Lanes>(&self, l: L, lights: &Lights, chance: F<L>, u: &RayCoordinates<L>, ray: &mut RaySample<L>) {
-        let here = ray.is_lamp;
-        let left = lights.lamps.emit(l, lights.lamp(l, here, ray.light), u.direction);
+    fn leave_punctual<L: Lanes>(&self, l: L, lights: &Lights, chance: F<L>, u: &RayCoordinates<L>, ray: &mut RaySample<L>) {
+        let here = ray.is_punctual;
+        let left = lights.punctual_lights.emit(l, lights.punctual_light(l, here, ray.light), u.direction);
         let inverse_density = 1.0 / (chance * left.pdf * left.far.pick(l.f(self.disk_pdf()), l.f(1.0)));
         let o = left.far.pick(self.on_disk(l, left.origin, u.place), left.origin);
         ray.o = here.pick(o, ray.o);
@@ -212,17 +222,17 @@ impl LightRays {
 
     /// The light density of the background in the direction `d` towards it.
     #[simd]
-    pub fn density_of_background<L: Lanes>(&self, l: L, lights: &Lights, d: V<L>) -> F<L> {
-        let Some(background) = &lights.background else { return l.f(0.0) };
-        let sky = (lights.count + lights.lamps.len()) as u32;
-        self.choice.probability(l, l.u(sky)) * background.pdf_inwards(l, d) * self.disk_pdf()
+    pub fn density_of_environment<L: Lanes>(&self, l: L, lights: &Lights, d: V<L>) -> F<L> {
+        let Some(environment) = &lights.environment else { return l.f(0.0) };
+        let sky = (lights.count + lights.punctual_lights.len()) as u32;
+        self.choice.probability(l, l.u(sky)) * environment.pdf_inwards(l, d) * self.disk_pdf()
     }
 
-    /// The light density of the lamps among `lights` in the lanes of `lamps`, and the lanes of directional ones.
+    /// The light density of the lights among `lights` in the lanes of `lights`, and the lanes of directional ones.
     #[simd]
-    pub fn density_of_lamps<L: Lanes>(&self, l: L, all: &Lights, lamps: M<L>, light: U<L>) -> (F<L>, M<L>) {
-        let (pdf, far) = all.lamps.direction_pdf(l, all.lamp(l, lamps, light));
-        let chance = self.choice.probability(l, lamps.pick(light, l.u(0)));
+    pub fn density_of_punctual<L: Lanes>(&self, l: L, all: &Lights, punctual_lights: M<L>, light: U<L>) -> (F<L>, M<L>) {
+        let (pdf, far) = all.punctual_lights.direction_pdf(l, all.punctual_light(l, punctual_lights, light));
+        let chance = self.choice.probability(l, punctual_lights.pick(light, l.u(0)));
         (chance * pdf * far.pick(l.f(self.disk_pdf()), l.f(1.0)), far)
     }
 
@@ -240,9 +250,9 @@ impl LightRays {
 }
 
 impl Lights {
-    /// The probability of choosing a lamp without surface for a light sample.
+    /// The probability of choosing a punctual light for a light sample.
     #[simd]
-    pub fn probability_of_lamp<L: Lanes>(&self, l: L, at: &ReferencePoint<L>, lamps: M<L>, light: U<L>) -> F<L> {
-        if self.are_several() { self.selection.probability(l, at, lamps, light) } else { l.f(1.0) }
+    pub fn probability_of_punctual<L: Lanes>(&self, l: L, at: &ReferencePoint<L>, punctual_lights: M<L>, light: U<L>) -> F<L> {
+        if self.are_several() { self.selection.probability(l, at, punctual_lights, light) } else { l.f(1.0) }
     }
 }

@@ -1,4 +1,4 @@
-//! Lamps of a constant radiance.
+//! Lights of a constant radiance.
 use super::{Emission, Emit, Side};
 use crate::{light::parameters::RADIANCE, texture::TextureCompiler};
 use noisefall_base::declare::{Declare, Kind, Parameter, Parameters, Problem, Range};

@@ -1,4 +1,4 @@
-//! Lamps whose radiance is a texture.
+//! Lights whose radiance is a texture.
 use super::{Emission, Emit, Side};
 use crate::texture::{TEXTURE, TextureCompiler};
 use noisefall_base::declare::{Declare, Family, Kind, Parameter, Parameters, Problem, Value};

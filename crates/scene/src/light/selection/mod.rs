@@ -12,7 +12,7 @@ use glam::{DVec3, Vec3};
 use super::{
     Emission, LightCoordinates, ReferencePoint,
     bound::Bound,
-    lamp::{Lamp, MOST_DIRECTIONAL},
+    punctual_light::{MOST_DIRECTIONAL, PunctualLight},
     source::Source,
     tree::{Item, Traversal, Tree, light_of_word, word_of_light},
 };
@@ -25,7 +25,7 @@ use noisefall_base::math::{F, Lanes, M, Pick, U};
 /// Up to this number of candidates, the choice needs no large table of weights.
 const VERY_FEW: usize = 8;
 /// Maximum number of lights that are weighted one by one. Compared with the tree, time × relMSE is 1.1 to 1.4 times better for 64
-/// lamps, equal for 96, and up to 1.15 times worse for 128.
+/// lights, equal for 96, and up to 1.15 times worse for 128.
 const FEW: usize = 64;
 /// If there are more lights, maximum number of those of outstanding size that are weighted one by one.
 const LARGE: usize = 16;
@@ -56,15 +56,15 @@ pub(super) struct Selection {
 }
 
 impl Selection {
-    /// Builds the selection. `lights` are the emitting shapes with their motion, and lamps are numbered after them. `near` is a point
+    /// Builds the selection. `lights` are the emitting shapes with their motion, and lights are numbered after them. `near` is a point
     /// near the middle of the scene.
-    pub fn new(lights: &[(Shape, Motion, Emission)], lamps: &[Lamp], sky: Sky, near: DVec3) -> Selection {
-        let count = lights.len() + lamps.len();
+    pub fn new(lights: &[(Shape, Motion, Emission)], punctual_lights: &[PunctualLight], sky: Sky, near: DVec3) -> Selection {
+        let count = lights.len() + punctual_lights.len();
         let surface = |(shape, motion, emission): &(Shape, Motion, Emission)| Bound::new(shape, motion, emission);
         let (single, tree) = if count <= FEW {
             ((0..count as u32).collect(), Tree::default())
         } else {
-            let bounds = lights.iter().map(|light| Some(surface(light))).chain(lamps.iter().map(Bound::of_lamp));
+            let bounds = lights.iter().map(|light| Some(surface(light))).chain(punctual_lights.iter().map(Bound::of_punctual));
             let (mut items, mut single) = (Vec::new(), Vec::new());
             for (light, bound) in (0..).zip(bounds) {
                 match bound {
@@ -80,7 +80,7 @@ impl Selection {
         };
         let source = |light: &u32| match lights.get(*light as usize) {
             Some(light) => Source::new(&light.0, &surface(light), near),
-            None => Source::of_lamp(&lamps[*light as usize - lights.len()]),
+            None => Source::of_punctual(&punctual_lights[*light as usize - lights.len()]),
         };
         Selection {
             sky,

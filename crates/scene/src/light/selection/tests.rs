@@ -6,8 +6,8 @@ use crate::chi_squared::chi_squared;
 use crate::{
     geometry::{MISS, Motion, Outline, PrimitiveRef, Shape, Shapes},
     light::{
-        Emission, Emitters, Lamp, Lamps, LightCoordinates, Lobe, ReferencePoint, Side,
-        lamp::{MOST_DIRECTIONAL, Picture, spot::Falloff},
+        Emission, Emitters, LightCoordinates, Lobe, PunctualLight, PunctualLights, ReferencePoint, Side,
+        punctual_light::{MOST_DIRECTIONAL, Picture, spot::Falloff},
     },
     sampling::hash::hash_one,
 };
@@ -41,7 +41,7 @@ struct Set {
     name: &'static str,
     shapes: Vec<Shape>,
     emissions: Vec<Emission>,
-    lamps: Vec<Lamp>,
+    punctual_lights: Vec<PunctualLight>,
     sky: Sky,
 }
 
@@ -49,18 +49,18 @@ impl Set {
     fn new(name: &'static str, lights: impl IntoIterator<Item = (Shape, f32, Side)>) -> Set {
         let emission = |light, side| Emission { radiance: [light; 3], mean: [light; 3], texture: None, side, translucent: false };
         let (shapes, emissions) = lights.into_iter().map(|(shape, light, side)| (shape, emission(light, side))).unzip();
-        Set { name, shapes, emissions, lamps: Vec::new(), sky: Sky::default() }
+        Set { name, shapes, emissions, punctual_lights: Vec::new(), sky: Sky::default() }
     }
 
     fn selection(&self) -> Selection {
         let still = |(shape, emission): (&Shape, &Emission)| (shape.clone(), Motion::default(), *emission);
         let lights: Vec<_> = self.shapes.iter().zip(&self.emissions).map(still).collect();
-        Selection::new(&lights, &self.lamps, self.sky, DVec3::ZERO)
+        Selection::new(&lights, &self.punctual_lights, self.sky, DVec3::ZERO)
     }
 
     /// Number of lights without the background.
     fn count(&self) -> usize {
-        self.shapes.len() + self.lamps.len()
+        self.shapes.len() + self.punctual_lights.len()
     }
 
     /// Probabilities of all lights, and last of the background.
@@ -108,8 +108,8 @@ fn sets() -> Vec<Set> {
         })
         .collect();
     all.push(Set { sky: Sky { luminance: 0.3, is_even: false }, ..Set::new("of all kinds", lights) });
-    let lamp = |_| (Shape::disk(r.point(3.0).with_y(2.0), -DVec3::Y, 0.05), 1.0, front);
-    all.push(Set::new("a ceiling of lamps", (0..MANY).map(lamp)));
+    let punctual_light = |_| (Shape::disk(r.point(3.0).with_y(2.0), -DVec3::Y, 0.05), 1.0, front);
+    all.push(Set::new("a ceiling of lights", (0..MANY).map(punctual_light)));
     all.push(Set::new("identical", (0..MANY).map(|_| (ball(DVec3::X, 0.1), 1.0, front))));
     let turned = |_| (Shape::disk(DVec3::Y, r.direction(), 0.1), 1.0, any_side(r));
     all.push(Set::new("in one place", (0..MANY).map(turned)));
@@ -121,34 +121,34 @@ fn sets() -> Vec<Set> {
     lights.insert(500, (ball(DVec3::Y * -1e6, 1e6 - 3.0), 0.1, front));
     lights.push((ball(DVec3::ZERO, 1e3), 0.01, Side::Back));
     all.push(Set::new("two enormous, a thousand tiny", lights));
-    all.push(with_lamps(r, "a few lamps", [5, 20, 4]));
-    all.push(with_lamps(r, "many lamps", [100, 200, MOST_DIRECTIONAL]));
+    all.push(with_punctual(r, "a few lights", [5, 20, 4]));
+    all.push(with_punctual(r, "many lights", [100, 200, MOST_DIRECTIONAL]));
     all.push(Set::new("shells", (0..MANY).map(|_| (ball(r.point(3.0), 0.5), 1.0, any_side(r)))));
     all
 }
 
-/// Surfaces, lamps with a position, and directional lamps.
-fn with_lamps(r: &mut Random, name: &'static str, [surfaces, positions, directions]: [usize; 3]) -> Set {
+/// Surfaces, lights with a position, and directional lights.
+fn with_punctual(r: &mut Random, name: &'static str, [surfaces, positions, directions]: [usize; 3]) -> Set {
     let shapes: Vec<_> = (0..surfaces).map(|_| (any_shape(r, 0.1), 1.0, any_side(r))).collect();
-    let mut lamps: Vec<Lamp> = (0..positions).map(|_| any_lamp(r)).collect();
-    lamps.extend((0..directions).map(|_| Lamp::directional(r.direction(), [r.next(); 3])));
-    Set { sky: Sky { luminance: 0.01, is_even: true }, lamps, ..Set::new(name, shapes) }
+    let mut punctual_lights: Vec<PunctualLight> = (0..positions).map(|_| any_light(r)).collect();
+    punctual_lights.extend((0..directions).map(|_| PunctualLight::directional(r.direction(), [r.next(); 3])));
+    Set { sky: Sky { luminance: 0.01, is_even: true }, punctual_lights, ..Set::new(name, shapes) }
 }
 
-/// A lamp with a position, of any kind.
-fn any_lamp(r: &mut Random) -> Lamp {
+/// A light with a position, of any kind.
+fn any_light(r: &mut Random) -> PunctualLight {
     let (position, intensity, axis) = (r.point(3.0), [10f64.powf(r.between(-3.0, 0.0)); 3], r.direction());
     match (r.next() * 3.0) as u32 {
-        0 => Lamp::point(position, intensity),
+        0 => PunctualLight::point(position, intensity),
         1 => {
             let edge = r.between(0.1, 3.1);
             let falloff = Falloff::ALL[(r.next() * 3.0) as usize];
-            Lamp::spot(position, intensity, axis, [edge * r.next(), edge], falloff)
+            PunctualLight::spot(position, intensity, axis, [edge * r.next(), edge], falloff)
         }
         _ => {
             let right = axis.any_orthonormal_vector();
             let axes = [right, right.cross(axis) * 2.0, axis];
-            Lamp::projector(position, [1.0; 3], Picture { axes, flat: false, image: None, cone: None })
+            PunctualLight::projector(position, [1.0; 3], Picture { axes, flat: false, image: None, cone: None })
         }
     }
 }
@@ -291,19 +291,19 @@ fn what_can_contribute_can_be_chosen() {
 }
 
 #[test]
-fn a_lamp_that_shines_on_a_point_can_be_chosen() {
+fn a_light_that_shines_on_a_point_can_be_chosen() {
     let random = &mut Random(5 << 20);
     let mut contributions = 0;
-    for set in sets().iter().filter(|set| !set.lamps.is_empty()) {
-        let (selection, lamps) = (set.selection(), Lamps::new(&set.lamps));
+    for set in sets().iter().filter(|set| !set.punctual_lights.is_empty()) {
+        let (selection, punctual_lights) = (set.selection(), PunctualLights::new(&set.punctual_lights));
         for _ in 0..10_000 {
             let at = reference_point(random, set);
-            let lamp = (random.next() * set.lamps.len() as f64) as u32;
-            let light = lamps.sample(One, U(lamp), at.p);
+            let punctual_light = (random.next() * set.punctual_lights.len() as f64) as u32;
+            let light = punctual_lights.sample(One, U(punctual_light), at.p);
             let visible = at.transmits.0 || light.wi.dot(at.n).0 > 0.0;
             if visible && light.irradiance.max_component().0 > 0.0 {
-                let pmf = selection.probability(One, &at, M(true), U(set.shapes.len() as u32 + lamp)).0;
-                assert!(pmf > 0.0, "{}: lamp {lamp} from {:?}", set.name, at.p.lane(0));
+                let pmf = selection.probability(One, &at, M(true), U(set.shapes.len() as u32 + punctual_light)).0;
+                assert!(pmf > 0.0, "{}: light {punctual_light} from {:?}", set.name, at.p.lane(0));
                 contributions += 1;
             }
         }

@@ -115,7 +115,7 @@ impl<L: Lanes> Cluster<L> {
     ///
     /// Let θ be the angle at the reference point between its normal and the direction to the centre, and β half the angle that
     /// the sphere subtends. Then cos(θ − β) bounds all cosines. The estimate mixes a quarter of the bound with three quarters of
-    /// the cosine at the centre. The distance counts as at least half the radius. Over 500 and 4000 lamps of four kinds the
+    /// the cosine at the centre. The distance counts as at least half the radius. Over 500 and 4000 lights of four kinds the
     /// variance of the choice was 1.3 to 3 times lower than with the bounds alone in seven cases, and 1.1 times higher in one.
     /// Sines and cosines are multiplied by the distance; the sign of the sine of a difference tells which of two angles is
     /// larger.

@@ -4,7 +4,7 @@
 //! Nodes have up to eight children, in place of three binary levels with looser bounds. The traversal starts not at a root but at
 //! one of several *heads*, which are weighted one by one, because all lanes look at the same heads.
 //!
-//! On one core with AVX-512, choosing one of 500, 4000 and 10⁶ lamps takes 75, 95 and 175 ns, and with normals 105, 130 and 230
+//! On one core with AVX-512, choosing one of 500, 4000 and 10⁶ lights takes 75, 95 and 175 ns, and with normals 105, 130 and 230
 //! ns; weighting 4000 one by one took 8 to 12 µs. The relMSE of direct light is 1.1 to 1.25 times that of weighting one by one;
 //! uniform choice gives 2.5 to 7 times. The tree of a million triangles is built in 0.7 s and takes about 60 bytes per triangle.
 mod build;

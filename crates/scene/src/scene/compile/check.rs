@@ -1,7 +1,7 @@
 //! Quick checks of single parts of a description, without reading files or making procedural shapes.
-use super::{camera::camera, lamp::placed_lamp, object::placed_and_moved};
+use super::{camera::camera, object::placed_and_moved, punctual_light::placed_punctual};
 use crate::{
-    scene::description::{CameraDescription, LampDescription, ObjectDescription},
+    scene::description::{CameraDescription, ObjectDescription, PunctualLightDescription},
     shape::{ShapeBuilder, motion, product},
 };
 use noisefall_base::declare::{Path, Problem, Resources};
@@ -13,9 +13,9 @@ pub fn check_camera(described: &CameraDescription) -> Result<(), Problem> {
     Ok(())
 }
 
-/// Checks that a lamp without surface can be placed.
-pub fn check_lamp(described: &LampDescription) -> Result<(), Problem> {
-    placed_lamp(&described.without_files(), &Resources::new("")).map(drop)
+/// Checks that a punctual light can be placed.
+pub fn check_punctual(described: &PunctualLightDescription) -> Result<(), Problem> {
+    placed_punctual(&described.without_files(), &Resources::new("")).map(drop)
 }
 
 /// Checks that the shape of an object can be placed. For meshes and for kinds that make many shapes, checks only the transforms.

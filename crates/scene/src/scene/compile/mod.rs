@@ -2,12 +2,12 @@
 mod blend;
 mod camera;
 mod check;
-mod lamp;
 mod light;
 mod material;
 mod merge;
 mod object;
 mod problems;
+mod punctual_light;
 mod reuse;
 
 use std::{
@@ -18,23 +18,25 @@ use std::{
 
 use glam::DVec3;
 
-use self::{blend::blends, camera::camera, lamp::lamps, material::materials, object::objects, problems::Problems};
+use self::{
+    blend::blends, camera::camera, material::materials, object::objects, problems::Problems, punctual_light::punctual_lights,
+};
 pub use self::{
     blend::check_blend,
-    check::{check_camera, check_lamp, check_object},
+    check::{check_camera, check_object, check_punctual},
     reuse::Before,
 };
 use super::{
-    Camera, CompileReport, LampInstance, MaterialInstance, Object, RenderSettings, Scene, SceneText, Truth,
+    Camera, CompileReport, MaterialInstance, Object, PunctualLightInstance, RenderSettings, Scene, SceneReference, SceneText,
     damage::Damage,
-    description::{RenderDescription, SceneDescription, TruthDescription},
+    description::{ReferenceDescription, RenderDescription, SceneDescription},
     surface::Surfaces,
     used::used_textures,
 };
 use crate::{
     geometry::{Motion, Shape},
     image::{Encoding, read},
-    light::{Background, Lamp},
+    light::{Environment, PunctualLight},
     material::Materials,
     shape::motion,
     texture::{TextureCompiler, Textures},
@@ -86,16 +88,16 @@ pub fn compile(
 struct CompiledParts {
     camera: Camera,
     camera_motion: Motion,
-    background: Option<Background>,
+    environment: Option<Environment>,
     textures: Textures,
     materials: Vec<MaterialInstance>,
     tables: Materials,
     objects: Vec<Object>,
-    lamps: Vec<(LampInstance, Lamp)>,
+    punctual_lights: Vec<(PunctualLightInstance, PunctualLight)>,
     settings: RenderSettings,
     spp: Option<u32>,
     exposure: f32,
-    truth: Option<Truth>,
+    reference: Option<SceneReference>,
 }
 
 impl CompiledParts {
@@ -109,8 +111,8 @@ impl CompiledParts {
         let at = Path::of;
         let camera = problems.keep(&at("camera"), || camera(&description.camera));
         let camera_motion = problems.keep(&at("camera.motion"), || motion(&description.camera.motion));
-        let background =
-            description.background.as_ref().map(|described| problems.keep(&at("background"), || described.compile(resources)));
+        let environment =
+            description.environment.as_ref().map(|described| problems.keep(&at("environment"), || described.compile(resources)));
         let mut wrong = Vec::new();
         let (used, stand_ins) = (used_textures(description), problems.damage.names("textures"));
         let mut textures = TextureCompiler::new(resources, &description.textures, used, stand_ins, &mut wrong);
@@ -122,22 +124,23 @@ impl CompiledParts {
         blends(&description.materials, &numbers, &mut materials, &mut textures, &mut tables, problems);
         let mut objects = objects(&description.objects, &numbers, &textures, resources, problems);
         objects.iter_mut().for_each(|object| light::see_through(object, &materials));
-        let lamps = lamps(&description.lamps, resources, problems);
+        let punctual_lights = punctual_lights(&description.punctual_lights, resources, problems);
         let RenderDescription { settings, spp, exposure } = description.render;
-        let truth = description.truth.as_ref().map(|described| problems.keep(&at("truth"), || truth(described, resources)));
+        let reference =
+            description.reference.as_ref().map(|described| problems.keep(&at("reference"), || reference(described, resources)));
         Some(CompiledParts {
             camera: camera?,
             camera_motion: camera_motion?,
-            background: background.flatten().flatten(),
+            environment: environment.flatten().flatten(),
             textures: textures.textures,
             materials,
             tables,
             objects,
-            lamps,
+            punctual_lights,
             settings,
             spp,
             exposure,
-            truth: truth.flatten(),
+            reference: reference.flatten(),
         })
     }
 
@@ -149,13 +152,14 @@ impl CompiledParts {
         resources: Resources,
         before: Option<Before>,
     ) -> Result<Scene, Problem> {
-        let CompiledParts { camera, camera_motion, background, textures, materials, tables, objects, lamps, .. } = self;
-        let CompiledParts { settings, spp, exposure, truth, .. } = self;
-        let (lamp_instances, lamps): (Vec<_>, Vec<_>) = lamps.into_iter().unzip();
-        reserve_tables(&resources, &objects, lamps.len())?;
+        let CompiledParts { camera, camera_motion, environment, textures, materials, tables, objects, punctual_lights, .. } =
+            self;
+        let CompiledParts { settings, spp, exposure, reference, .. } = self;
+        let (punctual_instances, punctual_lights): (Vec<_>, Vec<_>) = punctual_lights.into_iter().unzip();
+        reserve_tables(&resources, &objects, punctual_lights.len())?;
         let owners = objects.iter().enumerate().flat_map(|(i, o)| vec![i as u32; o.shape.piece_count()]).collect();
         let shapes = reuse::shapes(&objects, camera.look_at, before, &resources)?;
-        let lights = reuse::lights(&objects, &shapes, &lamps, background, before, &resources);
+        let lights = reuse::lights(&objects, &shapes, &punctual_lights, environment, before, &resources);
         tables.times_of_tables().iter().for_each(|took| resources.note("material tables", *took));
         let start = Instant::now();
         let surfaces = Surfaces::new(&objects, &materials, tables);
@@ -176,7 +180,7 @@ impl CompiledParts {
             size: size(&objects, &camera),
             materials,
             objects,
-            lamps: lamp_instances,
+            punctual_lights: punctual_instances,
             camera,
             settings,
             path_reuse_by_trial: Default::default(),
@@ -184,7 +188,7 @@ impl CompiledParts {
             estimator_by_trial: OnceLock::new(),
             spp,
             exposure,
-            truth,
+            reference,
             deepest_media: 0,
             lights_are_missed,
             identity: Arc::new(()),
@@ -200,21 +204,21 @@ impl CompiledParts {
     }
 }
 
-fn truth(description: &TruthDescription, resources: &Resources) -> Result<Truth, Problem> {
+fn reference(description: &ReferenceDescription, resources: &Resources) -> Result<SceneReference, Problem> {
     match description {
-        TruthDescription::Radiance(radiance) => Ok(Truth::Radiance(radiance.map(|x| x as f32))),
-        TruthDescription::Image(image) => {
+        ReferenceDescription::Radiance(radiance) => Ok(SceneReference::Radiance(radiance.map(|x| x as f32))),
+        ReferenceDescription::Image(image) => {
             let path = resources.path(image);
-            let picture = resources.once("references", format!("truth {}", key_of_file(&path)), || {
+            let picture = resources.once("references", format!("reference {}", key_of_file(&path)), || {
                 read(&path, Encoding::Srgb).map_err(|error| Problem::at("image", error.to_string(), "this image cannot be used"))
             })?;
-            Ok(Truth::Image(path, picture))
+            Ok(SceneReference::Image(path, picture))
         }
     }
 }
 
 /// Room for what the renderer looks objects up in: trees, and lights.
-fn reserve_tables(resources: &Resources, objects: &[Object], lamps: usize) -> Result<(), Problem> {
+fn reserve_tables(resources: &Resources, objects: &[Object], punctual_lights: usize) -> Result<(), Problem> {
     /// Bytes of an object that is not a mesh: in the tree of objects, in tables, and while those are built.
     const OBJECT: u64 = 1000;
     /// Bytes per triangle and per vertex for the tree of a mesh, including its construction.
@@ -223,7 +227,7 @@ fn reserve_tables(resources: &Resources, objects: &[Object], lamps: usize) -> Re
     /// Bytes per light among many; each emitting triangle is a light.
     const LIGHT: u64 = 900;
     resources.reserve("", format_args!("{} objects", objects.len()), OBJECT * objects.len() as u64)?;
-    let mut lights = lamps as u64;
+    let mut lights = punctual_lights as u64;
     for object in objects {
         let count = match &object.shape {
             Shape::Mesh { data, .. } => {

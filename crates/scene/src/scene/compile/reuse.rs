@@ -8,7 +8,7 @@ use glam::DVec3;
 
 use crate::{
     geometry::{Shapes, same_point},
-    light::{Background, Lamp, Lamps, Lights},
+    light::{Environment, Lights, PunctualLight, PunctualLights},
     scene::{Object, Scene},
 };
 use noisefall_base::declare::{Precision, Problem, Resources};
@@ -48,12 +48,12 @@ pub fn shapes(objects: &[Object], near: DVec3, before: Option<Before>, resources
     Ok(Arc::new(shapes))
 }
 
-/// The lights of the objects, and the lamps without surface. `shapes` are those of the same objects.
+/// The lights of the objects, and the punctual lights. `shapes` are those of the same objects.
 pub fn lights(
     objects: &[Object],
     shapes: &Shapes,
-    lamps: &[Lamp],
-    background: Option<Background>,
+    punctual_lights: &[PunctualLight],
+    environment: Option<Environment>,
     before: Option<Before>,
     resources: &Resources,
 ) -> Arc<Lights> {
@@ -61,8 +61,8 @@ pub fn lights(
     let near = shapes.near();
     if let Some(Before { scene, .. }) = before
         && same_point(&scene.shapes.near(), &near)
-        && has_same_background(scene, background.as_ref())
-        && scene.lights.lamps.are_same(&Lamps::new(lamps))
+        && has_same_environment(scene, environment.as_ref())
+        && scene.lights.punctual_lights.are_same(&PunctualLights::new(punctual_lights))
         && has_same_emitters(scene, objects, shapes)
     {
         resources.note(PART, None);
@@ -73,7 +73,7 @@ pub fn lights(
     let emitters: Vec<_> = emitting
         .flat_map(|(o, emission)| o.shape.pieces().into_iter().map(move |piece| (piece, o.motion.clone(), emission)))
         .collect();
-    let lights = Arc::new(Lights::new(shapes, &emitters, lamps, background, near));
+    let lights = Arc::new(Lights::new(shapes, &emitters, punctual_lights, environment, near));
     resources.note(PART, Some(start.elapsed()));
     lights
 }
@@ -96,8 +96,8 @@ pub fn deepest_media(scene: &Scene, before: Option<Before>) -> usize {
     }
 }
 
-fn has_same_background(scene: &Scene, background: Option<&Background>) -> bool {
-    match (&scene.lights.background, background) {
+fn has_same_environment(scene: &Scene, environment: Option<&Environment>) -> bool {
+    match (&scene.lights.environment, environment) {
         (Some(a), Some(b)) => a.is_same(b),
         (None, None) => true,
         _ => false,

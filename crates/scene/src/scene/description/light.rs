@@ -37,34 +37,34 @@ impl Declare for EmissionDescription {
 
 /// What the image converges to.
 #[derive(Clone, Debug, PartialEq)]
-pub enum TruthDescription {
+pub enum ReferenceDescription {
     /// The same radiance at every pixel, W·sr⁻¹·m⁻².
     Radiance([f64; 3]),
     /// An image file of the resolution of the camera.
     Image(String),
 }
 
-impl Default for TruthDescription {
+impl Default for ReferenceDescription {
     fn default() -> Self {
-        TruthDescription::Radiance([1.0; 3])
+        ReferenceDescription::Radiance([1.0; 3])
     }
 }
 
-impl Declare for TruthDescription {
+impl Declare for ReferenceDescription {
     fn parameters(&mut self, p: &mut dyn Parameters) {
         p.one_of(self);
     }
 }
 
-impl OneOf for TruthDescription {
-    const WHAT: &'static str = "truth";
+impl OneOf for ReferenceDescription {
+    const WHAT: &'static str = "reference";
 
     fn alternatives() -> Vec<Self> {
-        vec![Self::default(), TruthDescription::Image(String::new())]
+        vec![Self::default(), ReferenceDescription::Image(String::new())]
     }
 
     fn place(&self) -> usize {
-        usize::from(matches!(self, TruthDescription::Image(_)))
+        usize::from(matches!(self, ReferenceDescription::Image(_)))
     }
 
     fn name(&self) -> &'static str {
@@ -73,8 +73,8 @@ impl OneOf for TruthDescription {
 
     fn chosen(&mut self, p: &mut dyn Parameters) {
         match self {
-            TruthDescription::Radiance(radiance) => p.colour(&RADIANCE, radiance, Range::RADIANCE),
-            TruthDescription::Image(path) => p.value(&TRUTH_IMAGE, Value::File(path)),
+            ReferenceDescription::Radiance(radiance) => p.colour(&RADIANCE, radiance, Range::RADIANCE),
+            ReferenceDescription::Image(path) => p.value(&TRUTH_IMAGE, Value::File(path)),
         }
     }
 }

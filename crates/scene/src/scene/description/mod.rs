@@ -5,12 +5,12 @@
 //! The kinds of materials, shapes and textures are in [`crate::material`], [`crate::shape`] and [`crate::texture`]. The other types of
 //! the fields are re-exported here.
 mod camera;
-mod lamp;
 mod light;
 mod material;
 mod object;
 mod places;
 mod presentation;
+mod punctual_light;
 mod render;
 
 use std::collections::BTreeMap;
@@ -20,16 +20,16 @@ pub use glam::DVec3;
 pub(super) use self::material::OPACITY;
 pub use self::{
     camera::CameraDescription,
-    lamp::LampDescription,
-    light::{EmissionDescription, TruthDescription},
+    light::{EmissionDescription, ReferenceDescription},
     material::{Bump, MaterialDescription},
     object::ObjectDescription,
     places::parameter_name,
     presentation::Presentation,
+    punctual_light::PunctualLightDescription,
     render::RenderDescription,
 };
 pub use crate::{
-    light::{background::BackgroundDescription, emission::EmissionSource},
+    light::{emission::EmissionSource, environment::EnvironmentDescription},
     material::Material,
     sampling::Filter,
     scene::{Lens, Projection, RenderSettings},
@@ -49,19 +49,19 @@ pub struct SceneDescription {
     /// The camera that the scene opens with.
     pub camera: CameraDescription,
     /// Radiance of rays that meet no surface; `None` is black.
-    pub background: Option<BackgroundDescription>,
+    pub environment: Option<EnvironmentDescription>,
     /// Textures by name.
     pub textures: BTreeMap<String, TextureKind>,
     /// Materials by name.
     pub materials: BTreeMap<String, MaterialDescription>,
     /// The objects, in any order.
     pub objects: Vec<ObjectDescription>,
-    /// Lamps without surface.
-    pub lamps: Vec<LampDescription>,
+    /// Punctual lights.
+    pub punctual_lights: Vec<PunctualLightDescription>,
     /// The settings that the scene opens with.
     pub render: RenderDescription,
     /// What the image must converge to, if it is known.
-    pub truth: Option<TruthDescription>,
+    pub reference: Option<ReferenceDescription>,
 }
 
 /// The version of the scene format that this program reads.
@@ -72,21 +72,21 @@ impl Declare for SceneDescription {
         const VERSION: Parameter = Parameter::new("format", "The version of the format: 1.").required();
         const CAMERA: Parameter =
             Parameter::new("camera", "Position, direction and lens of the camera.").required().aliases("sensor view");
-        const BACKGROUND: Parameter =
-            Parameter::new("background", "Radiance of rays that meet no surface.").aliases("environment sky envmap world");
+        const ENVIRONMENT: Parameter =
+            Parameter::new("environment", "Radiance of rays that meet no surface.").aliases("environment sky envmap world");
         const TEXTURES: Parameter = Parameter::new("textures", "Textures by name.").aliases("texture");
         const MATERIALS: Parameter = Parameter::new("materials", "Materials by name.").aliases("material bsdfs");
         const OBJECTS: Parameter =
             Parameter::new("objects", "The objects of the scene, one table each.").aliases("object shapes");
-        const LAMPS: Parameter = Parameter::new("lamps", "Lamps without surface, one table each.").aliases("lights lamp");
+        const LIGHTS: Parameter = Parameter::new("lights", "Punctual lights, one table each.").aliases("lights light");
         p.count(&VERSION, &mut FORMAT.clone(), CountRange::new(FORMAT, FORMAT));
         presentation::texts(p, &mut self.title, &mut self.notes);
         p.table(&CAMERA, &mut self.camera);
-        p.optional_table(&BACKGROUND, &mut self.background);
+        p.optional_table(&ENVIRONMENT, &mut self.environment);
         p.map(&TEXTURES, &mut self.textures);
         p.map(&MATERIALS, &mut self.materials);
         p.list(&OBJECTS, &mut self.objects);
-        p.list(&LAMPS, &mut self.lamps);
-        presentation::settings_and_truth(p, &mut self.render, &mut self.truth);
+        p.list(&LIGHTS, &mut self.punctual_lights);
+        presentation::settings_and_reference(p, &mut self.render, &mut self.reference);
     }
 }

@@ -13,11 +13,11 @@ impl SceneDescription {
             [Step::Key(list), Step::Item(place), ..] if list == "objects" => {
                 or_number(self.objects.get(*place).map(|object| &object.name), "object", *place)
             }
-            [Step::Key(list), Step::Item(place), ..] if list == "lamps" => {
-                or_number(self.lamps.get(*place).map(|lamp| &lamp.name), "lamp", *place)
+            [Step::Key(list), Step::Item(place), ..] if list == "lights" => {
+                or_number(self.punctual_lights.get(*place).map(|punctual_light| &punctual_light.name), "light", *place)
             }
             [Step::Key(map), Step::Key(name), ..] if map == "materials" || map == "textures" => name.clone(),
-            [Step::Key(table), ..] if table == "camera" || table == "background" => table.clone(),
+            [Step::Key(table), ..] if table == "camera" || table == "environment" => table.clone(),
             [Step::Key(table), ..] if table == "render" => "settings".to_owned(),
             _ => "scene".to_owned(),
         }
@@ -48,8 +48,8 @@ pub fn parameter_name(path: &Path) -> String {
 /// The steps of a path that lead to a part of the scene.
 fn steps_of_part(path: &Path) -> usize {
     match path.0.first() {
-        Some(Step::Key(key)) if ["objects", "lamps", "materials", "textures"].contains(&key.as_str()) => 2,
-        Some(Step::Key(key)) if ["camera", "background", "render"].contains(&key.as_str()) => 1,
+        Some(Step::Key(key)) if ["objects", "lights", "materials", "textures"].contains(&key.as_str()) => 2,
+        Some(Step::Key(key)) if ["camera", "environment", "render"].contains(&key.as_str()) => 1,
         _ => 0,
     }
 }
@@ -71,7 +71,7 @@ mod tests {
             ("objects.5.flip", "object 6: flip"),
             ("objects.0.transform.1", "ball: transform 2"),
             ("objects.0.transform.1.rotate.degrees", "ball: degrees of transform 2"),
-            ("lamps.0.spot.angle", "lamp 1: angle"),
+            ("lights.0.spot.angle", "light 1: angle"),
             ("materials.gold.conductor.roughness", "gold: roughness"),
             ("textures.wood", "wood"),
             ("camera.lens.radius", "camera: radius"),

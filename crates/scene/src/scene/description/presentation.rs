@@ -1,8 +1,8 @@
 //! The parameters of a scene besides its camera and its contents.
-use super::{RenderDescription, SceneDescription, TruthDescription};
+use super::{ReferenceDescription, RenderDescription, SceneDescription};
 use noisefall_base::declare::{Declare, Parameter, Parameters, Value};
 
-/// Title, notes, settings and truth of a scene. Their paths are those in the whole description.
+/// Title, notes, settings and reference of a scene. Their paths are those in the whole description.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Presentation {
     /// Title in the window and in reports.
@@ -12,21 +12,21 @@ pub struct Presentation {
     /// The settings that the scene opens with.
     pub render: RenderDescription,
     /// What the image must converge to, if it is known.
-    pub truth: Option<TruthDescription>,
+    pub reference: Option<ReferenceDescription>,
 }
 
 impl Presentation {
     /// Copies it from a description.
     pub fn of(description: &SceneDescription) -> Presentation {
-        let SceneDescription { title, notes, render, truth, .. } = description;
-        Presentation { title: title.clone(), notes: notes.clone(), render: render.clone(), truth: truth.clone() }
+        let SceneDescription { title, notes, render, reference, .. } = description;
+        Presentation { title: title.clone(), notes: notes.clone(), render: render.clone(), reference: reference.clone() }
     }
 }
 
 impl Declare for Presentation {
     fn parameters(&mut self, p: &mut dyn Parameters) {
         texts(p, &mut self.title, &mut self.notes);
-        settings_and_truth(p, &mut self.render, &mut self.truth);
+        settings_and_reference(p, &mut self.render, &mut self.reference);
     }
 }
 
@@ -37,10 +37,14 @@ pub(super) fn texts(p: &mut dyn Parameters, title: &mut String, notes: &mut Stri
     p.value(&NOTES, Value::Text(notes));
 }
 
-pub(super) fn settings_and_truth(p: &mut dyn Parameters, render: &mut RenderDescription, truth: &mut Option<TruthDescription>) {
+pub(super) fn settings_and_reference(
+    p: &mut dyn Parameters,
+    render: &mut RenderDescription,
+    reference: &mut Option<ReferenceDescription>,
+) {
     const RENDER: Parameter = Parameter::new("render", "The settings that the scene opens with.").aliases("integrator settings");
-    const TRUTH: Parameter =
-        Parameter::new("truth", "What the image must converge to, if it is known.").title("Reference").aliases("reference");
+    const REFERENCE: Parameter =
+        Parameter::new("reference", "What the image must converge to, if it is known.").title("Reference").aliases("reference");
     p.optional_part(&RENDER, render);
-    p.optional_table(&TRUTH, truth);
+    p.optional_table(&REFERENCE, reference);
 }

@@ -9,7 +9,7 @@ impl Weighting for Bidirectional {
     const WORD: Word = Word {
         name: "bidirectional",
         title: "Bidirectional",
-        doc: "Joins paths from the camera with paths from lights in all ways (s, t), weighted by the balance heuristic. Good for caustics and hidden lamps.",
+        doc: "Joins paths from the camera with paths from lights in all ways (s, t), weighted by the balance heuristic. Good for caustics and hidden lights.",
     };
     const STRATEGIES: &'static str =
         "(s, t): s vertices from a light joined with t from the camera, in all ways; balance heuristic";

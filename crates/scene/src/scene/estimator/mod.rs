@@ -33,7 +33,7 @@ noisefall_base::declare::word_kinds! {
 }
 
 impl Estimator {
-    /// Whether lights that rays can hit are sampled, in addition to emitter hits. Lamps without surface always are.
+    /// Whether lights that rays can hit are sampled, in addition to emitter hits. Punctual lights always are.
     #[inline(always)]
     pub fn samples_lights(self) -> bool {
         in_estimator!(self, E => E::SAMPLES_LIGHTS)

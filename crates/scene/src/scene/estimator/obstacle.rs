@@ -15,9 +15,9 @@ noisefall_base::declare::words! {
         NoStart: "no_start", "no light at which paths can start, or too many of them", "There is nothing to trace.";
         ShadingNormals: "shading_normals", "smooth meshes, bump or normal maps", "From some sides, their normals are not those that a path from the light sees.";
         Isosurface: "isosurface", "isosurfaces that emit light", "No points of them are sampled.";
-        ClearLamp: "clear_lamp", "lamps that let light pass", "A path would start within the surface.";
+        ClearLight: "clear_lamp", "lights that let light pass", "A path would start within the surface.";
         FarWithinMedium: "far_within_medium", "light from far away within a medium", "It has no distance over which the medium attenuates it.";
-        LampAtGlass: "lamp_at_glass", "lamps that may touch or cross the surface of a dielectric", "The media around them are not known.";
+        LightAtGlass: "lamp_at_glass", "lights that may touch or cross the surface of a dielectric", "The media around them are not known.";
     }
 }
 
@@ -42,9 +42,9 @@ impl Obstacle {
             | Obstacle::NoStart => Stops::All,
             Obstacle::ShadingNormals
             | Obstacle::Isosurface
-            | Obstacle::ClearLamp
+            | Obstacle::ClearLight
             | Obstacle::FarWithinMedium
-            | Obstacle::LampAtGlass => Stops::Alone,
+            | Obstacle::LightAtGlass => Stops::Alone,
         }
     }
 

@@ -5,7 +5,7 @@ use noisefall_base::{
     math::{F, Lanes},
 };
 
-/// Only emitter hits of paths count, and light samples of lamps without surface, which no path can hit.
+/// Only emitter hits of paths count, and light samples of punctual lights, which no path can hit.
 pub(super) struct Path;
 
 impl Weighting for Path {
@@ -14,7 +14,7 @@ impl Weighting for Path {
         title: "BSDF sampling",
         doc: "Finds lights only by hitting them; punctual lights are sampled. The simplest estimator; very noisy for small lights.",
     };
-    const STRATEGIES: &'static str = "camera paths that hit a light; samples of lamps without surface";
+    const STRATEGIES: &'static str = "camera paths that hit a light; samples of punctual lights";
     const SAMPLES_LIGHTS: bool = false;
 
     #[inline(always)]

@@ -13,7 +13,7 @@ pub const FLIPPED: u32 = 1 << 21;
 pub const ONE_SIDED: u32 = 1 << 22;
 /// Flag: α is the square of its texture.
 pub const SQUARED: u32 = 1 << 23;
-/// Flag: the surface transmits and emits. Of lights, it samples only lamps without surface, because it would find its own back.
+/// Flag: the surface transmits and emits. Of lights, it samples only punctual lights, because it would find its own back.
 pub const SELF_LIT: u32 = 1 << 24;
 /// Flag: black colours scatter light too; see [`crate::material::CompiledMaterial::scatters_where_black`].
 pub const SCATTERS_WHERE_BLACK: u32 = 1 << 25;

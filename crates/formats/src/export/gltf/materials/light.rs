@@ -21,9 +21,9 @@ impl Export<'_> {
         let reflects = material.two_sided != Some(false);
         match (emission.two_sided, reflects) {
             (false, true) if !is_hidden => {
-                self.remark("a lamp whose back reflects", "`doubleSided` false", "its back is black");
+                self.remark("a light whose back reflects", "`doubleSided` false", "its back is black");
             }
-            (true, false) => self.remark("a lamp whose back does not reflect", "`doubleSided` true", "its back reflects too"),
+            (true, false) => self.remark("a light whose back does not reflect", "`doubleSided` true", "its back reflects too"),
             _ => {}
         }
         emission.two_sided

@@ -1,4 +1,4 @@
-//! Materials, textures and lamps.
+//! Materials, textures and lights.
 use std::f64::consts::SQRT_2;
 
 use glam::DVec3;
@@ -13,8 +13,8 @@ use noisefall_scene::{
     image::Encoding,
     light::{
         emission::radiance::Radiance,
-        lamp::{
-            LampKind,
+        punctual_light::{
+            PunctualLightKind,
             directional::Directional,
             point::Point,
             spot::{Falloff, Spot},
@@ -23,7 +23,7 @@ use noisefall_scene::{
     material::{
         Conductor, Dielectric, Lambertian, Material, Reflectance, Roughness, mirror::Mirror, null::Null, principled::Principled,
     },
-    scene::description::{EmissionDescription, LampDescription, MaterialDescription, SceneDescription, TextureKind},
+    scene::description::{EmissionDescription, MaterialDescription, PunctualLightDescription, SceneDescription, TextureKind},
     shape::{Sphere, cuboid::Cuboid},
     texture::{
         checker::Checker,
@@ -280,7 +280,7 @@ fn emission_comes_back() {
     let of = |radiance: [f64; 3], scale| {
         let mut scene = SceneDescription::default();
         let source = Radiance { radiance }.into();
-        scene.add_object("lamp", Sphere::default()).emission = Some(EmissionDescription { source, two_sided: true, scale });
+        scene.add_object("light", Sphere::default()).emission = Some(EmissionDescription { source, two_sided: true, scale });
         let RoundTrip { imported, .. } = round_trip(&scene, &Assets::default());
         imported.description.objects[0].emission.clone()
     };
@@ -295,18 +295,20 @@ fn lamps_come_back() {
     let position = DVec3::new(1.0, 2.0, 3.0);
     let target = position + DVec3::new(0.0, -SQRT_2, -SQRT_2) / 2.0;
     let spot = Spot { position, target, intensity: [1.0, 2.0, 4.0], angle: 30.0, inner: 15.0, falloff: Falloff::Square };
-    let cases: [LampKind; 3] = [
+    let cases: [PunctualLightKind; 3] = [
         Point { position, intensity: [1.0, 2.0, 4.0] }.into(),
         Directional { direction: DVec3::new(0.0, -1.0, 0.0), irradiance: [3.0, 1.5, 0.0] }.into(),
         spot.clone().into(),
     ];
-    let lamps = cases.iter().map(|kind| LampDescription { name: "lamp".to_owned(), kind: kind.clone(), transform: Vec::new() });
-    let mut scene = SceneDescription { lamps: lamps.collect(), ..SceneDescription::default() };
+    let punctual_lights =
+        cases.iter().map(|kind| PunctualLightDescription { name: "light".to_owned(), kind: kind.clone(), transform: Vec::new() });
+    let mut scene = SceneDescription { punctual_lights: punctual_lights.collect(), ..SceneDescription::default() };
     scene.camera.resolution = [1280, 960];
     let RoundTrip { imported, remarks, .. } = round_trip(&scene, &Assets::default());
-    let found: Vec<LampKind> = imported.description.lamps.iter().map(|lamp| lamp.kind.clone()).collect();
+    let found: Vec<PunctualLightKind> =
+        imported.description.punctual_lights.iter().map(|punctual_light| punctual_light.kind.clone()).collect();
     assert_eq!(found[..2], cases[..2]);
-    let LampKind::Spot(back) = &found[2] else { panic!("a spot") };
+    let PunctualLightKind::Spot(back) = &found[2] else { panic!("a spot") };
     assert!((back.target - target).length() < 1e-12 && (back.angle - 30.0).abs() + (back.inner - 15.0).abs() < 1e-12);
     assert_eq!((back.position, back.intensity, back.falloff), (spot.position, spot.intensity, spot.falloff));
     assert_eq!(remarks, [""; 0]);

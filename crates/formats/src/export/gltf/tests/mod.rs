@@ -34,7 +34,7 @@ fn every_shipped_scene_can_be_written_and_read() {
         assert_eq!(text.imported.description.objects, binary.imported.description.objects, "{name}");
         assert_eq!(text.imported.description.materials.len(), binary.imported.description.materials.len(), "{name}");
         assert_eq!(text.remarks, binary.remarks, "{name}");
-        assert_eq!(text.imported.description.lamps.len(), ours.lamps.len(), "{name}");
+        assert_eq!(text.imported.description.punctual_lights.len(), ours.punctual_lights.len(), "{name}");
         let view = |camera: &CameraDescription| (camera.look_at - camera.eye).normalize();
         let (a, b) = (&ours.camera, &text.imported.description.camera);
         assert!(near(a.eye, b.eye) && near(view(a), view(b)), "{name}");

@@ -66,15 +66,15 @@ fn each_loss_of_shapes_light_and_camera_is_a_remark() {
     for (text, expected) in [
         (object(sphere), "a shape `sphere`"),
         (object(&format!("{square}\nmotion = [{{ translate = [1, 0, 0] }}]")), "`motion`"),
-        (object(&format!("{square}\nemission = {{ radiance = 1 }}")), "a lamp whose back reflects"),
+        (object(&format!("{square}\nemission = {{ radiance = 1 }}")), "a light whose back reflects"),
         (
             object(
                 "shape = { isosurface = { expression = \"x^2 + y^2 + z^2 - 1\", bounds = { min = [-2, -2, -2], max = [2, 2, 2] } } }",
             ),
             "an isosurface",
         ),
-        (object(square) + "[[lamps]]\nspot = { position = [0, 3, 0], target = [0, 0, 0] }\n", "the falloff of a spot"),
-        (object(square) + "[[lamps]]\nprojector = { position = [0, 3, 0], target = [0, 0, 1] }\n", "a projector"),
+        (object(square) + "[[lights]]\nspot = { position = [0, 3, 0], target = [0, 0, 0] }\n", "the falloff of a spot"),
+        (object(square) + "[[lights]]\nprojector = { position = [0, 3, 0], target = [0, 0, 1] }\n", "a projector"),
         (
             "[textures.squares]\nchecker = { even = 0.0, odd = 1.0, scale = 4.0 }\n\
              [materials.m]\nlambertian = { albedo = { texture = \"squares\" } }\n[[objects]]\nmaterial = \"m\"\n\
@@ -82,7 +82,7 @@ fn each_loss_of_shapes_light_and_camera_is_a_remark() {
                 .to_owned(),
             "textures of a mesh without coordinates",
         ),
-        (object(square) + "[background]\nsky = { sun = [1, 1, 1] }\n", "a background `sky`"),
+        (object(square) + "[environment]\nsky = { sun = [1, 1, 1] }\n", "a background `sky`"),
         (object(square) + "[render]\nmax_bounces = 3\n", "`max_bounces` 3"),
         (object(square) + "[camera.lens]\nradius = 0.1\nfocus = 4\n", "`lens`"),
     ] {

@@ -1,12 +1,12 @@
-//! Materials and lamps that Mitsuba has come back as they were.
+//! Materials and lights that Mitsuba has come back as they were.
 use glam::DVec3;
 
 use super::{RoundTrip, round_trip, scenes};
 use crate::import::mitsuba::coat;
 use noisefall_base::declare::Textured;
 use noisefall_scene::{
-    light::lamp::{
-        LampKind,
+    light::punctual_light::{
+        PunctualLightKind,
         directional::Directional,
         point::Point,
         spot::{Falloff, Spot},
@@ -15,7 +15,7 @@ use noisefall_scene::{
         Conductor, Dielectric, Disney, Distribution, Lambertian, Material, Plastic, Reflectance, RoughPlastic, Roughness,
         blend::Blend, null::Null, thin_dielectric::ThinDielectric,
     },
-    scene::description::{Bump, LampDescription, MaterialDescription, SceneDescription, TextureKind},
+    scene::description::{Bump, MaterialDescription, PunctualLightDescription, SceneDescription, TextureKind},
     shape::Sphere,
     texture::{
         checker::Checker,
@@ -140,7 +140,7 @@ fn tints_and_beckmann_facets_come_back() {
 }
 
 #[test]
-fn lamps_with_a_plugin_come_back() {
+fn lights_with_a_plugin_come_back() {
     let position = DVec3::new(1.0, 2.0, 3.0);
     let spot = Spot {
         position,
@@ -150,15 +150,17 @@ fn lamps_with_a_plugin_come_back() {
         inner: 15.0,
         falloff: Falloff::Linear,
     };
-    let cases: [LampKind; 3] = [
+    let cases: [PunctualLightKind; 3] = [
         Point { position, intensity: [1.0, 2.0, 3.0] }.into(),
         Directional { direction: DVec3::new(0.0, -1.0, 0.0), irradiance: [3.0, 2.0, 1.0] }.into(),
         spot.into(),
     ];
-    let lamps = cases.iter().map(|kind| LampDescription { kind: kind.clone(), ..LampDescription::default() }).collect();
-    let scene = SceneDescription { lamps, ..SceneDescription::default() };
+    let punctual_lights =
+        cases.iter().map(|kind| PunctualLightDescription { kind: kind.clone(), ..PunctualLightDescription::default() }).collect();
+    let scene = SceneDescription { punctual_lights, ..SceneDescription::default() };
     let RoundTrip { imported, remarks, .. } = round_trip(&scene, &scenes());
-    let found: Vec<LampKind> = imported.description.lamps.iter().map(|lamp| lamp.kind.clone()).collect();
+    let found: Vec<PunctualLightKind> =
+        imported.description.punctual_lights.iter().map(|punctual_light| punctual_light.kind.clone()).collect();
     assert_eq!(found, cases);
     assert!(remarks.is_empty(), "{remarks:?}");
 }

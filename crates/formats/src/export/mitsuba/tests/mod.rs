@@ -50,7 +50,7 @@ fn same(a: &Shape, b: &Shape) -> bool {
 
 #[test]
 fn shipped_scenes_come_back() {
-    // All of their shapes, materials and lamps have a plugin; remarks are about energy compensation and the like.
+    // All of their shapes, materials and lights have a plugin; remarks are about energy compensation and the like.
     for name in ["cornell_box", "glass_and_mirror", "instanced_field", "furnace", "tiny_lamp"] {
         let ours = shipped(name);
         let RoundTrip { imported: Imported { description: theirs, assets, .. }, folder, .. } = round_trip(&ours, &scenes());
@@ -59,7 +59,7 @@ fn shipped_scenes_come_back() {
         assert!(near(a.eye, b.eye) && (a.fov.unwrap_or(0.0) - b.fov.unwrap_or(0.0)).abs() < 1e-9, "{name}");
         assert!(near((a.look_at - a.eye).normalize(), (b.look_at - b.eye).normalize()), "{name}");
         assert_eq!(ours.render.settings.max_bounces, theirs.render.settings.max_bounces, "{name}");
-        assert_eq!(ours.background, theirs.background, "{name}");
+        assert_eq!(ours.environment, theirs.environment, "{name}");
         let resources = [Resources::new(scenes()), Resources::new(folder.path()).with_assets(assets)];
         let shapes = |scene: &SceneDescription, resources: &Resources| -> Vec<(Shape, bool, Option<String>)> {
             let all = scene.objects.iter().flat_map(|object| {
@@ -86,6 +86,6 @@ fn every_shipped_scene_can_be_written_and_read() {
         let ours = shipped(&name);
         let RoundTrip { imported, content, .. } = round_trip(&ours, &scenes());
         assert!(content.starts_with(b"<?xml") && !imported.description.objects.is_empty(), "{name}");
-        assert_eq!(ours.lamps.len(), imported.description.lamps.len(), "{name}");
+        assert_eq!(ours.punctual_lights.len(), imported.description.punctual_lights.len(), "{name}");
     }
 }

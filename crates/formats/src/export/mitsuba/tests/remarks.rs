@@ -60,12 +60,12 @@ fn each_loss_of_shapes_and_light_is_a_remark() {
             ),
             "an isosurface",
         ),
-        (object(sphere) + "[[lamps]]\nspot = { position = [0, 3, 0], target = [0, 0, 0] }\n", "the falloff of a spot"),
+        (object(sphere) + "[[lights]]\nspot = { position = [0, 3, 0], target = [0, 0, 0] }\n", "the falloff of a spot"),
         (
-            object(sphere) + "[[lamps]]\nprojector = { position = [0, 3, 0], target = [0, 0, 1] }\n",
+            object(sphere) + "[[lights]]\nprojector = { position = [0, 3, 0], target = [0, 0, 1] }\n",
             "a projector of even intensity",
         ),
-        (object(sphere) + "[background]\nsky = { sun = [1, 1, 1] }\n", "a sky by Preetham"),
+        (object(sphere) + "[environment]\nsky = { sun = [1, 1, 1] }\n", "a sky by Preetham"),
     ] {
         let found = remarks(&text);
         assert!(found.iter().any(|found| found.contains(expected)), "{text}: {found:?}");

@@ -1,11 +1,11 @@
-//! When a scene keeps the studio sky: unless lamps or emission light it.
+//! When a scene keeps the studio sky: unless lights or emission light it.
 use super::{looks::with, *};
 
 /// Whether a triangle with this emission has the sky, whether it still emits, and the remarks.
 fn lit(material: &Value, texel: [u8; 4]) -> (bool, bool, String) {
     let found = with(material, json!({ "images": [{ "name": "glow", "uri": uri(&looks::png(texel)) }] }));
     let emits = found.description.objects[0].emission.is_some();
-    (found.description.background.is_some(), emits, found.remarks.lines(20).join("\n"))
+    (found.description.environment.is_some(), emits, found.remarks.lines(20).join("\n"))
 }
 
 #[test]
@@ -54,5 +54,5 @@ fn black_images_beside_the_scene_are_no_light() {
     let path = folder.path().join("scene.gltf");
     fs::write(&path, json.to_string()).expect("it is written");
     let found = import::read(&path, &ImportOptions::default()).unwrap_or_else(|error| panic!("{}", error.report()));
-    assert!(found.description.objects[0].emission.is_none() && found.description.background.is_some());
+    assert!(found.description.objects[0].emission.is_none() && found.description.environment.is_some());
 }

@@ -1,4 +1,4 @@
-//! Materials, textures, lamps and variants.
+//! Materials, textures, lights and variants.
 use super::*;
 use noisefall_base::declare::Textured;
 use noisefall_scene::{
@@ -183,7 +183,7 @@ fn unlit_surfaces_emit_their_color_and_reflect_nothing() {
     assert!(matches!(&material(&found).kind, Material::Lambertian(black) if black.albedo == Textured::grey(0.0)));
     let emission = found.description.objects[0].emission.as_ref().expect("it emits");
     assert!(matches!(&emission.source, EmissionSource::Radiance(found) if found.radiance == [0.5, 0.25, 0.0]));
-    assert!(found.description.background.is_none(), "there is light");
+    assert!(found.description.environment.is_none(), "there is light");
 }
 
 #[test]
@@ -221,13 +221,13 @@ fn textures_that_are_missing_are_remarks() {
 }
 
 #[test]
-fn lamps_hang_at_their_nodes() {
+fn lights_hang_at_their_nodes() {
     let light = json!({ "KHR_lights_punctual": { "lights": [{ "type": "point", "intensity": 683, "range": 4 }] } });
     let nodes = json!([{ "mesh": 0, "children": [1] , "translation": [1, 0, 0] },
         { "name": "bulb", "translation": [0, 2, 0], "extensions": { "KHR_lights_punctual": { "light": 0 } } }]);
     let found = imported(&triangle(json!({ "extensions": light, "nodes": nodes })));
-    let lamp = &found.description.lamps[0];
-    let noisefall_scene::light::lamp::LampKind::Point(point) = &lamp.kind else { panic!("a point") };
-    assert_eq!((lamp.name.as_str(), point.position.to_array(), point.intensity), ("bulb", [1.0, 2.0, 0.0], [1.0; 3]));
-    assert!(found.description.background.is_none() && found.remarks.lines(9).iter().any(|line| line.contains("range")));
+    let punctual_light = &found.description.punctual_lights[0];
+    let noisefall_scene::light::punctual_light::PunctualLightKind::Point(point) = &punctual_light.kind else { panic!("a point") };
+    assert_eq!((punctual_light.name.as_str(), point.position.to_array(), point.intensity), ("bulb", [1.0, 2.0, 0.0], [1.0; 3]));
+    assert!(found.description.environment.is_none() && found.remarks.lines(9).iter().any(|line| line.contains("range")));
 }

@@ -8,7 +8,7 @@ fn a_triangle_has_a_camera_and_light_that_are_not_its_own() {
     assert_eq!(model(&found, 0).triangles, [[0, 1, 2]]);
     let ShapeKind::Mesh(mesh) = &found.description.objects[0].shape else { panic!("a mesh") };
     assert_eq!(mesh.smooth, Some(false), "flat without normals");
-    assert!(found.description.background.is_some());
+    assert!(found.description.environment.is_some());
     let lines = found.remarks.lines(9);
     assert!(lines.len() == 2 && lines[0].contains("no camera") && lines[1].contains("no light"), "{lines:?}");
 }

@@ -6,7 +6,7 @@ use noisefall_base::{
     progress::{Progress, Stage},
 };
 use noisefall_scene::{
-    light::background::BackgroundDescription, model::Model, scene::description::ShapeKind, shape::mesh::MeshSource,
+    light::environment::EnvironmentDescription, model::Model, scene::description::ShapeKind, shape::mesh::MeshSource,
 };
 
 /// The mesh files of the objects.
@@ -28,22 +28,22 @@ fn a_file_with_one_material_is_an_object_of_the_file() {
     let scene = scene(&format!("{SQUARE}f 1 2 3\n"), &[]);
     assert_eq!(files(&scene), ["a.obj"]);
     assert_eq!((scene.description.objects[0].name.as_str(), scene.description.materials.len()), ("a", 1));
-    assert!(matches!(scene.description.background, Some(BackgroundDescription::Image(_))));
+    assert!(matches!(scene.description.environment, Some(EnvironmentDescription::Image(_))));
     let found: Vec<&str> = scene.remarks.iter().map(|counted| counted.remark.found.as_str()).collect();
     assert_eq!(found, ["no material", "no camera", "no light"]);
 }
 
 #[test]
 fn each_material_is_an_object_with_a_mesh_in_memory() {
-    let mtl = b"newmtl red/1\nKd 1 0 0\nnewmtl lamp\nKd 0 0 0\nKe 2 3 4\n";
-    let obj = format!("mtllib a.mtl\n{SQUARE}usemtl red/1\nf 1 2 3\nusemtl lamp\nf 1 3 4\nusemtl red/1\nf 2 3 4\n");
+    let mtl = b"newmtl red/1\nKd 1 0 0\nnewmtl light\nKd 0 0 0\nKe 2 3 4\n";
+    let obj = format!("mtllib a.mtl\n{SQUARE}usemtl red/1\nf 1 2 3\nusemtl light\nf 1 3 4\nusemtl red/1\nf 2 3 4\n");
     let scene = scene(&obj, &[("a.mtl", mtl)]);
-    assert_eq!(files(&scene), ["meshes/red_1.ply", "meshes/lamp.ply"]);
+    assert_eq!(files(&scene), ["meshes/red_1.ply", "meshes/light.ply"]);
     let names: Vec<&str> = scene.description.objects.iter().map(|object| object.name.as_str()).collect();
-    assert_eq!(names, ["red/1", "lamp"]);
+    assert_eq!(names, ["red/1", "light"]);
     assert_eq!(scene.assets.get::<Model>("meshes/red_1.ply").expect("it is there").triangles.len(), 2);
-    // The lamp is the light.
-    assert!(scene.description.objects[1].emission.is_some() && scene.description.background.is_none());
+    // The light is the light.
+    assert!(scene.description.objects[1].emission.is_some() && scene.description.environment.is_none());
     assert_eq!(scene.remarks.len(), 1, "{:?}", scene.remarks.lines(9));
 }
 

@@ -8,23 +8,23 @@ use super::{
 use crate::import::pictures;
 use noisefall_scene::{
     image::{self, Encoding, Picture},
-    light::background::{
+    light::environment::{
         constant::Constant,
         image::Image,
         sky::{Sky, SkyModel},
     },
     scene::{
         SceneError,
-        description::{BackgroundDescription, Textured},
+        description::{EnvironmentDescription, Textured},
     },
     shape::Transform,
 };
 
-fn set(import: &mut Import, element: Element, background: impl Into<BackgroundDescription>) {
-    if import.description.background.is_some() {
+fn set(import: &mut Import, element: Element, environment: impl Into<EnvironmentDescription>) {
+    if import.description.environment.is_some() {
         import.remark(element, "this background alone", "the light of the first background is missing");
     }
-    import.description.background = Some(background.into());
+    import.description.environment = Some(environment.into());
 }
 
 pub fn constant(import: &mut Import, element: Element) -> Result<(), SceneError> {
@@ -119,7 +119,7 @@ pub fn sky(import: &mut Import, element: Element) -> Result<(), SceneError> {
     if sun_scale > 0.0 {
         import.remark(element, "a sun whose edge is blurred over 0.2°", "shadows have slightly softer edges");
     }
-    let background = Sky {
+    let environment = Sky {
         sun,
         turbidity: known_turbidity,
         sky_scale: sky_scale.clamp(0.0, 1e12),
@@ -129,6 +129,6 @@ pub fn sky(import: &mut Import, element: Element) -> Result<(), SceneError> {
         sun_diameter: known_diameter,
         zenith: map.transform_vector3(if is_old { DVec3::Y } else { DVec3::Z }).normalize_or(DVec3::Z),
     };
-    set(import, element, background);
+    set(import, element, environment);
     Ok(())
 }

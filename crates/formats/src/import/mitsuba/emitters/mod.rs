@@ -3,7 +3,7 @@ pub mod area;
 mod dark;
 mod distorted;
 mod environment;
-mod lamps;
+mod punctual_lights;
 mod sun;
 
 use super::{context::Import, tree::Element};
@@ -19,10 +19,10 @@ impl Import {
     pub fn emitter(&mut self, element: Element) -> Result<(), SceneError> {
         element.ignore(&["sampling_weight"]);
         match element.kind() {
-            "point" => lamps::point(self, element),
-            "spot" => lamps::spot(self, element),
-            "directional" => lamps::directional(self, element),
-            "projector" => lamps::projector(self, element),
+            "point" => punctual_lights::point(self, element),
+            "spot" => punctual_lights::spot(self, element),
+            "directional" => punctual_lights::directional(self, element),
+            "projector" => punctual_lights::projector(self, element),
             "constant" => environment::constant(self, element),
             "envmap" => environment::image(self, element),
             "sunsky" | "sun" | "sky" => environment::sky(self, element),

@@ -107,7 +107,7 @@ impl Import {
         Ok(())
     }
 
-    /// The material of a shape. Lamps without a BSDF reflect nothing, as in Mitsuba.
+    /// The material of a shape. Lights without a BSDF reflect nothing, as in Mitsuba.
     fn covering(&mut self, element: Element) -> Result<Option<String>, SceneError> {
         let bare = match element.objects(&["bsdf"])?.last() {
             Some((_, bsdf)) => self.surface(*bsdf, false)?.material,

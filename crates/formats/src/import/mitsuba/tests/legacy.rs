@@ -4,9 +4,9 @@ use glam::DVec3;
 use super::{SENSOR, material, read_with, remarks};
 use crate::import::{ImportOptions, Imported};
 use noisefall_scene::{
-    light::background::sky::Sky,
+    light::environment::sky::Sky,
     material::{Material, Reflectance, Roughness},
-    scene::description::{BackgroundDescription, TextureKind, Textured},
+    scene::description::{EnvironmentDescription, TextureKind, Textured},
     texture::image::Wrap,
 };
 
@@ -17,8 +17,8 @@ fn old(within: &str) -> Imported {
 }
 
 fn sky(values: &str) -> Sky {
-    match old(&format!("<emitter type=\"sunsky\">{values}</emitter>")).description.background {
-        Some(BackgroundDescription::Sky(sky)) => sky,
+    match old(&format!("<emitter type=\"sunsky\">{values}</emitter>")).description.environment {
+        Some(EnvironmentDescription::Sky(sky)) => sky,
         other => panic!("{other:?}"),
     }
 }

@@ -40,8 +40,8 @@ fn mitsubas_own_tests_are_read_and_those_with_media_are_refused() {
                 assert!(!name.to_string().contains("participating_media"), "{name} is read");
                 let problems = check(&mut imported.description.clone());
                 assert!(problems.is_empty(), "{name}: {problems:?}");
-                let (objects, lamps) = (imported.description.objects.len(), imported.description.lamps.len());
-                println!("{name}: {objects} objects, {lamps} lamps");
+                let (objects, punctual_lights) = (imported.description.objects.len(), imported.description.punctual_lights.len());
+                println!("{name}: {objects} objects, {punctual_lights} lights");
                 imported.remarks.lines(20).iter().for_each(|line| println!("    {line}"));
             }
         }

@@ -11,7 +11,7 @@ use crate::import::{
 use noisefall_base::memory::reserve;
 use noisefall_scene::{
     image::{Encoding, Texels, read_light},
-    light::background::{BackgroundDescription, constant::Constant, image::Image},
+    light::environment::{EnvironmentDescription, constant::Constant, image::Image},
     scene::SceneError,
     shape::Transform,
 };
@@ -42,9 +42,9 @@ impl Import {
 
     /// Adds the same radiance from everywhere to what is there.
     fn add_constant(&mut self, entity: &Entity, radiance: [f64; 3]) {
-        match &mut self.description.background {
-            None => self.description.background = Some(Constant { radiance }.into()),
-            Some(BackgroundDescription::Constant(known)) => {
+        match &mut self.description.environment {
+            None => self.description.environment = Some(Constant { radiance }.into()),
+            Some(EnvironmentDescription::Constant(known)) => {
                 known.radiance = [0, 1, 2].map(|channel| known.radiance[channel] + radiance[channel]);
             }
             Some(_) => self.remark(entity, "nothing", "there is one image of the sky, and this light is missing"),
@@ -89,12 +89,12 @@ impl Import {
             }
             (self.files.folder.described(path), frame * FROM_EQUIRECTANGULAR)
         };
-        if self.description.background.is_some() {
+        if self.description.environment.is_some() {
             self.remark(entity, "this image alone", "there is one sky, and the others are missing");
         }
         let transform = Transform::list_of(&DAffine3::from_mat3(frame));
         let sky = Image { path: image, scale: scale.clamp(1e-12, 1e12), transform, ..Image::default() };
-        self.description.background = Some(sky.into());
+        self.description.environment = Some(sky.into());
         Ok(())
     }
 }

@@ -5,13 +5,13 @@
 //!
 //! | lights | file |
 //! |---|---|
-//! | `point`, `spot`, `distant`, `goniometric`, `projection` | `lamps.rs` |
+//! | `point`, `spot`, `distant`, `goniometric`, `projection` | `lights.rs` |
 //! | `infinite` | `infinite.rs`, images in `octahedron.rs` |
 //! | `diffuse` of surfaces | `area.rs` |
 mod area;
 mod infinite;
-mod lamps;
 mod octahedron;
+mod punctual_lights;
 
 use glam::DAffine3;
 
@@ -26,11 +26,11 @@ impl Import {
     pub fn light(&mut self, entity: &Entity, map: DAffine3) -> Result<(), SceneError> {
         let map = self.mirror * map;
         match entity.kind.as_str() {
-            "point" => self.point_lamp(entity, &map)?,
-            "spot" => self.spot_lamp(entity, &map)?,
-            "distant" => self.distant_lamp(entity, &map)?,
-            "goniometric" => self.goniometric_lamp(entity, &map)?,
-            "projection" => self.projection_lamp(entity, &map)?,
+            "point" => self.point_light(entity, &map)?,
+            "spot" => self.spot_light(entity, &map)?,
+            "distant" => self.distant_light(entity, &map)?,
+            "goniometric" => self.goniometric_light(entity, &map)?,
+            "projection" => self.projection_light(entity, &map)?,
             "infinite" => self.infinite(entity, &map)?,
             other => {
                 return Err(entity.error(format!("`{other}` is not a light of pbrt-v4"), "such as point, distant or infinite"));

@@ -92,7 +92,7 @@ impl Interpreter {
         };
         let opacity = match opacity {
             Some(Textured::Constant(0.0)) if emission.is_some() => {
-                self.import.remark(entity, "a visible lamp", "the lamp is seen, and casts a shadow");
+                self.import.remark(entity, "a visible light", "the light is seen, and casts a shadow");
                 None
             }
             other => other,

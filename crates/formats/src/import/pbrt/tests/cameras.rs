@@ -68,7 +68,7 @@ fn defaults_are_those_of_pbrt() {
     let description = &found.description;
     assert_eq!((description.camera.resolution, description.render.spp), ([1280, 720], Some(16)));
     assert_eq!(description.render.settings.max_bounces, Some(5));
-    assert!(description.background.is_some(), "a scene without light gets a sky");
+    assert!(description.environment.is_some(), "a scene without light gets a sky");
     assert!(remarks(&found).is_empty());
 }
 

@@ -77,7 +77,7 @@ fn a_spectrum_file_is_read_once() {
     let lights = "LightSource \"point\" \"spectrum I\" \"a.spd\"\n".repeat(2000);
     let scene = format!("WorldBegin\n{lights}");
     let found = SceneFolder::new(&[("a.pbrt", &scene), ("a.spd", &spectrum)]).read().expect("it is read");
-    assert_eq!(found.description.lamps.len(), 2000);
+    assert_eq!(found.description.punctual_lights.len(), 2000);
 }
 
 #[test]

@@ -3,7 +3,7 @@ use glam::DVec3;
 
 use super::{SceneFolder, error, imported, remarks, world};
 use crate::import::Imported;
-use noisefall_scene::light::{background::BackgroundDescription, emission::EmissionSource, lamp::LampKind};
+use noisefall_scene::light::{emission::EmissionSource, environment::EnvironmentDescription, punctual_light::PunctualLightKind};
 
 fn radiance(found: &Imported) -> [f64; 3] {
     let emission = found.description.objects[0].emission.as_ref().expect("it emits");
@@ -47,23 +47,23 @@ fn the_film_multiplies_all_light() {
         "Film \"rgb\" \"float iso\" 200 \"float exposuretime\" .25\nWorldBegin\nLightSource \"infinite\" \"rgb L\" [1 2 4]\n\
          LightSource \"infinite\" \"rgb L\" [1 1 1] \"float scale\" 3",
     );
-    let Some(BackgroundDescription::Constant(constant)) = &found.description.background else { panic!("a constant") };
+    let Some(EnvironmentDescription::Constant(constant)) = &found.description.environment else { panic!("a constant") };
     assert!(near(constant.radiance, [2.0, 2.5, 3.5]), "{:?}", constant.radiance);
 }
 
 #[test]
-fn lamps_stand_where_the_file_puts_them() {
+fn lights_stand_where_the_file_puts_them() {
     let found = world(
         "Translate 0 0 1\nLightSource \"point\" \"rgb I\" [1 2 3] \"float scale\" 10 \"point3 from\" [1 0 0]\n\
          LightSource \"spot\" \"point3 from\" [0 5 0] \"point3 to\" [0 0 0] \"float coneangle\" 40 \"float conedeltaangle\" 10\n\
          LightSource \"distant\" \"point3 from\" [0 1 0] \"point3 to\" [0 0 0] \"float illuminance\" 7",
     );
-    let [point, spot, distant] = &found.description.lamps[..] else { panic!("three lamps") };
-    let LampKind::Point(point) = &point.kind else { panic!("a point") };
+    let [point, spot, distant] = &found.description.punctual_lights[..] else { panic!("three lights") };
+    let PunctualLightKind::Point(point) = &point.kind else { panic!("a point") };
     assert!(near(point.intensity, [10.0, 20.0, 30.0]) && point.position == DVec3::new(1.0, 0.0, 1.0));
-    let LampKind::Spot(spot) = &spot.kind else { panic!("a spot") };
+    let PunctualLightKind::Spot(spot) = &spot.kind else { panic!("a spot") };
     assert_eq!((spot.angle, spot.inner, spot.target), (40.0, 30.0, DVec3::new(0.0, 0.0, 1.0)));
-    let LampKind::Directional(sun) = &distant.kind else { panic!("a sun") };
+    let PunctualLightKind::Directional(sun) = &distant.kind else { panic!("a sun") };
     assert!(near(sun.irradiance, [7.0; 3]) && sun.direction == DVec3::NEG_Y);
     assert!(remarks(&found).is_empty());
 }
@@ -80,7 +80,7 @@ fn black_lights_are_left_out_with_a_remark() {
     ] {
         let found = world(light);
         let lines = remarks(&found).join("\n");
-        assert!(found.description.lamps.is_empty() && lines.contains("it is black"), "{light}: {lines}");
+        assert!(found.description.punctual_lights.is_empty() && lines.contains("it is black"), "{light}: {lines}");
         assert!(found.description.objects.iter().all(|object| object.emission.is_none()), "{light}");
     }
     let black = pfm([0.0; 3]);
@@ -93,7 +93,7 @@ fn black_lights_are_left_out_with_a_remark() {
         let found = with_picture(light, &black);
         let lines = remarks(&found).join("\n");
         let lit = found.description.objects.iter().any(|object| object.emission.is_some());
-        assert!(found.description.lamps.is_empty() && !lit && lines.contains("it is black"), "{light}: {lines}");
+        assert!(found.description.punctual_lights.is_empty() && !lit && lines.contains("it is black"), "{light}: {lines}");
     }
 }
 
@@ -113,7 +113,9 @@ fn with_picture(text: &str, picture: &[u8]) -> Imported {
 fn images_may_be_pfm() {
     let light = "LightSource \"projection\" \"string filename\" \"t.pfm\" \"float scale\" 3";
     let found = with_picture(light, &pfm([1.0, 2.0, 3.0]));
-    assert!(matches!(&found.description.lamps[0].kind, LampKind::Projector(lamp) if lamp.image == "t.pfm" && lamp.scale == 3.0));
+    assert!(
+        matches!(&found.description.punctual_lights[0].kind, PunctualLightKind::Projector(punctual_light) if punctual_light.image == "t.pfm" && punctual_light.scale == 3.0)
+    );
     let texture = "Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"t.pfm\"\nMaterial \"diffuse\" \"texture reflectance\" \"t\"";
     let found = with_picture(&format!("{texture}\nShape \"sphere\""), &pfm([0.1, 0.2, 0.3]));
     assert!(found.description.textures.len() == 1 && remarks(&found).is_empty(), "{:?}", remarks(&found));

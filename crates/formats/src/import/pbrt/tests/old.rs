@@ -3,7 +3,7 @@ use super::{error, imported, remarks, world};
 use crate::import::Imported;
 use noisefall_base::declare::Textured;
 use noisefall_scene::{
-    light::{background::BackgroundDescription, emission::EmissionSource, lamp::LampKind},
+    light::{emission::EmissionSource, environment::EnvironmentDescription, punctual_light::PunctualLightKind},
     material::Roughness,
     model::Model,
     sampling::Filter,
@@ -40,7 +40,7 @@ fn a_small_scene_is_read_with_one_remark() {
     assert_eq!((found.description.camera.resolution, found.description.render.spp), ([640, 480], Some(8)));
     assert_eq!(imported("Film \"image\"\nWorldBegin\nWorldEnd").description.camera.filter, Filter::Box);
     assert!(matches!(found.description.camera.filter, Filter::Gaussian(gaussian) if gaussian.sigma == 0.5));
-    let Some(BackgroundDescription::Constant(sky)) = &found.description.background else { panic!("a sky") };
+    let Some(EnvironmentDescription::Constant(sky)) = &found.description.environment else { panic!("a sky") };
     assert_eq!(sky.radiance, [1.0, 1.0, 2.0]);
     assert!(matches!(kind(&found), Material::Lambertian(matte) if matte.albedo == Textured::Constant([0.5, 0.25, 0.125])));
     let lines = remarks(&found);
@@ -109,7 +109,9 @@ fn textures_and_lights_have_their_old_names() {
     assert!(matches!(found.description.textures[name], TextureKind::Product(_)));
     let emission = found.description.objects[0].emission.as_ref().expect("it emits");
     assert!(matches!(&emission.source, EmissionSource::Radiance(constant) if constant.radiance == [3.0; 3]));
-    assert!(matches!(&found.description.lamps[0].kind, LampKind::Point(point) if point.intensity == [2.0, 3.0, 4.0]));
+    assert!(
+        matches!(&found.description.punctual_lights[0].kind, PunctualLightKind::Point(point) if point.intensity == [2.0, 3.0, 4.0])
+    );
     assert_eq!(remarks(&found).len(), 1, "{:?}", remarks(&found));
 }
 
@@ -168,7 +170,7 @@ fn the_last_of_equal_parameters_counts() {
          LightSource \"point\" \"rgb I\" [1 1 1] \"blackbody I\" 5000 \"rgb I\" [2 2 2]",
     );
     assert!(matches!(kind(&found), Material::Lambertian(green) if green.albedo == Textured::Constant([0.0, 1.0, 0.0])));
-    assert!(matches!(&found.description.lamps[0].kind, LampKind::Point(point) if point.intensity == [2.0; 3]));
+    assert!(matches!(&found.description.punctual_lights[0].kind, PunctualLightKind::Point(point) if point.intensity == [2.0; 3]));
     let lines = remarks(&found).join("\n");
     assert!(lines.contains("`reflectance` twice") && lines.contains("`radius` twice") && lines.contains("`I` twice"), "{lines}");
 }

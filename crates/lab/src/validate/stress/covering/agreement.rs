@@ -67,13 +67,13 @@ fn has_heavy_tail(images: &[f64]) -> bool {
     squares.clone().fold(0.0, f64::max) > MOST_OF_ONE * squares.sum::<f64>()
 }
 
-/// The settings with which the estimators have the same expectation. Paths from lights alone find light of lamps without surface, and in
+/// The settings with which the estimators have the same expectation. Paths from lights alone find light of punctual lights, and in
 /// practice that of the sun of a sky, behind mirrors and clear glass. So with these only light that is reflected once is compared, unless
 /// all surfaces are diffuse.
 fn comparable(scene: &Scene, settings: RenderSettings) -> RenderSettings {
     let cap = settings.max_bounces.map_or(CAP, |cap| cap.min(CAP));
     let compared = RenderSettings { merging: false, max_bounces: Some(cap), ..settings };
-    let are_small = !scene.lights.lamps.is_empty() || scene.lights.have_cells();
+    let are_small = !scene.lights.punctual_lights.is_empty() || scene.lights.have_cells();
     let finds_more = are_small && scene.traces_light_paths(&compared);
     if finds_more && !scene.surfaces.stages.iter().all(|stage| stage.is_diffuse()) {
         return RenderSettings { max_bounces: Some(cap.min(1)), ..compared };

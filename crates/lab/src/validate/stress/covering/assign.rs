@@ -73,7 +73,7 @@ impl Parameters for Assign<'_> {
             Value::TexturedNumber(textured, _) if self.is_on(&path, TEXTURE) => *textured = Textured::Texture(self.texture()),
             Value::Count(count, range) => *count = counted(*count, level, &range),
             Value::Factors(factors) => {
-                let is_direction = self.place.is_within("background");
+                let is_direction = self.place.is_within("environment");
                 *factors *= match level {
                     0 => DVec3::ONE,
                     // Directions are not distorted.
@@ -91,7 +91,7 @@ impl Parameters for Assign<'_> {
             }
             Value::Point(point) | Value::Vector(point) => *point += vector(&mut dice, -0.2, 0.2),
             Value::Pair([a, b]) => (*a, *b) = (*a + 0.1, *b - 0.1),
-            Value::Matrix(rows) if self.place.is_within("background") => rows.swap(0, 1),
+            Value::Matrix(rows) if self.place.is_within("environment") => rows.swap(0, 1),
             Value::Matrix(rows) => rows[0][1] += dice.within(0.1, 0.4),
             _ => {}
         }

@@ -30,7 +30,7 @@ pub const SIZE: u32 = 8;
 /// The file of the scenes.
 pub const FILE: &str = "covering.toml";
 /// The key of the background.
-const BACKGROUND: &str = "background";
+const ENVIRONMENT: &str = "environment";
 /// Factor of the emitter's radiance.
 const BRIGHT: f64 = 6.0;
 
@@ -91,9 +91,9 @@ impl Frame {
     /// The row of a number with some of its numbers changed by chance, if these can be combined. Neighbours have the same numbers in the
     /// background.
     pub fn with_numbers(&self, row: &Row, number: usize, neighbours: usize) -> Row {
-        let mut dice = [Dice::new("numbers", number as u32), Dice::new(BACKGROUND, neighbours as u32)];
+        let mut dice = [Dice::new("numbers", number as u32), Dice::new(ENVIRONMENT, neighbours as u32)];
         let changed = |(factor, level): (&SceneFactor, &Option<usize>)| {
-            let other = dice[usize::from(is_of_background(factor))].below(factor.levels.len());
+            let other = dice[usize::from(is_of_environment(factor))].below(factor.levels.len());
             level.map(|level| if factor.is_number { other } else { level })
         };
         let changed: Row = self.factors.iter().zip(row).map(changed).collect();
@@ -111,13 +111,13 @@ impl Frame {
     }
 
     /// The levels that make the background, which takes longer to compile than the rest.
-    pub fn levels_of_background(&self, row: &Row) -> Row {
-        self.factors.iter().zip(row).map(|(factor, level)| level.filter(|_| is_of_background(factor))).collect()
+    pub fn levels_of_environment(&self, row: &Row) -> Row {
+        self.factors.iter().zip(row).map(|(factor, level)| level.filter(|_| is_of_environment(factor))).collect()
     }
 
     /// Whether the scene of a row is refused. The background can be combined with everything.
     fn refuses(&self, row: &Row) -> bool {
-        let description = SceneDescription { background: None, ..self.describe(row) };
+        let description = SceneDescription { environment: None, ..self.describe(row) };
         let built = Arc::new(description).rebuild(Path::new(""), &self.known(), Precision::Exact);
         let is_refused = built.is_err();
         if let Ok(scene) = built {
@@ -163,8 +163,8 @@ impl Frame {
     }
 }
 
-fn is_of_background(factor: &SceneFactor) -> bool {
-    factor.path.starts_with(BACKGROUND)
+fn is_of_environment(factor: &SceneFactor) -> bool {
+    factor.path.starts_with(ENVIRONMENT)
 }
 
 /// The description with the levels of a row.

@@ -111,7 +111,7 @@ pub fn cover(strength: Strength, message: &(dyn Fn(&str) + Sync)) -> Covering {
     });
     // Neighbours have the same background.
     let mut rows: Vec<Row> = rows.iter().map(|row| frame.completed(&chosen, row)).collect();
-    rows.sort_by_cached_key(|row| frame.levels_of_background(row));
+    rows.sort_by_cached_key(|row| frame.levels_of_environment(row));
     let (failed, unknown) = tried(&frame, &rows, strength, message);
     let words = |levels: &[(usize, usize)]| {
         frame.words(&levels.iter().map(|(factor, level)| (chosen[*factor], *level)).collect::<Vec<_>>())

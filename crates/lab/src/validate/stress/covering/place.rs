@@ -5,7 +5,7 @@ use noisefall_base::declare::Parameter;
 pub const SUBJECT: &str = "subject";
 
 /// Parameters that no sample depends on, and those that follow from others.
-const LEFT_OUT: [&str; 9] = ["format", "title", "notes", "name", "resolution", "fov", "spp", "exposure", "truth"];
+const LEFT_OUT: [&str; 9] = ["format", "title", "notes", "name", "resolution", "fov", "spp", "exposure", "reference"];
 
 /// Whether a parameter stays as it is.
 pub fn is_left_out(parameter: &Parameter) -> bool {
@@ -59,7 +59,7 @@ impl Place {
     }
 }
 
-/// Items that a list may get: two at the top of the description, as lamps, and one elsewhere, as transforms. Lists with items keep them.
+/// Items that a list may get: two at the top of the description, as lights, and one elsewhere, as transforms. Lists with items keep them.
 pub fn growth(place: &Place, now: usize) -> usize {
     match (now, place.is_top()) {
         (0, true) => 2,

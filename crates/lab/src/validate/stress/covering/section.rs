@@ -25,7 +25,7 @@ pub fn section(strength: Strength, message: &(dyn Fn(&str) + Sync)) -> (Section,
             Strength::Triples => "Every three kinds work together.",
         },
         derivation: &[
-            "What can vary in a scene is read from the declarations: the kinds of materials, textures, shapes, transforms, lamps, \
+            "What can vary in a scene is read from the declarations: the kinds of materials, textures, shapes, transforms, lights, \
              emission, backgrounds and cameras, every parameter that may be a texture, every option of the render. A covering array has \
              few scenes in which all pairs, or all triples, of their levels appear. Numbers are changed by chance. What cannot be combined, \
              such as a lens and parallel rays, is found by compiling the scene, and listed.",
@@ -33,7 +33,7 @@ pub fn section(strength: Strength, message: &(dyn Fn(&str) + Sync)) -> (Section,
              undone, and the scene, its text and its image are as before. Its text reads as the scene, with the same image.",
             "Two estimators agree on the mean of the image. A deviation is looked at again with four times as many images, up to twice; \
              the last look alone fails a scene, beyond 5.5 standard errors: by chance once in 10⁷ scenes. Light that is reflected once is compared where \
-             only paths from lights find more: lamps without surface or a sky, seen through mirrors or clear glass. If one image has more than a tenth \
+             only paths from lights find more: punctual lights or a sky, seen through mirrors or clear glass. If one image has more than a tenth \
              of the variance at the last look, the error of the mean is not known, and the scene does not fail.",
         ],
         source: "D. Cohen, S. Dalal, M. Fredman, G. Patton, “The AETG System: An Approach to Testing Based on Combinatorial Design”, IEEE \

@@ -8,7 +8,7 @@ use super::{
 use crate::validate::stress::dice::Dice;
 use noisefall_base::declare::OneOf;
 use noisefall_scene::{
-    light::{background::BackgroundDescription, emission::EmissionSource, lamp::LampKind},
+    light::{emission::EmissionSource, environment::EnvironmentDescription, punctual_light::PunctualLightKind},
     material::Material,
     sampling::{Filter, Sampler},
     scene::{Estimator, Projection, Reuse, Roulette},
@@ -117,8 +117,8 @@ fn factors_are_those_of_the_declarations() {
         ("objects.2.shape.shape:", ShapeKind::alternatives().len()),
         ("objects.2.emission.emission:", EmissionSource::alternatives().len()),
         ("objects.1.transform.0.transform:", Transform::alternatives().len()),
-        ("lamps.0.lamp:", LampKind::alternatives().len()),
-        ("background.background:", BackgroundDescription::alternatives().len()),
+        ("lights.0.light:", PunctualLightKind::alternatives().len()),
+        ("background.background:", EnvironmentDescription::alternatives().len()),
         ("camera.projection.projection:", Projection::alternatives().len()),
         ("camera.filter.filter:", Filter::alternatives().len()),
         ("render.roulette.roulette:", Roulette::alternatives().len()),

@@ -13,7 +13,7 @@ pub const FAMILIES: [Family; 4] = [
     Family { name: "glass", what: "clear balls within balls, indices from 1 + 10⁻⁶ to 2.4", scenes: 60, trial_scene: glass },
     Family { name: "rough", what: "lossless rough balls, α from 10⁻⁴ to 1", scenes: 84, trial_scene: rough },
     Family { name: "estimators", what: "estimators, samplers, directions, roulettes", scenes: 90, trial_scene: estimators },
-    Family { name: "bright", what: "lamps of 10⁻⁹ and 10⁹ seen by all estimators", scenes: 60, trial_scene: bright },
+    Family { name: "bright", what: "lights of 10⁻⁹ and 10⁹ seen by all estimators", scenes: 60, trial_scene: bright },
 ];
 
 const INDICES: [f64; 6] = [1.0, 1.000_001, 1.0003, 1.333, 1.5, 2.4];
@@ -81,21 +81,21 @@ fn estimators(dice: &mut Dice) -> TrialScene {
     TrialScene { text, expected: Expected::Mean(furnace(1.0, 0.5)), spp: 64, ..trial_scene }
 }
 
-/// One reflection off a grey ball under lamps of extreme radiance, high or low.
+/// One reflection off a grey ball under lights of extreme radiance, high or low.
 fn bright(dice: &mut Dice) -> TrialScene {
-    let lamp = |dice: &mut Dice| {
+    let punctual_light = |dice: &mut Dice| {
         let (place, radius) = (dice.direction() * dice.within(2.0, 9.0), dice.decade(-4.0, -0.5));
         let radiance = dice.pick(&[1e-9, 1.0, 1e9]);
         format!("[[objects]]\n{}\nemission.radiance = {radiance:?}\n", sphere(place, radius))
     };
-    let lamps: String = (0..1 + dice.below(5)).map(|_| lamp(dice)).collect();
+    let punctual_lights: String = (0..1 + dice.below(5)).map(|_| punctual_light(dice)).collect();
     let eye = dice.direction() * 3.0;
     let camera = camera_at(dice, eye, 3.0);
     let estimator = dice.pick(&Estimator::ALL).name();
     let text = format!(
         "camera = {{ {camera} }}\nrender.estimator = '{estimator}'\nbackground.radiance = {:?}\n\
          materials.grey.lambertian.albedo = 0.9\nmaterials.gold.conductor = {{ f0 = [1.0, 0.8, 0.3], alpha = {:?} }}\n\
-         [[objects]]\n{}\nmaterial = '{}'\n{lamps}",
+         [[objects]]\n{}\nmaterial = '{}'\n{punctual_lights}",
         dice.pick(&[0.0, 1e-9, 1e9]),
         dice.decade(-4.0, 0.0),
         sphere(DVec3::ZERO, 1.0),

@@ -50,14 +50,17 @@ pub fn anything(dice: &mut Dice) -> TrialScene {
         }
     }
     let objects: String = (0..1 + dice.below(10)).map(|_| object(dice, shape, "m", 4)).collect();
-    let background = dice.pick(&[
+    let environment = dice.pick(&[
         "",
-        "background.radiance = 1e-9\n",
-        "background.radiance = [0.0, 1e9, 1.0]\n",
-        "background.radiance = 1.0\n",
+        "environment.radiance = 1e-9\n",
+        "environment.radiance = [0.0, 1e9, 1.0]\n",
+        "environment.radiance = 1.0\n",
     ]);
-    let text =
-        format!("camera = {{ {} }}\nrender = {{ {} }}\n{background}{TEXTURES}{materials}{objects}", camera(dice), settings(dice));
+    let text = format!(
+        "camera = {{ {} }}\nrender = {{ {} }}\n{environment}{TEXTURES}{materials}{objects}",
+        camera(dice),
+        settings(dice)
+    );
     TrialScene { spp: 4, ..TrialScene::of(text, Expected::Valid) }
 }
 

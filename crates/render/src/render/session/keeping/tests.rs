@@ -126,7 +126,7 @@ fn a_scene_is_opened_again_from_the_file_and_what_has_changed_is_noticed() {
     let texture = folder.path().join("wood.png");
     let paint = |grey: u8| ::image::RgbImage::from_pixel(8, 4, ::image::Rgb([grey; 3])).save(&texture).expect("it is written");
     paint(200);
-    let text = noisefall_scene::scene::BUILT_IN.replacen("[[objects]]", "[background]\nimage = \"wood.png\"\n[[objects]]", 1);
+    let text = noisefall_scene::scene::BUILT_IN.replacen("[[objects]]", "[environment]\nimage = \"wood.png\"\n[[objects]]", 1);
     let scene_path = folder.path().join("room.toml");
     let scene = Arc::new(noisefall_scene::scene::parse(&scene_path.display().to_string(), text).expect("it is a scene"));
     let settings = scene.settings;
