@@ -64,7 +64,7 @@ fn first_picture(c: &mut Criterion) {
 
 /// Time from a change to the finished image of 16 × 16 pixels, while paths of thousands of bounces, or paths from both ends with all of
 /// their connections, render on all cores.
-fn leaves_what_is_heavy(c: &mut Criterion) {
+fn leaves_heavy_renders(c: &mut Criterion) {
     let sphere = |albedo: f64, resolution: [u32; 2], estimator: &str| {
         let text = format!(
             "format = 1\ncamera = {{ eye = [0, 0, 0], look_at = [0, 0, 1], fov = 60, resolution = {resolution:?} }}\n\
@@ -136,5 +136,5 @@ fn display_transform(c: &mut Criterion) {
     }
 }
 
-criterion_group!(benches, first_picture, leaves_what_is_heavy, one_pass, frame_of_film, display_transform);
+criterion_group!(benches, first_picture, leaves_heavy_renders, one_pass, frame_of_film, display_transform);
 criterion_main!(benches);

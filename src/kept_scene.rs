@@ -30,7 +30,7 @@ pub fn reopen(kept: &KeptScene, file: &Path, allow_outside: bool, progress: &Pro
         Some(SceneChoices { defines, time, variant, size, allow_outside }) => {
             let (defines, variant, progress) = (defines.clone(), variant.clone(), progress.clone());
             let (time, allow_outside, size) = (*time, *allow_outside, *size);
-            open(&path, &ImportOptions { defines, time, variant, allow_outside, size, progress })
+            open(&path, &ImportOptions { defines, time, variant, allow_outside, size, progress, rewrites: false })
         }
     }
 }

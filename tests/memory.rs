@@ -290,7 +290,7 @@ fn a_picture_that_does_not_fit_fails_in_words() {
     };
     let State::Failed(failure) = state(2000) else { panic!("it is rendered") };
     assert!(failure.message.starts_with("images of 2000 × 2000 pixels need") && !failure.replays, "{}", failure.message);
-    // What did not fit is not counted, and a small picture fits.
+    // An image that did not fit is not counted, and a small one fits.
     renderer.submit(64, request(64));
     assert_eq!(state(64), State::Done(Target::Samples(1)));
     // Of each of eight terms, 12 bytes a pixel in the film and in two frames.

@@ -117,7 +117,7 @@ mod tests {
     }
 
     #[test]
-    fn the_seed_decides_and_what_does_not_compile_is_replaced() {
+    fn the_seed_decides_and_faults_that_do_not_compile_are_replaced() {
         let keys = |draw: &Draw| draw.faults(false).iter().map(Fault::key).collect::<HashSet<_>>();
         let mut draw = Draw::new(candidates(), 40, 1);
         let first = keys(&draw);

@@ -21,7 +21,7 @@ struct Table {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Given {
-    /// What goes wrong.
+    /// The mistake, in words.
     name: String,
     file: String,
     /// A whole expression or statement that the file has once.

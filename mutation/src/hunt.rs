@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::{Outcome, fault::Fault, journal::Journal, pace::Pace, process::Ended, suite::Test};
 
-/// What became of a fault.
+/// The result of the tests of a fault.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Verdict {
     pub key: String,

@@ -30,7 +30,7 @@ use serde::{Deserialize, Serialize, de::DeserializeOwned};
 
 use crate::{draw::Draw, fault::Fault, hunt::Verdict, journal::Journal, pace::Pace, package::Package, suite::Test};
 
-/// What went wrong, in a sentence.
+/// A result whose error is a sentence.
 type Outcome<T> = Result<T, String>;
 
 /// Plants faults in the source, one at a time, and lists those that no test notices.

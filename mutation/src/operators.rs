@@ -1,7 +1,7 @@
 //! Mistakes that turn an operator, a literal or the name of a method into another one.
 use syn::{BinOp, Lit};
 
-/// What a binary operator may be mistaken for.
+/// Returns the operators that this one may be mistaken for.
 pub fn instead_of(operator: &BinOp) -> &'static [&'static str] {
     match operator {
         BinOp::Add(_) => &["-"],
@@ -38,7 +38,7 @@ pub fn is_never_met(comparison: &str) -> bool {
     reals.filter_map(|number| number.parse::<f64>().ok()).any(|number| number != 0.0 && number != 1.0)
 }
 
-/// What a literal may be mistaken for. Text has no faults, nor have bit patterns (hexadecimal), of which any is as good.
+/// Returns a mistake for a literal. Text has none, nor have bit patterns (hexadecimal), since any other is as good.
 pub fn other_literal(literal: &Lit) -> Option<String> {
     match literal {
         Lit::Bool(value) => Some((!value.value).to_string()),

@@ -11,7 +11,7 @@ use crate::{
     survivors::{self, Explained},
 };
 
-/// What became of a fault.
+/// The end of a fault in the report.
 enum End<'a> {
     Caught(&'a str, f64),
     Explained(&'a str),
@@ -101,7 +101,7 @@ mod tests {
     use crate::finder;
 
     #[test]
-    fn every_end_is_counted_and_what_is_open_can_be_pasted() {
+    fn every_end_is_counted_and_open_rows_can_be_pasted() {
         let faults = finder::faults("src/a/b.rs", "fn f() { g(p + 1 < q, r) }").expect("it is Rust");
         let verdict = |fault: &Fault, test: Option<&str>| Verdict {
             key: fault.key(),

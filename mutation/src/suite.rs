@@ -21,7 +21,7 @@ use crate::{
 /// No test takes longer by itself.
 const LONGEST: Duration = Duration::from_secs(600);
 
-/// What is known of a test when no fault is on.
+/// The result of a test when no fault is on.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Baseline {
     pub test: String,

@@ -79,7 +79,7 @@ class Image:
 
     @property
     def stopped_by(self) -> str:
-        """What ended the render: "samples", "time", "noise" or "callback"; "running" within a callback."""
+        """The reason why the render ended: "samples", "time", "noise" or "callback"; "running" within a callback."""
         return str(self.figures["stopped_by"])
 
     def srgb(self, *, exposure: float | None = None, tone: str | None = None) -> NDArray[np.uint8]:

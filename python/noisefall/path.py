@@ -16,7 +16,7 @@ class Path:
 
     @property
     def radiance(self) -> tuple[float, float, float]:
-        """What the sample contributes to its pixel."""
+        """The contribution of the sample to its pixel."""
         r, g, b = self.tree["radiance"]
         return r, g, b
 

@@ -31,7 +31,7 @@ class Scene:
 
     @property
     def title(self) -> str:
-        """What the window calls the scene."""
+        """The title of the scene in the window."""
         return self._native.title
 
     @property
@@ -61,7 +61,7 @@ class Scene:
 
     @property
     def remarks(self) -> list[str]:
-        """What was not imported exactly from a file of another program."""
+        """Parts that were not imported exactly from a file of another program."""
         return self._native.remarks
 
     def render(

@@ -14,7 +14,7 @@ from . import _noisefall
 class Statement:
     """A measurement beside its exact value."""
 
-    #: What is measured.
+    #: The measured quantity.
     what: str
     #: The measurement.
     measured: float

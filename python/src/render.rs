@@ -17,7 +17,7 @@ use crate::{
 
 /// Number of the only image of a renderer.
 const IMAGE: u64 = 1;
-/// What ended a render whose callback stopped it.
+/// The value of `stopped_by` if the callback stopped the render.
 const STOPPED: &str = "callback";
 
 /// Renders an image. `callback` is called with the image so far, and stops the render if it returns `False`.

@@ -45,7 +45,7 @@ impl Settings {
         Ok(settings)
     }
 
-    /// How far to render.
+    /// Returns the limits of samples, time and noise.
     pub fn budget(&self, scene: &Scene) -> PyResult<Budget> {
         let by_samples = self.time.is_none() && self.noise.is_none();
         let max_spp = self.spp.or_else(|| by_samples.then(|| scene.spp.unwrap_or(DEFAULT_SPP)));

@@ -53,7 +53,7 @@ def test_a_validation_follows_the_schema():
     validator("validation").validate(report)
 
 
-def test_what_is_not_described_is_refused():
+def test_undescribed_figures_are_refused():
     assert not validator("replay").is_valid({"radiance": [0, 0, 0], "alone": None, "shared": None, "vertices": [], "end": "bored"})
 
 

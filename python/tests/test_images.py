@@ -140,7 +140,7 @@ def test_display_codes_are_those_of_the_file(furnace):
     assert codes.shape == (32, 48, 3) and codes.dtype == np.uint8 and (codes == 255).all()
 
 
-def test_wrong_arguments_are_value_errors_that_list_what_is_right(box, tmp_path):
+def test_wrong_arguments_are_value_errors_that_list_the_valid_ones(box, tmp_path):
     for settings, words in [
         ({"estimator": "bdpt"}, "path, light, mis"),
         ({"roulette": "x"}, "throughput"),

@@ -19,7 +19,8 @@ use super::{
 const NOTES: &str = "\
 Meshes and textures go to the folder OUT.files beside the scene file, or into OUT.glb. Files that lie in the folder of the scene \
 file stay where they are. Existing files of the same names are replaced. Warnings list the parts of the scene that \
-the format cannot express, and their substitutes.
+the format cannot express, and their substitutes. A .toml that becomes a .toml keeps its comments, and gets the current names of keys \
+that had other names before version 0.1.
 
 Examples:
   noisefall convert room.gltf -o room.toml
@@ -46,11 +47,18 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     if is_same(path, output) {
         return Ok(wrong_usage(&format!("{}: the converted scene would replace the scene itself", output.display())));
     }
-    let Opened { scene, description, .. } = options.open(path)?;
+    let Opened { scene, description, .. } = options.open_rewritten(path)?;
+    let text = description.is_none().then(|| scene.source.clone());
     let of_text = || describe(&path.display().to_string(), scene.source.clone()).map(Arc::new);
     let description = description.map_or_else(of_text, Ok).map_err(|error| error.report())?;
     let folder = path.parent().unwrap_or(Path::new(""));
-    let source = ExportSource { description: &description, assets: &scene.assets, folder, allow_outside: options.allow_outside };
+    let source = ExportSource {
+        description: &description,
+        assets: &scene.assets,
+        folder,
+        allow_outside: options.allow_outside,
+        text: text.as_deref(),
+    };
     let prepared = export::prepare(source, output).map_err(|error| error.to_string())?;
     options.report(output, &prepared.remarks, "written exactly")?;
     let exported = prepared.write().map_err(|error| error.to_string())?;
@@ -62,7 +70,7 @@ fn is_same(a: &Path, b: &Path) -> bool {
     a.canonicalize().ok().zip(b.canonicalize().ok()).is_some_and(|(a, b)| a == b)
 }
 
-/// What was written, as in `12 objects; 3 files written and 2 copied to room.files`.
+/// Describes the result, as in `12 objects; 3 files written and 2 copied to room.files`.
 fn outcome(exported: &Exported, objects: usize) -> String {
     let objects = if objects == 1 { "1 object".to_owned() } else { format!("{objects} objects") };
     let Exported { folder: Some(folder), written, copied, .. } = exported else { return objects };

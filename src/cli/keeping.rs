@@ -72,7 +72,7 @@ pub struct KeptImage<'a> {
 }
 
 impl KeptImage<'_> {
-    /// What the file of a render says about its image. Reads the files that the scene names.
+    /// Returns the header of the checkpoint. Reads the files that the scene names.
     pub fn header(&self, options: &SceneOptions, budget: &Budget, threads: &Threads) -> Result<Header, Failure> {
         let choices = choices(self.path, &options.import_options(self.size));
         let scene = keep_scene(&self.request.scene, self.path, choices);
@@ -81,7 +81,7 @@ impl KeptImage<'_> {
     }
 }
 
-/// What keeps a render, and what it continues from.
+/// The plan of the checkpoints, and the one that the render continues from.
 #[derive(Default)]
 pub struct Keeping {
     pub plan: Option<KeepPlan>,

@@ -268,7 +268,7 @@ mod tests {
     }
 
     #[test]
-    fn values_in_range_are_what_they_say() {
+    fn values_in_range_are_parsed() {
         assert_eq!(["640x480", "640X480", " 640 × 480 "].map(resolution), [Ok([640, 480]), Ok([640, 480]), Ok([640, 480])]);
         assert_eq!(pixel("12, 34"), Ok([12, 34]));
         assert_eq!((seconds("1.5"), noise("0.01")), (Ok(Duration::from_millis(1500)), Ok(0.01)));

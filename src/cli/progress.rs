@@ -49,7 +49,7 @@ impl Plan {
         self.images * if self.has_bounces { 2 } else { 1 }
     }
 
-    /// What happens at an interruption.
+    /// Returns the message for an interruption.
     fn interruption(&self) -> &'static str {
         match (self.is_sequence, self.is_kept) {
             (true, true) => "interrupted: keeping the unfinished frame (interrupt again to stop at once)",
@@ -73,7 +73,7 @@ pub struct Rendering {
 struct Checkpoints {
     path: Option<PathBuf>,
     events: Option<Receiver<KeepEvent>>,
-    /// What the image continues from.
+    /// The checkpoint that the image continues from.
     kept: Option<KeptRender>,
     /// Render time before this run.
     earlier: Duration,
@@ -290,7 +290,7 @@ mod tests {
     }
 
     #[test]
-    fn a_sequence_of_one_frame_says_what_becomes_of_the_frame() {
+    fn a_sequence_of_one_frame_drops_or_keeps_the_unfinished_frame() {
         let said = |is_sequence, is_kept| Plan { images: 1, has_bounces: false, is_sequence, is_kept }.interruption();
         assert!(
             said(true, false).contains("the unfinished frame is dropped") && said(true, true).contains("keeping the unfinished")

@@ -57,7 +57,7 @@ pub fn mistake(output: Option<&Output>, has_range: bool, others: &[(&str, bool)]
     })
 }
 
-/// What all images of a command have in common.
+/// The scene, settings and options that all images of a command share.
 pub struct SampleJob {
     pub scene: Arc<Scene>,
     pub scene_path: PathBuf,

@@ -53,7 +53,15 @@ impl SceneOptions {
 
     /// Opens a scene file for images of this size, as [`Self::open`] does.
     pub fn open_for(&self, path: &Path, size: Option<[u32; 2]>) -> Result<Opened, Failure> {
-        let options = self.import_options(size);
+        self.open_with(path, self.import_options(size))
+    }
+
+    /// Opens a scene file whose former names are rewritten, as [`Self::open`] does.
+    pub fn open_rewritten(&self, path: &Path) -> Result<Opened, Failure> {
+        self.open_with(path, ImportOptions { rewrites: true, ..self.import_options(None) })
+    }
+
+    fn open_with(&self, path: &Path, options: ImportOptions) -> Result<Opened, Failure> {
         if let Some(note) = self.unused(path) {
             tell(&note);
         }
@@ -101,7 +109,7 @@ impl SceneOptions {
         self.words_of_scene() + outside
     }
 
-    /// The same without the permission to read files outside, which the user gives again each time.
+    /// Returns the words without `--allow-outside`, which the user gives again each time.
     pub fn words_of_scene(&self) -> String {
         let defines = self.defines.iter().map(|(name, value)| format!("-D {}", quoted(&format!("{name}={value}"))));
         let time = self.at.map(|time| format!("--at {time}"));

@@ -14,7 +14,7 @@ use super::{
     output::Output,
 };
 
-/// What becomes of a frame at an interruption.
+/// The message for an interruption that drops the frame.
 pub const DROPPED: &str = "interrupted: the unfinished frame is dropped (interrupt again to stop at once)";
 pub const UNFINISHED: &str = "the sequence is not finished; the same command with --resume continues it";
 

@@ -17,7 +17,7 @@ use super::{
     summary::Done,
 };
 
-/// What all images of a command have in common.
+/// The scene, settings and options that all images of a command share.
 pub struct Job<'a> {
     pub scene: Arc<Scene>,
     pub scene_path: &'a Path,
@@ -32,13 +32,13 @@ pub struct Job<'a> {
     pub is_sequence: bool,
     /// The options of the scene as words of a command.
     pub scene_options: String,
-    /// What was not imported exactly from the scene.
+    /// Parts of the scene that were not imported exactly.
     pub scene_remarks: Remarks,
     pub json: bool,
 }
 
 impl Job<'_> {
-    /// What is rendered for an image.
+    /// Returns the request to render an image.
     pub fn request(&self, shot: &Shot) -> RenderRequest {
         RenderRequest { scene: self.scene.clone(), camera: shot.camera, settings: self.settings }
     }

@@ -28,10 +28,10 @@ const MISSING_KEY: &str = "missing_samples";
 /// Samples of an image, and where they go.
 pub struct SplitImage<'a> {
     pub output: &'a Output,
-    /// What the image depends on.
+    /// The scene, settings and versions that the image depends on.
     pub header: &'a Header,
     pub samples: &'a SampleRanges,
-    /// What is missing among the samples.
+    /// Samples that are missing.
     pub missing: SampleRanges,
     pub json: bool,
 }

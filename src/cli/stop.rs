@@ -9,7 +9,7 @@ use super::messages::{Failure, tell};
 /// Exit status of an interrupted program.
 pub const INTERRUPTED: u8 = 130;
 
-/// What the first interruption says.
+/// The message for the first interruption.
 static MESSAGE: Mutex<&str> = Mutex::new("");
 
 /// A flag that becomes true when the user interrupts the program. `message` is then printed.

@@ -20,7 +20,7 @@ pub fn strategies(scene: &Scene, base: RenderSettings, bounces: u32, weighted: b
     }
 }
 
-/// What to call an image of a strategy.
+/// Names an image by its strategy.
 pub fn label(settings: &RenderSettings) -> Option<String> {
     settings.strategy.map(|Strategy { s, t, .. }| format!("s = {s}, t = {t}"))
 }

@@ -56,7 +56,7 @@ impl<'a> Watch<'a> {
         Ok(self.join.as_ref().is_some_and(|join| join.samples().missing(until).is_empty()))
     }
 
-    /// What was joined.
+    /// Returns the joined samples.
     pub fn into_join(self) -> Option<Join> {
         self.join
     }

@@ -44,7 +44,7 @@ impl Displays {
         }
     }
 
-    /// What an error of the windowing library says, without places in its source.
+    /// Describes an error of the windowing library without places in its source.
     pub fn explain(&self, error: &eframe::Error) -> String {
         match error {
             eframe::Error::Winit(_) | eframe::Error::WinitEventLoop(_) => self.refusal(),
@@ -146,7 +146,7 @@ mod tests {
     }
 
     #[test]
-    fn a_refusal_names_what_was_tried_and_no_source() {
+    fn a_refusal_names_the_tried_displays_and_no_source() {
         let refusal = |wayland, x11| displays(wayland, x11).refusal();
         assert_eq!(
             refusal(Some(("nowhere", false)), Some(":7")),

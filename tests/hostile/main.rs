@@ -44,7 +44,7 @@ static MEMORY: cap::Cap<std::alloc::System> = cap::Cap::new(std::alloc::System, 
 
 /// Inputs of a short run.
 const INPUTS: u64 = 1500;
-/// Those of render files.
+/// Inputs of a short run for checkpoints.
 const KEPT_INPUTS: u64 = 3000;
 /// Most memory: per byte of the files, and besides.
 const FACTOR: usize = 4;

@@ -1,4 +1,4 @@
-//! What a file says of itself is not believed.
+//! Claims of a file about itself are checked.
 use std::{
     fs,
     path::Path,

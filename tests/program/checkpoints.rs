@@ -64,7 +64,7 @@ fn a_render_with_paths_from_lights_that_is_continued_has_the_file_of_one_in_one_
 }
 
 #[test]
-fn what_would_change_the_image_or_lose_a_render_is_refused_by_name() {
+fn options_that_would_change_the_image_or_lose_a_render_are_refused_by_name() {
     let shell = Shell::new();
     let spheres = scene("cornell_spheres");
     begin(&shell, &spheres, &[]);

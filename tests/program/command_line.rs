@@ -127,7 +127,7 @@ fn equal_seeds_give_equal_files_whatever_the_threads() {
 }
 
 #[test]
-fn options_override_the_scene_and_the_summary_says_what_is_biased() {
+fn options_override_the_scene_and_the_summary_names_the_bias() {
     let shell = Shell::new();
     let summary = |arguments: &[&str]| {
         let output =

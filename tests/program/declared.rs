@@ -31,7 +31,7 @@ fn drawn(seed: u64) -> SceneDescription {
 const UPDATE: &str = "NOISEFALL_UPDATE_MANUAL";
 
 #[test]
-fn the_manual_is_what_the_declarations_say() {
+fn the_manual_agrees_with_the_declarations() {
     let path = root().join("docs/scene-format.md");
     let known = fs::read_to_string(&path).expect("the manual is there");
     const BEGIN: &str = "<!-- from here on made from the declarations: NOISEFALL_UPDATE_MANUAL=1 cargo test --release --test program manual -->\n";
@@ -139,7 +139,7 @@ fn a_number_just_outside_of_its_range_is_refused_by_name() {
 }
 
 #[test]
-fn scenes_fit_the_schema_and_what_is_misspelled_does_not() {
+fn scenes_fit_the_schema_and_misspelled_ones_do_not() {
     let schema = schema("scene", &mut SceneDescription::default());
     let json = |text: &str| serde_json::to_value(toml::from_str::<toml::Table>(text).expect("TOML")).expect("JSON");
     for (name, text) in shipped() {

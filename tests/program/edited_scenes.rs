@@ -113,7 +113,7 @@ fn change_object(scene: &mut SceneDescription, place: usize, random: &mut SmallR
 pub fn shipped(name: &str) -> (PathBuf, SceneDescription) {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
     let text = fs::read_to_string(folder.join(format!("{name}.toml"))).expect("the scene can be read");
-    // What is large takes long, and shows nothing else.
+    // Large meshes take long and show nothing else.
     let text = text.replace("triangles = 1300000", "triangles = 4000").replace("triangles = 20000", "triangles = 600");
     (folder, describe(name, text).expect("a shipped scene is valid"))
 }

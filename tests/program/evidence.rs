@@ -43,7 +43,7 @@ fn check_files(shell: &Shell, stdout: &str) -> BTreeSet<String> {
 }
 
 #[test]
-fn the_chapter_of_the_furnace_finds_what_is_known_of_it() {
+fn the_chapter_of_the_furnace_agrees_with_the_exact_biases() {
     let shell = Shell::new();
     let run = |more: &[&str]| {
         shell.run(&[&["evidence", &scene("furnace"), "-o", "out", "--time", "3", "--size", "16x16"], more].concat())

@@ -101,7 +101,7 @@ fn replays_follow_the_schema() {
 }
 
 #[test]
-fn what_the_schema_does_not_describe_is_refused() {
+fn values_that_the_schema_does_not_describe_are_refused() {
     let schema: Value = serde_json::from_str(SCHEMA).expect("the schema is JSON");
     let replay =
         json!({ "radiance": [0.0, 0.5, 1], "alone": null, "shared": null, "both_ends": null, "vertices": [], "end": "cap" });

@@ -93,7 +93,8 @@ fn a_scene_in_memory_and_the_exported_one_have_the_same_bits() {
     assert!(is_lit(&scene));
     let path = folder.path().join("out/tent.toml");
     fs::create_dir(folder.path().join("out")).expect("a folder");
-    let source = ExportSource { description: &description, assets: &assets, folder: folder.path(), allow_outside: false };
+    let source =
+        ExportSource { description: &description, assets: &assets, folder: folder.path(), allow_outside: false, text: None };
     let exported = write(source, &path).expect("it is written");
     assert_eq!((exported.written, exported.copied), (3, 0));
     let read = load(&path).unwrap_or_else(|error| panic!("{}", error.report()));
@@ -186,7 +187,7 @@ fn a_scene_that_is_written_for_mitsuba_and_read_again_has_the_same_picture() {
 }
 
 #[test]
-fn what_mitsuba_cannot_say_is_a_warning_or_with_strict_an_error() {
+fn parts_that_mitsuba_lacks_cause_a_warning_or_with_strict_an_error() {
     let shell = Shell::new();
     let original = scene("isosurfaces");
     let strict = shell.run(&["convert", &original, "-o", "copy.xml", "--strict"]);

@@ -38,7 +38,7 @@ fn interrupt(child: &Child) {
 }
 
 #[test]
-fn an_interrupted_render_saves_what_it_has_and_says_how_much_that_is() {
+fn an_interrupted_render_saves_its_samples_and_states_their_number() {
     let shell = Shell::new();
     let endless = ["--spp", "100000000", "--size", "200x150", "--json"];
     let child = start(&shell, &[&["render", &scene("cornell_spheres"), "-o", "out.exr"], &endless[..]].concat());
@@ -133,7 +133,7 @@ fn a_second_interruption_ends_a_render_at_once() {
 }
 
 #[test]
-fn an_interrupted_study_keeps_what_it_has_and_says_how_to_go_on() {
+fn an_interrupted_study_keeps_its_runs_and_says_how_to_go_on() {
     let shell = Shell::new();
     let long = ["--spp", "1000000", "--seconds", "1000", "--size", "64x64"];
     let mut child = start(&shell, &[&["study", &scene("bright_sky"), "-o", "out"], &long[..]].concat());

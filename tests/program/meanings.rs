@@ -328,7 +328,7 @@ fn lights_come_first_and_pieces_know_their_objects() {
 }
 
 #[test]
-fn the_size_of_a_scene_is_that_of_what_is_near() {
+fn the_size_of_a_scene_is_that_of_its_near_objects() {
     let ball =
         |x: f64, radius: f64| format!("[[objects]]\nshape.sphere = {{ center = [{x:?}, 0.0, 0.0], radius = {radius:?} }}\n");
     let size = |objects: &[String]| compiled(&format!("VIEW\n{}", objects.concat())).size;
@@ -362,7 +362,7 @@ fn warnings() {
 }
 
 #[test]
-fn closed_shapes_know_what_they_hold() {
+fn closed_shapes_tell_inside_from_outside() {
     let cube = "mesh = { vertices = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]], \
         triangles = [[0, 2, 1], [0, 3, 2], [4, 5, 6], [4, 6, 7], [0, 1, 5], [0, 5, 4], [3, 7, 6], [3, 6, 2], [0, 4, 7], [0, 7, 3], \
         [1, 2, 6], [1, 6, 5]] }";

@@ -120,7 +120,7 @@ fn every_writer_replaces_files_whole() {
 
 #[test]
 #[cfg(unix)]
-fn no_writer_replaces_what_is_no_regular_file_and_none_waits_for_it() {
+fn no_writer_replaces_a_special_file_or_waits_for_it() {
     use std::os::unix::fs::{FileTypeExt, symlink};
     let shell = Shell::new();
     let furnace = scene("furnace");

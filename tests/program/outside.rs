@@ -94,7 +94,7 @@ fn mitsuba(folder: &str, file: &str, element: &str) -> String {
 }
 
 #[test]
-fn no_path_of_mitsuba_leads_out_by_a_link_or_to_what_is_hidden() {
+fn no_path_of_mitsuba_leads_out_by_a_link_or_to_hidden_files() {
     let home = Home::new();
     let files =
         [("include", "key"), ("include", "key.xml"), ("image", "photo.png"), ("shape", "key.obj"), ("spectrum", "key.spd")];
@@ -149,7 +149,7 @@ fn no_other_format_leads_out_either() {
     for (name, scene) in scenes {
         for command in Home::commands() {
             let done = home.run(name, &scene, command);
-            // What is left out of a mesh is a remark: then there is nothing to copy.
+            // A refused file of a mesh is only a remark: then there is nothing to copy.
             let is_copied = home.path("out.files").exists() && done.status.success();
             assert!(!is_copied || !has_photo(&home.path("out.files")), "{name} {scene}");
             let _ = fs::remove_dir_all(home.path("out.files"));

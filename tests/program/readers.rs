@@ -1,13 +1,13 @@
 //! Files are opened in one place, which refuses what is no regular file; texts of unknown length have a limit.
 use crate::imports::source;
 
-/// What opens a file for reading, or reads one without limit.
+/// Calls that open a file for reading, or read one without limit.
 const READS: [&str; 6] =
     ["fs::read(", "fs::read_to_string(", "File::open", "File::options", "OpenOptions", "and_then(io::read_to_string"];
 /// The door; leftovers and a store, which are only locked; and figures of the machine.
 const READERS: [&str; 5] = ["file/mod.rs", "file/target/mod.rs", "memory.rs", "study/machine.rs", "study/store.rs"];
-/// What turns a path that a scene names into one that can be opened. Readers of scenes leave that to their folder, which knows what may be
-/// read.
+/// Calls that turn a path of a scene into one that can be opened. Readers of scenes leave that to their folder, which knows what
+/// may be read.
 const WAYS_AROUND: [&str; 4] = ["canonicalize(", "read_link(", "read_dir(", "env::"];
 /// The second looks for names in upper and lower case, below the folder alone; the first resolves what it finds.
 const FOLDER: [&str; 2] = ["import/paths.rs", "import/spelling.rs"];

@@ -45,7 +45,7 @@ fn parts(
 }
 
 #[test]
-fn only_what_a_change_concerns_is_made_again() {
+fn only_parts_that_a_change_concerns_are_made_again() {
     let (folder, mut description) = shipped("million_triangles");
     let assets = folder.join("assets");
     let sky = fs::read_dir(&assets).expect("the folder can be read").map(|file| file.expect("an entry").path());
@@ -133,7 +133,7 @@ fn tables_of_rough_glass_are_coarse_until_they_are_compiled_exactly() {
     let threads = Threads::new(2, SimdLevel::best()).expect("threads can be had");
     let new = description.build(Path::new("")).expect("it is valid");
     assert_same(&exact, &new, &threads, "exact");
-    // What is exact serves both.
+    // Exact parts serve both precisions.
     let again = description.rebuild(Path::new(""), &exact, Precision::Interactive).expect("it is valid");
     assert_eq!((again.is_exact(), again.compiled.made("material tables")), (true, 0));
 }

@@ -54,7 +54,7 @@ pub(super) fn refuses(line: &str, by: &str, message: &str) {
 }
 
 #[test]
-fn a_good_file_means_what_it_says() {
+fn a_good_file_is_read_as_written() {
     let scene = parse("test.toml", GOOD.to_owned()).expect("it is good");
     assert_eq!(scene.camera.resolution, [32, 24]);
     assert_eq!(scene.camera.fov, 40.0);
@@ -81,7 +81,7 @@ pub fn shipped_scenes() -> Vec<PathBuf> {
 }
 
 #[test]
-fn every_shipped_scene_compiles_says_what_it_shows_and_emits_light() {
+fn every_shipped_scene_compiles_has_notes_and_emits_light() {
     let mut count = 0;
     for path in shipped_scenes() {
         let scene = load(&path).unwrap_or_else(|error| panic!("{}", error.report()));

@@ -76,7 +76,7 @@ fn the_command_shows_its_image_in_tev_and_writes_the_same_radiance() {
 }
 
 #[test]
-fn the_command_says_what_to_do_if_nothing_listens_and_which_address_is_wrong() {
+fn the_command_gives_advice_if_nothing_listens_and_refuses_a_wrong_address() {
     let shell = Shell::new();
     let listener = TcpListener::bind("127.0.0.1:0").expect("there is a free port");
     let address = listener.local_addr().expect("it has an address").to_string();

@@ -1,7 +1,7 @@
 //! All files are written by the module whose tests make the disk fail.
 use crate::imports::source;
 
-/// What creates, changes or renames a file.
+/// Calls that create, change or rename a file.
 const WRITES: [&str; 11] = [
     "fs::write(",
     "fs::rename(",

@@ -31,7 +31,7 @@ fn assert_every_sample_is(expected: f64, scene: &Scene, what: &str) {
 const ANGLES: [f64; 5] = [0.0, 0.5, 1.0, 1.3, 1.5];
 
 #[test]
-fn the_coat_of_black_plastic_reflects_what_fresnel_says() {
+fn the_coat_of_black_plastic_reflects_the_fresnel_fraction() {
     for theta in ANGLES {
         let (reflected, _) = fresnel(1.5, theta);
         for albedo in ["0.0", "{ texture = 'squares' }"] {

@@ -191,7 +191,7 @@ fn quarters(scene: &Scene, settings: &RenderSettings, spp: u32) -> Vec<Moments> 
             let [r, g, b, _] = batch.radiance()[(y * TILE + x) as usize];
             sums[(2 * y / height * 2 + 2 * x / width) as usize] += f64::from(luminance([r, g, b]));
         }
-        // What paths from lights bring is a sum over the paths of all pixels.
+        // Splats of light paths add up over the paths of all pixels.
         for splat in &batch.splats {
             if let Some(([x, y], light)) = splat.land(rays.filter, [width, height]) {
                 let light = luminance(light.map(|channel| channel as f32));

@@ -151,7 +151,7 @@ fn they_agree_on_rough_glass_that_shines() {
     }
 }
 
-/// So many lights that they form a light tree: of all shapes and sides, around balls and below a floor, in a shell that emits
+/// Enough lights for a light tree: of all shapes and sides, around balls and below a floor, in a shell that emits
 /// inwards.
 fn hundreds_of_punctual() -> Scene {
     let mut objects = String::new();

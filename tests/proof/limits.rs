@@ -201,7 +201,7 @@ fn difference(end: &End, room: impl Fn(&str) -> Scene, estimator: Estimator, fro
 }
 
 #[test]
-fn materials_at_the_ends_of_their_ranges_are_what_they_approach() {
+fn materials_at_the_ends_of_their_ranges_equal_their_limits() {
     for end in &MATERIALS {
         for estimator in [Estimator::Path, Estimator::Mis] {
             let found = difference(end, |material| room(material, ""), estimator, false);
@@ -285,7 +285,7 @@ fn valid(kind: Material) -> Material {
 }
 
 #[test]
-fn every_number_of_every_declared_material_is_at_its_ends_what_it_approaches() {
+fn every_number_of_every_declared_material_is_continuous_at_its_ends() {
     let mut tried = std::collections::BTreeSet::new();
     for kind in Material::alternatives().into_iter().map(valid) {
         for (left, upper, variant) in
@@ -310,7 +310,7 @@ fn every_number_of_every_declared_material_is_at_its_ends_what_it_approaches() {
 }
 
 #[test]
-fn the_rest_of_a_scene_is_at_the_ends_of_its_ranges_what_it_approaches() {
+fn the_rest_of_a_scene_at_the_ends_of_its_ranges_equals_its_limits() {
     for end in &REST {
         let from_scene = end.text.starts_with("render");
         let found = difference(end, |text| room("plastic = { albedo = 0.4, ior = 1.5 }", text), Estimator::Mis, from_scene);
@@ -319,7 +319,7 @@ fn the_rest_of_a_scene_is_at_the_ends_of_its_ranges_what_it_approaches() {
 }
 
 #[test]
-fn smooth_surfaces_are_what_rough_ones_approach() {
+fn smooth_surfaces_are_the_limit_of_rough_ones() {
     for end in &SMOOTHNESS {
         let blocks =
             [end.at, end.near].map(|value| rendered(&room(&written(end.text, value), ""), Estimator::Mis, false).blocks(8));

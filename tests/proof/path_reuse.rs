@@ -85,7 +85,7 @@ fn tiles(scene: &Scene, settings: RenderSettings, width: u32, samples: Range<u32
     samples.map(tile).collect()
 }
 
-/// The same for one sample.
+/// The radiance of every pixel of one tile for one sample.
 fn tile(scene: &Scene, settings: RenderSettings, size: u32, sample: u32) -> Vec<[f32; 4]> {
     tiles(scene, settings, size, sample..sample + 1).remove(0)
 }

@@ -10,7 +10,7 @@ use crate::picture::{RED, assert_all_within, picture, scene, settings};
 
 const THICKNESS: f64 = 0.1;
 
-/// What the plate shows at the angle `degrees` of a wall that shines on this side of it, or beyond it.
+/// Checks the light of a wall on this side of the plate, or beyond it, that the plate shows at the angle `degrees`.
 fn assert_shows(ior: f64, transmittance: f64, degrees: f64, beyond: bool) {
     let theta = degrees.to_radians();
     let (r, inside) = fresnel(ior, theta);
@@ -44,7 +44,7 @@ fn assert_shows(ior: f64, transmittance: f64, degrees: f64, beyond: bool) {
 }
 
 #[test]
-fn a_plate_reflects_and_transmits_what_fresnel_says() {
+fn a_plate_reflects_and_transmits_by_the_fresnel_equations() {
     for beyond in [false, true] {
         for degrees in [0.0, 30.0, 56.31, 75.0, 85.0] {
             assert_shows(1.5, 1.0, degrees, beyond);

@@ -18,7 +18,7 @@ fn irradiance(cos: f64) -> f64 {
     horizon_sphere_irradiance(RADIANCE, LIGHT, DISTANCE, cos)
 }
 
-/// The same by integration over the light's cone. On the circle at the angle ρ from its axis the cosine with the normal is
+/// Integrates the irradiance over the light's cone. On the circle at the angle ρ from its axis the cosine with the normal is
 /// A + B cos φ, A = cos θ cos ρ, B = sin θ sin ρ; its positive part adds up to 2 (A φ₀ + B sin φ₀) with φ₀ = acos(−A/B).
 fn irradiance_by_integration(cos: f64) -> f64 {
     const STEPS: u32 = 200_000;

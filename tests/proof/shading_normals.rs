@@ -58,7 +58,7 @@ const SHAPES: [(&str, &str); 13] = [
 const MESH: &str = "v -0.8 -0.7 0\nv 0.8 -0.6 0.1\nv 0.7 0.8 0\nv -0.7 0.6 -0.1\n\
                     vt 0.2 0.1\nvt 0.9 0.3\nvt 0.7 0.9\nvt 0.1 0.6\nf 1/1 2/2 3/3\nf 1/1 3/3 4/4\n";
 
-/// The same with vertex normals.
+/// The mesh with vertex normals.
 fn smooth_mesh() -> String {
     let (places, _) = MESH.split_once("f ").expect("it has faces");
     format!("{places}vn 0.3 0.1 1\nvn -0.3 0.2 1\nvn -0.2 -0.3 1\nvn 0.2 -0.1 1\nf 1/1/1 2/2/2 3/3/3\nf 1/1/1 3/3/3 4/4/4\n")

@@ -36,7 +36,7 @@ fn covered(i: usize, x: f64) -> f64 {
 }
 
 #[test]
-fn an_edge_covers_what_it_passes_while_the_shutter_is_open() {
+fn an_edge_covers_the_pixels_that_it_passes_while_the_shutter_is_open() {
     for what in ["object", "camera"] {
         for shutter in SHUTTERS {
             let found = picture(&edge(what, shutter), settings(Estimator::Path), RED, 1024);

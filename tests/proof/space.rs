@@ -102,7 +102,7 @@ fn shapes_move_alike_whatever_they_are_made_of() {
 }
 
 #[test]
-fn a_moving_edge_covers_what_it_passes() {
+fn a_moving_edge_covers_the_pixels_that_it_passes() {
     // An edge moves from x = 0 to 0.5 at constant speed, so a position x in between is covered for the fraction 1 − 2x of the
     // time.
     const WIDTH: usize = 32;

@@ -103,7 +103,7 @@ fn a_tiny_light_may_move_and_be_turned_and_be_seen_through() {
 
 /// Nothing else may count as the light: what stands before it, or is where it is, still hides it.
 #[test]
-fn what_hides_a_tiny_light_keeps_hiding_it() {
+fn a_cover_over_a_tiny_light_hides_it_completely() {
     for r in SIZES {
         for (name, shape, area) in shapes(r) {
             for cover in [0.9, 0.9999, 0.99999] {

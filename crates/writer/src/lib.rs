@@ -10,6 +10,7 @@
 //! | `objects.rs` | the same for the objects, in any order |
 //! | `values.rs` | values in the style of a person |
 //! | `update.rs` | the text of a file that is updated |
+//! | `renamed.rs` | rewrites former names |
 //! | `new_text.rs` | the text of a new file |
 mod lists;
 mod named;
@@ -17,10 +18,11 @@ mod new_text;
 mod objects;
 pub mod origin;
 mod outline;
+mod renamed;
 mod tables;
 pub mod tree;
 mod update;
 mod values;
 pub mod walk;
 
-pub use self::{new_text::new_text, update::updated};
+pub use self::{new_text::new_text, renamed::renamed, update::updated};

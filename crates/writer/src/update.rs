@@ -24,7 +24,7 @@ pub fn updated(text: &str, was: &SceneDescription, now: &SceneDescription, origi
 }
 
 /// The text with the byte order mark and the line ends of another.
-fn like(original: &str, text: String) -> String {
+pub(super) fn like(original: &str, text: String) -> String {
     const MARK: &str = "\u{feff}";
     let returns = original.matches("\r\n").count();
     let text = if returns > 0 && returns == original.matches('\n').count() {

@@ -149,7 +149,7 @@ impl<'ast> Visit<'ast> for Finder<'_> {
             _ => {}
         }
         match node {
-            // What is assigned to must stay the place that it is.
+            // The left side of an assignment must stay a place.
             Expr::Assign(node) => {
                 if let Expr::Index(left) = &*node.left {
                     self.visit_expr(&left.index);

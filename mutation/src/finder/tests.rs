@@ -39,7 +39,7 @@ fn every_kind_of_place_is_found() {
 }
 
 #[test]
-fn what_no_variable_can_switch_is_left_alone() {
+fn code_that_no_variable_can_switch_is_left_alone() {
     let cases = [
         "let a: [f32; 3] = b;",
         "const A: u32 = 1 + 2;",

@@ -15,7 +15,7 @@ pub struct Done<'a> {
     pub output: &'a Output,
     pub scene: &'a Scene,
     pub scene_path: &'a Path,
-    /// What was not imported exactly from the scene.
+    /// Parts of the scene that were not imported exactly.
     pub remarks: &'a Remarks,
     pub settings: &'a RenderSettings,
     pub frame: &'a Frame,
@@ -126,7 +126,7 @@ impl Done<'_> {
             ("adapts", json!(status.adapts)),
             ("build_seconds", json!(build_seconds)),
             ("seconds", json!(seconds)),
-            // The same under the name that scripts of the first versions read.
+            // Scripts of the first versions read this name.
             ("render_seconds", json!(seconds)),
             ("paths", json!(status.samples)),
             ("paths_per_second", json!(status.samples as f64 / seconds)),

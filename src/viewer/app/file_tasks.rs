@@ -10,7 +10,7 @@ use crate::viewer::background::{
 };
 use crate::viewer::dialogs::unsaved::{Leaving, SaveRequest};
 
-/// What other programs do to the files.
+/// Changes that other programs make to the files.
 #[derive(Default)]
 pub struct OutsideChanges {
     /// The document whose files are watched.
@@ -41,7 +41,7 @@ pub struct PendingSave {
     /// The file that it is saved to.
     pub path: PathBuf,
     pub result: Receiver<SaveResult>,
-    /// What was requested meanwhile.
+    /// The next save, requested meanwhile.
     pub next: Option<SaveRequest>,
 }
 

@@ -109,7 +109,7 @@ impl App {
     }
 }
 
-/// What an operation does, as a noun.
+/// Names an operation by a noun.
 fn operation(change: &Transform) -> &'static str {
     match change {
         Transform::Translate(_) => "move",

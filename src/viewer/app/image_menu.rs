@@ -11,7 +11,7 @@ use crate::viewer::panels::{
 };
 use crate::viewer::widgets::list::closing;
 
-/// What an entry of the menu asks for.
+/// The choice of an entry of the menu.
 enum Chosen {
     Action(Action),
     Command(Command),

@@ -56,7 +56,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_typed_reaches_its_field_before_tab_or_a_press_leaves_it() {
+    fn typed_text_reaches_its_field_before_tab_or_a_press_leaves_it() {
         let press =
             Event::PointerButton { pos: Pos2::ZERO, button: PointerButton::Primary, pressed: true, modifiers: Modifiers::NONE };
         for leaves in [key(Key::Tab), press] {

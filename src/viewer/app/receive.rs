@@ -112,7 +112,7 @@ impl App {
         let (session, results, scene) = (&mut self.session, &mut self.results, &opened.scene);
         let is_other = session.opened.as_ref().is_none_or(|before| before.path != opened.path || opened.path.is_none());
         if is_other {
-            // What suited another scene's light says nothing about this one's.
+            // The exposure that suited another scene says nothing about this one.
             let display = &mut session.look.display;
             (display.exposure, display.white_balance) = (scene.exposure, WhiteBalance::NEUTRAL);
             self.window.forget_last_saved();
@@ -138,7 +138,7 @@ impl App {
         (session.waiting_edit, session.submitted_edit) = (None, None);
         session.earlier = EarlierScenes::default();
         session.earlier.note(&opened.description, &opened.scene);
-        // What was found of the scene before would keep it in memory.
+        // Results of the earlier scene would keep it in memory.
         (self.instruments.path, self.environment.features) = (PathInspector::new(&self.ctx), FeatureFinder::new(&self.ctx));
         (results.last_seeing, results.black_reason) = (None, None);
         (results.awaits_meter, results.misfit) = (true, None);

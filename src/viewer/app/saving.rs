@@ -124,7 +124,7 @@ mod tests {
     use crate::viewer::background::display_request::tests::request;
 
     #[test]
-    fn a_png_says_what_of_the_picture_it_shows_and_an_exr_shows_all() {
+    fn a_png_names_the_shown_part_of_the_image_and_an_exr_shows_all() {
         let said = |view, (k, up_to), path: &str| {
             let frame = Arc::new(Frame { spp: 9, ..Frame::default() });
             let term = Some(BounceTerm { of: frame.clone(), strategy: None, k, up_to });

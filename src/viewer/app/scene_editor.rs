@@ -144,7 +144,7 @@ mod tests {
     }
 
     #[test]
-    fn a_drag_from_its_start_replaces_what_it_made_and_keeps_it_where_an_edit_is_refused() {
+    fn a_drag_from_its_start_replaces_its_edit_and_keeps_it_where_a_new_one_is_refused() {
         let mut editor = editor();
         let start = editor.description();
         for (degrees, is_step) in [(20.0, true), (30.0, false)] {

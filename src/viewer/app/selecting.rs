@@ -77,7 +77,7 @@ impl App {
         self.session.camera = moved;
     }
 
-    /// What is rendered, once it is of the open scene.
+    /// Returns the request that is rendered, once it is of the open scene.
     fn request_of_open_scene(&self) -> Option<&RenderRequest> {
         let opened = self.session.opened.as_ref()?;
         self.environment.worker.request().filter(|request| Arc::ptr_eq(&request.scene, &opened.scene))

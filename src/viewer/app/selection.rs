@@ -9,7 +9,7 @@ pub struct Selection {
     pub subject: Option<Subject>,
     pub outline: OutlineFinder,
     pub gizmo: Gizmo,
-    /// What the gizmo has done to the object or light so far.
+    /// The transform that the gizmo has applied to the object or light so far.
     pub change: Option<Transform>,
     /// The part is a copy of this one, which the gizmo moves until it is confirmed or discarded.
     pub copy_of: Option<Subject>,

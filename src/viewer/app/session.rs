@@ -61,7 +61,7 @@ impl Session {
         Some(RenderRequest { scene, camera: self.camera, settings: self.settings })
     }
 
-    /// What undo and redo restore.
+    /// Returns the values that undo and redo restore.
     pub fn controls(&self) -> Controls {
         let Budget { max_spp, max_time, noise, .. } = self.budget;
         let stop = StopTarget { spp: max_spp, time: max_time, noise };

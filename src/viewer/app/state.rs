@@ -26,7 +26,7 @@ pub struct App {
     pub window: WindowState,
     /// Changes the open scene.
     pub editor: Option<SceneEditor>,
-    /// What other programs do to the files of the open scene.
+    /// Changes that other programs make to the files of the open scene.
     pub outside: OutsideChanges,
     pub saving: Option<PendingSave>,
     pub selection: Selection,

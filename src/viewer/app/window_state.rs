@@ -41,7 +41,7 @@ pub struct WindowState {
     pub last_saved: Option<PathBuf>,
     /// The folder of the last such file of an earlier scene.
     pub last_folder: Option<PathBuf>,
-    /// What goes on when the scene is saved, while the place to save it is asked for.
+    /// The action that follows when the scene is saved, while a dialog asks for its file.
     pub leaving: Option<Leaving>,
     /// The window closes, whatever is unsaved.
     pub quits: bool,
@@ -78,9 +78,9 @@ pub struct Dialogs {
     pub sequence: Option<SequenceDialog>,
     /// Frames to render, with the numbers of existing ones and of all.
     pub existing_frames: Option<(SequenceRequest, [usize; 2])>,
-    /// What waits for an answer about unsaved changes.
+    /// The action that waits for an answer about unsaved changes.
     pub unsaved: Option<Leaving>,
-    /// What waits for an answer about a scene file that another program has changed.
+    /// The conflict with a scene file that another program has changed, until the user decides.
     pub conflict: Option<Conflict>,
     /// Unsaved changes that can be restored.
     pub recovery: Option<FoundRecovery>,

@@ -216,7 +216,7 @@ mod tests {
     }
 
     #[test]
-    fn what_has_more_pixels_than_the_screen_or_a_texture_is_averaged() {
+    fn an_image_with_more_pixels_than_the_screen_or_a_texture_is_averaged() {
         let row = frame(&[0.0, 0.2, 0.4, 0.6, 0.8]);
         let code = |light: f32| {
             let mut pixels = Vec::new();

@@ -28,7 +28,7 @@ pub enum DroppedFile {
     Reference(PathBuf),
 }
 
-/// What a file is, or the reason why it cannot be used, and the pixel that it was dropped on, if the pointer was over one.
+/// The dropped file, or the reason why it cannot be used, and the pixel that it was dropped on, if the pointer was over one.
 pub type DropResult = (Result<DroppedFile, String>, Option<[u32; 2]>);
 
 /// A file that was dropped.
@@ -101,7 +101,7 @@ fn purpose(path: PathBuf, resolution: [u32; 2]) -> Result<DroppedFile, String> {
             image(&path)?;
             Ok(DroppedFile::Texture(path))
         }
-        // What this program has rendered is a reference; so is what another one has rendered of the same size.
+        // An image that this program rendered is a reference; so is one of the same size by another program.
         Some("exr") if carries_scene(&path) => Ok(DroppedFile::Reference(path)),
         Some("exr" | "hdr" | "pfm") => {
             let Picture { width, height, .. } = image(&path)?;
@@ -168,7 +168,7 @@ pub mod tests {
     }
 
     #[test]
-    fn what_cannot_be_used_is_refused_with_a_reason() {
+    fn unusable_files_are_refused_with_a_reason() {
         let folder = tempfile::tempdir().expect("a folder");
         for (name, reason) in [
             ("notes.txt", "notes.txt cannot be used"),

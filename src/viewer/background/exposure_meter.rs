@@ -68,7 +68,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_far_outside_the_range_is_found_and_brought_to_its_middle() {
+    fn radiance_far_outside_the_range_is_found_and_brought_to_its_middle() {
         for radiance in [1e-9_f32, 1e-3, 30.0, 3e4] {
             let image = object(120, radiance);
             let misfit = found(&image, 0.0).expect("it is outside");
@@ -81,7 +81,7 @@ mod tests {
     }
 
     #[test]
-    fn what_a_display_can_show_is_left_alone() {
+    fn radiance_that_a_display_can_show_is_left_alone() {
         for radiance in [0.02, 0.2, 2.0] {
             assert_eq!(found(&object(120, radiance), 0.0), None, "{radiance}");
         }

@@ -22,7 +22,7 @@ pub enum FileState {
 pub struct BrokenFile {
     /// Its text; absent if it is not text.
     pub text: Option<String>,
-    /// What is wrong, and where.
+    /// The error and its place.
     pub report: String,
 }
 
@@ -62,8 +62,10 @@ pub fn save(document: &Document, opened: Option<&Path>, assets: &Assets, path: &
     if let Some(origin) = document.origin().or(in_memory) {
         let folder = origin.parent().unwrap_or(Path::new(""));
         // The reader was allowed to read what the scene named, and the user has chosen all else.
-        let exported =
-            export::write(ExportSource { description: document.description(), assets, folder, allow_outside: true }, path);
+        let exported = export::write(
+            ExportSource { description: document.description(), assets, folder, allow_outside: true, text: None },
+            path,
+        );
         return exported.map_or_else(|error| SaveResult::Failed(error.to_string()), |_| SaveResult::Exported(document.version()));
     }
     let folder = |path: &Path| path.parent().and_then(|folder| folder.canonicalize().ok());

@@ -194,7 +194,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_watched_any_more_is_not_reported() {
+    fn files_that_are_not_watched_any_more_are_not_reported() {
         let mut watcher = FileWatcher::idle();
         watcher.watch(["a.toml".into(), "b.png".into()].into());
         ["a.toml", "b.png", "c.png"].iter().for_each(|name| watcher.report(Path::new(name)));

@@ -29,7 +29,7 @@ pub struct OpenedRender {
 pub struct ReopenedScene {
     pub scene: Arc<Scene>,
     pub remarks: Remarks,
-    /// That of a scene of another program.
+    /// The description of a scene of another program.
     pub description: Option<Arc<SceneDescription>>,
     pub kept: OpenedRender,
 }
@@ -60,7 +60,7 @@ pub fn open_kept(path: &Path, options: &ImportOptions) -> Result<ReopenedScene, 
     Ok(ReopenedScene { scene: request.scene, remarks, description, kept })
 }
 
-/// What is needed to write the file of a render.
+/// Everything for a checkpoint, except the samples.
 pub struct RenderToKeep {
     pub request: RenderRequest,
     pub generation: u64,
@@ -73,7 +73,7 @@ pub struct RenderToKeep {
 }
 
 impl RenderToKeep {
-    /// What the file says about the image. Reads the files that the scene names.
+    /// Returns the header of the checkpoint. Reads the files that the scene names.
     pub fn header(&self) -> Result<Header, String> {
         let (path, options) = &self.scene;
         let kept = keep_scene(&self.request.scene, path, choices(path, options));

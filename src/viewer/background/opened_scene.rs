@@ -27,7 +27,7 @@ pub struct OpenedScene {
     pub materials: Arc<[String]>,
     /// Things that are legal but probably not meant.
     pub warnings: Vec<String>,
-    /// What was not imported exactly from the file of another program.
+    /// Parts that were not imported exactly from the file of another program.
     pub remarks: Arc<Remarks>,
     /// The render that continues, if the scene was opened from its file. It is taken once.
     pub kept: Option<Box<OpenedRender>>,

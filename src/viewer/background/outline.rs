@@ -25,7 +25,7 @@ impl Outline {
         }
     }
 
-    /// The same for blocks of pixels, each represented by its upper left pixel.
+    /// Outlines blocks of pixels, each represented by its upper left pixel.
     fn of_blocks([width, height]: [u32; 2], step: u32, is_inside: &dyn Fn(u32, u32) -> bool) -> Outline {
         let [columns, rows] = [width.div_ceil(step), height.div_ceil(step)];
         let inside = |column: u32, row: u32| column < columns && row < rows && is_inside(column * step, row * step);
@@ -118,7 +118,7 @@ mod tests {
     }
 
     #[test]
-    fn what_fills_the_picture_is_outlined_at_its_edge_and_what_is_empty_is_not() {
+    fn a_full_image_is_outlined_at_its_edge_and_an_empty_one_is_not() {
         assert_eq!(outline(&["##", "##"]).len(), 4);
         assert!(outline(&["..", ".."]).is_empty());
     }

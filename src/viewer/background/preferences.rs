@@ -71,7 +71,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_changed_is_found_again_and_nonsense_is_forgotten() {
+    fn changes_are_found_again_and_nonsense_is_forgotten() {
         let folder = tempfile::tempdir().expect("a folder");
         let inner = folder.path().join("noisefall");
         let mut preferences = Preferences::in_folder(&inner);

@@ -156,7 +156,7 @@ pub mod tests {
         let found = find(&kept, Some(&scene)).expect("it was left behind");
         assert_eq!(found.recovery, Recovery::of(&document, None));
         assert!(find(&kept, None).is_some() && find(&kept, Some(&folder.path().join("other.toml"))).is_none());
-        // What was saved after all is nothing to restore.
+        // Changes that were saved after all need not be restored.
         fs::write(&scene, document.text()).expect("it is written");
         assert!(find(&kept, Some(&scene)).is_none());
         assert_eq!(count_files(&kept), 0);

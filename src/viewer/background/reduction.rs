@@ -32,7 +32,7 @@ pub fn averaged(values: &[[f32; 3]], from: [usize; 2], to: [usize; 2]) -> Vec<[f
     means
 }
 
-/// The same for sRGB codes: they are averaged as light.
+/// Averages sRGB codes over areas in linear light.
 pub fn averaged_codes(codes: &[[u8; 4]], from: [usize; 2], to: [usize; 2]) -> Vec<[u8; 4]> {
     let table: Vec<f32> = (0..=255).map(|code| linear_from_srgb(f64::from(code) / 255.0) as f32).collect();
     let light: Vec<[f32; 3]> = codes.iter().map(|[r, g, b, _]| [*r, *g, *b].map(|code| table[usize::from(code)])).collect();

@@ -82,7 +82,7 @@ pub enum ReferenceEnd {
 }
 
 pub struct ReferenceTask {
-    /// What is rendered.
+    /// The image that is rendered.
     pub image: RenderRequest,
     progress: Arc<Mutex<ReferenceProgress>>,
     stop: Arc<AtomicBool>,

@@ -20,7 +20,7 @@ use noisefall_scene::scene::{Camera, CameraSequence};
 
 use super::background_task::BackgroundTask;
 
-/// What becomes of frames whose file exists.
+/// The treatment of frames whose file exists.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ExistingFrames {
     /// They are counted first, and nothing is rendered if there are any.

@@ -117,7 +117,7 @@ mod tests {
     use super::{super::picture_area::tests::area, *};
 
     #[test]
-    fn what_lies_right_of_the_line_is_the_second_picture() {
+    fn pixels_right_of_the_line_belong_to_the_second_image() {
         let view = PictureView { wipe: 0.25, ..PictureView::default() };
         let (left, right) =
             (area(), PictureArea { clip: Rect::from_min_size(Pos2::new(500.0, 50.0), Vec2::splat(200.0)), ..area() });
@@ -126,7 +126,7 @@ mod tests {
             let pictures = Pictures { first: TextureId::default(), second, resolution: [30, 10], split };
             is_second(Pos2::new(x, 100.0), &pictures, &[left, right], &view)
         };
-        // What is seen of the first reaches from 120 to 380.
+        // The visible part of the first reaches from 120 to 380.
         assert!(!is_second(184.0, Split::Wipe, true) && is_second(186.0, Split::Wipe, true));
         assert!(!is_second(186.0, Split::Wipe, false) && !is_second(186.0, Split::None, true));
         assert!(is_second(510.0, Split::SideBySide, true) && !is_second(186.0, Split::SideBySide, true));

@@ -9,7 +9,7 @@ const MARGIN: f32 = 18.0;
 const GAP: f32 = 7.0;
 const BUTTON_HEIGHT: f32 = 30.0;
 
-/// What a notice says, and its buttons with their tooltips.
+/// The text of a notice, and its buttons with their tooltips.
 pub struct Notice<'a> {
     pub title: &'a str,
     pub reason: String,

@@ -76,7 +76,7 @@ mod tests {
     }
 
     #[test]
-    fn what_a_ray_of_the_camera_meets_lies_where_it_went_through() {
+    fn a_hit_of_a_camera_ray_projects_to_the_point_of_the_ray() {
         for projection in [Projection::Perspective, Projection::orthographic(3.0)] {
             let camera = camera(projection);
             let (o, d) = built_in().rays(&camera).through(One, F(30.0), F(170.0));
@@ -112,7 +112,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_looked_at_lies_in_the_middle_and_edges_at_the_edge() {
+    fn the_look_at_point_lies_in_the_middle_and_edges_at_the_edge() {
         let camera = Camera { shift: [0.0; 2], ..camera(Projection::Perspective) };
         let [x, y] = project(&camera, DVec3::ZERO).expect("it is in front");
         assert!((x - 150.0).abs() < 1e-3 && (y - 100.0).abs() < 1e-3);

@@ -118,12 +118,12 @@ mod tests {
     }
 
     #[test]
-    fn nothing_is_done_of_what_is_not_known() {
+    fn no_part_of_an_unknown_total_is_done() {
         assert_eq!([part_of(0, 0), part_of(0, 8), part_of(2, 8), part_of(8, 8)], [0.0, 0.0, 0.25, 1.0]);
     }
 
     #[test]
-    fn what_is_in_use_has_no_button_and_what_is_chosen_is_the_row_of_its_button() {
+    fn settings_in_use_have_no_button_and_every_other_button_chooses_its_row() {
         let candidate = |seed, rel_mse, relative| Candidate {
             settings: RenderSettings { seed, ..RenderSettings::default() },
             name: format!("seed {seed}"),

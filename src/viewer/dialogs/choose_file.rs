@@ -15,7 +15,7 @@ use super::path_form::{self, Asked, PathForm, Wanted};
 pub enum FilePurpose {
     /// The value at a path is a file.
     Value(Path),
-    /// The same for a value that is there after an edit, and would make no sense without a file.
+    /// The value at a path is a file after an edit, which would make no sense without a file.
     After(Edit, Path),
     /// A texture with the image in the file stands for the value at a path.
     Texture(Path),
@@ -48,7 +48,7 @@ impl FilePurpose {
         }
     }
 
-    /// What is chosen, and the extensions of its files.
+    /// Returns a noun for the file, and its extensions.
     fn kind(&self) -> (&'static str, &'static [&'static str]) {
         const MESH: &[&str] = &["obj", "ply", "stl"];
         let (FilePurpose::Value(path) | FilePurpose::After(_, path) | FilePurpose::Texture(path)) = self;

@@ -78,7 +78,7 @@ impl Completion {
             }
             [first, others @ ..] => {
                 let common = others.iter().fold(first.name.as_str(), |common, entry| common_start(common, &entry.name));
-                // What differs in its case only has more letters in the text.
+                // Names that differ only in case have fewer letters in common than the text has.
                 if common.chars().count() >= split(&field.path).1.chars().count() {
                     let path = format!("{folder}{common}");
                     field.set(ui, path);

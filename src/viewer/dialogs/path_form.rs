@@ -16,7 +16,7 @@ pub struct PathForm {
     completion: Completion,
 }
 
-/// What a form says, and which files it takes.
+/// The texts of a form, and the files that it takes.
 pub struct Wanted<'a> {
     /// The sentences above the field.
     pub text: &'a str,
@@ -35,7 +35,7 @@ struct FormAnswer {
     cancels: bool,
 }
 
-/// What became of a dialog in a frame.
+/// The result of a dialog in a frame.
 pub enum Asked {
     /// A file that exists was chosen.
     File(PathBuf),

@@ -65,7 +65,7 @@ mod tests {
     }
 
     #[test]
-    fn a_place_ends_before_what_was_found() {
+    fn a_place_ends_before_the_finding() {
         assert_eq!(place("a.xml:1:5: `hair` → plastic: smooth"), "a.xml:1:5");
     }
 }

@@ -22,7 +22,7 @@ impl SaveDialog {
         SaveDialog { target, field: PathField::of_new_file(path, "path/to/file"), keeps_view: None }
     }
 
-    /// The same, with the choice whether a view that is not the camera of the scene becomes it.
+    /// Adds the choice whether a view that is not the camera of the scene becomes it.
     pub fn with_view(self) -> SaveDialog {
         SaveDialog { keeps_view: Some(false), ..self }
     }

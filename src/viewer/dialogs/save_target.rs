@@ -18,7 +18,7 @@ pub enum SaveTarget {
     Progress,
     CurvesCsv,
     CurvesSvg,
-    /// What the path inspector shows.
+    /// The path in the path inspector.
     Path,
 }
 
@@ -100,7 +100,7 @@ impl SaveTarget {
     }
 }
 
-/// What a suggested name is made of.
+/// The names and folders that a suggested name is made of.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct SceneNames<'a> {
     /// The scene file.
@@ -176,7 +176,7 @@ mod tests {
     }
 
     #[test]
-    fn files_end_as_what_they_are() {
+    fn every_target_takes_its_own_extensions() {
         let takes = |target: SaveTarget, name: &str| target.takes(Path::new(name));
         assert!(
             takes(SaveTarget::Picture, "a.png") && takes(SaveTarget::Picture, "a.EXR") && !takes(SaveTarget::Picture, "a.csv")

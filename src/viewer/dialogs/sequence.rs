@@ -58,7 +58,7 @@ impl SequenceDialog {
         }
     }
 
-    /// What the fields say. Notes in its field what is wrong with a path.
+    /// Returns the answer in the fields. A field with a wrong path shows the error.
     fn answer(&mut self) -> Option<SequenceAnswer> {
         let files = self.files.path()?;
         let checked = match numbered(&files, 1) {

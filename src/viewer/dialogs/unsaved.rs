@@ -26,7 +26,7 @@ pub struct SaveRequest {
     pub path: Option<PathBuf>,
     /// Replaces the file even if another program has changed it.
     pub replaces: bool,
-    /// What goes on when the scene is saved.
+    /// The action that follows when the scene is saved.
     pub leaving: Option<Leaving>,
 }
 

@@ -41,7 +41,7 @@ fn cell(ui: &mut Ui, each: Strategy, chosen: &mut Strategy) {
     }
 }
 
-/// What a strategy does, in words.
+/// Describes a strategy.
 pub fn meaning(Strategy { s, t, .. }: Strategy) -> String {
     let how = match (s, t) {
         (0, 2) => "the camera sees a light".to_owned(),

@@ -7,7 +7,7 @@ use crate::viewer::background::{
     tev_link::{TevLink, TevState},
 };
 
-/// What a button of the line stops.
+/// The task that a button of the line stops.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StopCommand {
     Tev,

@@ -113,7 +113,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_have_the_name_and_the_unit_of_their_view_and_what_is_missing_is_no_number() {
+    fn numbers_have_the_name_and_the_unit_of_their_view_and_missing_ones_are_dashes() {
         let scale = Some(Scale { map: ColourMap::Viridis, ends: [0.0, 1.0], log: false, unit: "m" });
         let legend = Legend { title: "Depth".to_owned(), scale, entries: Vec::new() };
         let numbers = |number| PixelValues { numbers: Some(vec![0.0, number]), ..PixelValues::default() };
@@ -124,7 +124,7 @@ mod tests {
     }
 
     #[test]
-    fn features_are_read_as_what_they_are() {
+    fn features_are_vectors_colours_and_names() {
         let features = Arc::new(Features {
             width: 2,
             height: 1,

@@ -8,7 +8,7 @@ use crate::viewer::widgets::style::row;
 pub enum Preset {
     /// The textbook estimator: pixels are independent and have the same number of samples.
     Teaching,
-    /// What trials of the scene find to be the most efficient.
+    /// The most efficient settings by trials of the scene.
     Fastest,
 }
 
@@ -76,7 +76,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_preset_that_is_applied_is_in_force_and_keeps_what_it_does_not_name() {
+    fn a_preset_that_is_applied_is_in_force_and_keeps_other_settings() {
         let own = RenderSettings {
             estimator: Estimator::Light,
             sampler: Sampler::Stratified,

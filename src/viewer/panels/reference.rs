@@ -1,4 +1,4 @@
-//! What the image is compared with, and where to get it.
+//! The reference that the image is compared with, and its sources.
 use egui::{Button, DragValue, Ui};
 
 use crate::viewer::widgets::{
@@ -20,7 +20,7 @@ pub enum ReferenceSource<'a> {
     None,
 }
 
-/// What a button asks for.
+/// The command of a button.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ReferenceCommand {
     Forget,

@@ -27,7 +27,7 @@ pub fn side_choice(ui: &mut Ui, edits_second: Option<&mut bool>) {
     });
 }
 
-/// What is known of settings in a scene.
+/// Findings about settings in a scene.
 pub struct Findings<'a> {
     pub status: &'a Status,
     /// The estimator that renders, where it is not the one of the settings.

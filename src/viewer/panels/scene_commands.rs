@@ -7,7 +7,7 @@ use noisefall_scene::{light::punctual_light::PunctualLightKind, shape::ShapeKind
 use super::outliner::New;
 use crate::viewer::widgets::list::{closing, explained};
 
-/// What a button asks for.
+/// The command of a button.
 #[derive(Clone, Copy, Debug)]
 pub enum SceneCommand {
     Add(New),

@@ -34,7 +34,7 @@ pub struct Toolbar<'a> {
     pub has_region: bool,
     pub can_save: bool,
     pub is_comparing: bool,
-    /// What undo and redo would take back or repeat.
+    /// Names of the steps that undo and redo would revert and repeat.
     pub undo: [Option<String>; 2],
     pub tool: Tool,
     /// Screen pixels per picture pixel, if there is a picture.

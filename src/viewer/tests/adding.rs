@@ -41,14 +41,14 @@ fn suits_the_view(window: &Window, what: &str) {
 }
 
 #[test]
-fn shapes_and_lights_suit_what_the_camera_sees_before_a_far_backdrop() {
+fn shapes_and_lights_suit_the_visible_objects_before_a_far_backdrop() {
     let mut window = studio();
     // The wall behind, the floor before the ball, and the ball.
     for pixel in [[10, 8], [48, 60], [48, 34]] {
         window.state_mut().selection.clicked = Some(pixel);
         for kind in ShapeKind::alternatives() {
             for new in [New::Shape(kind.name()), New::AreaLight(kind.name())] {
-                // What is far up or at the edge may be out of the image, but is never around the camera.
+                // An object far up or at the edge may be out of the image, but is never around the camera.
                 let is_middle = pixel[0] == 48 && matches!(new, New::Shape(_));
                 window.state_mut().add(new);
                 if is_middle {

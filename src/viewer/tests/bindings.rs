@@ -4,14 +4,14 @@ use noisefall_scene::scene::{Camera, RenderSettings};
 
 use super::*;
 
-/// What has changed in the settings, as the scene's with one change.
+/// Clicks a control and checks the settings.
 fn sets(window: &mut Window, label: &str, expected: RenderSettings) {
     click(window, label);
     assert_eq!(window.state().settings(), expected, "{label}");
 }
 
 #[test]
-fn every_choice_of_the_estimate_sets_what_it_names() {
+fn every_choice_of_the_estimate_changes_its_setting() {
     let mut window = window("cornell_spheres");
     let mut expected = window.state().settings();
     for estimator in Estimator::ALL.into_iter().rev() {

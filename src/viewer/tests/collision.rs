@@ -25,7 +25,7 @@ fn with_camera_tool() -> (Window, f32) {
     (window, bright)
 }
 
-/// How far the eye is inside of the nearest wall: the left one at x = −1, the right one at 1, the back one at z = −1.
+/// Returns the distance from the eye to the nearer side wall.
 fn room(camera: &Camera) -> f64 {
     1.01 - camera.eye.x.abs()
 }
@@ -43,7 +43,7 @@ fn an_orbit_stops_at_the_walls_and_keeps_its_pivot() {
         assert!((camera.eye.distance(camera.look_at) - start.eye.distance(start.look_at)).abs() < 1e-9);
         let now = brightness(&mut window);
         assert!(now > 0.3 * bright, "{by}: {bright} before, {now} after");
-        // What is stopped on one way is free on the other.
+        // The wall stops the eye in one direction and not in the other.
         drag(&mut window, PointerButton::Primary, [400.0, 400.0], [400.0 + by, 420.0]);
         assert!(window.state().camera().eye.y > camera.eye.y + 0.1, "it slides along the wall");
     }
@@ -144,7 +144,7 @@ fn there_is_no_way_back_where_nothing_was_ever_seen() {
     assert_eq!(brightness(&mut window), 0.0);
     window.run_steps(2);
     assert!(window.query_by_label("The camera is inside “wall”.").is_some() && window.query_by_label(BACK).is_none());
-    // What another scene showed is no view of this one.
+    // A view of another scene is not a view of this one.
     let path = shipped("furnace");
     window.state_mut().loader_mut().open(Some(path));
     wait(&mut window, "light", |app| {

@@ -42,7 +42,7 @@ fn sides_of_a_comparison_are_swapped_kept_and_laid_out() {
 }
 
 #[test]
-fn the_menu_of_comparisons_changes_what_it_names() {
+fn every_entry_in_the_menu_of_comparisons_changes_its_setting() {
     let mut window = window("cornell_spheres");
     let of = window.state().settings();
     for (label, other) in [

@@ -4,7 +4,7 @@ use noisefall_render::render::WhiteBalance;
 
 use super::*;
 
-/// What the window asks of the system next.
+/// Returns the next requests of the window to the system.
 fn asked(window: &mut Window, what: &str) -> Vec<OutputCommand> {
     let start = Instant::now();
     loop {

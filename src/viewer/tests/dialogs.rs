@@ -4,7 +4,7 @@ use crate::viewer::app::front::FrontDialog;
 
 type Opens = fn(&mut Window);
 
-/// What a key of the window would change behind a dialog.
+/// Returns the values that a key of the window would change behind a dialog.
 fn behind(window: &Window) -> (Tool, bool, f32, Option<super::super::instruments::tabs::InstrumentTab>, u64) {
     let app = window.state();
     (app.tool(), app.budget().paused, app.look().display.exposure, app.tab(), generation(window))
@@ -17,7 +17,7 @@ fn place(window: &Window, text: &str) -> egui::Rect {
 }
 
 #[test]
-fn no_key_reaches_what_is_behind_a_dialog() {
+fn no_key_reaches_the_window_behind_a_dialog() {
     let dialogs: [(&str, Opens); 5] = [
         ("help", |w| press(w, Key::F1)),
         ("gallery", |w| press(w, Key::F6)),

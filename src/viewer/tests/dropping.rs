@@ -122,7 +122,7 @@ fn a_panorama_becomes_the_sky() {
 }
 
 #[test]
-fn what_cannot_be_used_changes_nothing_and_is_said_once() {
+fn unusable_files_change_nothing_and_are_reported_once() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = window("cornell_spheres");
     window.event(egui::Event::PointerGone);

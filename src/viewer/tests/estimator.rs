@@ -19,7 +19,7 @@ fn an_estimator_that_the_scene_allows_is_named_once_in_the_line_below() {
 }
 
 #[test]
-fn the_choice_by_trial_says_what_it_has_chosen_and_why() {
+fn the_choice_by_trial_names_its_result_and_the_reason() {
     let mut window = window("cornell_spheres");
     restarts(&mut window, "a trial", |w| choose(w, "Estimator", "Auto"));
     let scene = window.state().opened().as_ref().expect("it is open").scene.clone();
@@ -34,7 +34,7 @@ fn the_choice_by_trial_says_what_it_has_chosen_and_why() {
 }
 
 #[test]
-fn an_estimator_that_the_scene_does_not_allow_says_what_renders_instead() {
+fn an_estimator_that_the_scene_does_not_allow_names_its_substitute() {
     let mut window = window("textures_and_bump");
     restarts(&mut window, "paths from lights", |w| choose(w, "Estimator", "Light tracing"));
     wait(&mut window, "samples", |app| app.status().spp >= 1);

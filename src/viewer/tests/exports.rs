@@ -51,7 +51,7 @@ fn tev_gets_the_film_as_it_grows_until_it_is_stopped() {
 }
 
 #[test]
-fn without_tev_one_message_says_what_to_do_and_the_address_is_remembered() {
+fn without_tev_one_message_gives_advice_and_the_address_is_remembered() {
     let listener = TcpListener::bind("127.0.0.1:0").expect("there is a free port");
     let address = listener.local_addr().expect("it has an address").to_string();
     drop(listener);

@@ -62,7 +62,7 @@ fn a_typed_number_counts_when_it_is_entered_and_escape_gives_it_up() {
 }
 
 #[test]
-fn arithmetic_counts_and_what_is_no_number_says_so_until_the_next_press() {
+fn arithmetic_counts_and_an_invalid_number_is_refused_until_the_next_press() {
     let mut window = window("cornell_spheres");
     let type_seed = |w: &mut Window, text: &str| {
         enter(w, "Seed", 0);

@@ -55,7 +55,7 @@ fn curves_are_saved_as_table_and_as_drawing() {
 }
 
 #[test]
-fn tabs_say_what_they_are_about() {
+fn tabs_explain_their_contents() {
     let mut window = with_tab("furnace", "Compare");
     assert!(window.query_by_label_contains("Both then get the same time").is_some());
     window.get_by_role_and_label(Role::Button, "Convergence").click();

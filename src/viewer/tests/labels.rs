@@ -93,7 +93,7 @@ fn a_pixel_has_its_own_estimate_and_samples() {
 }
 
 #[test]
-fn a_bounce_says_what_it_brings_what_there_is_up_to_it_and_what_a_cap_loses() {
+fn a_bounce_states_its_share_the_sum_up_to_it_and_the_loss_of_a_cap() {
     let mut app = app();
     let shares = [0.5, 0.2, 0.12].into_iter().chain([0.01; 18]).collect();
     let series = Some(Series { terms: Vec::new(), shares });
@@ -200,7 +200,7 @@ fn lines_are_estimates_points_are_true_and_clear_keeps_the_curve_that_grows() {
 }
 
 #[test]
-fn where_no_truth_is_known_the_plot_of_bias_says_what_it_needs() {
+fn without_a_reference_the_plot_of_bias_asks_for_one() {
     let mut app = app();
     let scene = app.opened().as_ref().expect("it is open").scene.clone();
     app.instruments.history.look_at(&scene, &scene.camera, None);

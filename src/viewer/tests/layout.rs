@@ -153,7 +153,7 @@ fn a_comparison_that_has_not_begun_leaves_the_room_to_the_image() {
 
 type Open = (&'static str, fn(&mut App), &'static [&'static str]);
 
-/// What can lie over the picture, and the buttons that it has.
+/// Dialogs over the image, and their buttons.
 const DIALOGS: [Open; 9] = [
     ("open", |app| app.open_scene(crate::viewer::background::catalogue::SceneRequest::Browse), &["Open", "Cancel", "Browse…"]),
     ("save", |app| app.open_save_dialog(SaveTarget::Picture), &["Save", "Cancel", "Browse…", "Send to tev…"]),

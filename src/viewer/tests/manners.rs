@@ -50,7 +50,7 @@ fn nothing_is_drawn_where_nothing_changes() {
     let mut window = window("bright_sky");
     window.state_mut().budget_mut().max_spp = Some(2);
     wait(&mut window, "the target", |app| matches!(app.status().state, State::Done(_)));
-    // What is on its way arrives, then no frame asks for another one.
+    // Pending results arrive, then no frame asks for another one.
     wait(&mut window, "rest", |app| !app.ctx.has_requested_repaint());
 }
 

@@ -120,7 +120,7 @@ fn open(scene: Option<PathBuf>) -> Window {
     open_with(scene, |_| {})
 }
 
-/// The same with an app that is prepared before its first frame.
+/// A window whose app is prepared before its first frame.
 fn open_with(scene: Option<PathBuf>, prepare: impl Fn(&mut App) + 'static) -> Window {
     let builder = Harness::builder().with_size(SIZE).renderer(rasteriser::Blind);
     builder.build_ui_state(drawing(scene, prepare), Lazy(None))
@@ -229,7 +229,7 @@ fn the_pixel_under_the_pointer_is_read_out() {
 }
 
 #[test]
-fn every_single_key_does_what_the_help_says() {
+fn every_single_key_works_as_the_help_says() {
     let mut window = window("cornell_spheres");
     press(&mut window, Key::C);
     assert_eq!(window.state().tool(), Tool::Camera);

@@ -115,7 +115,7 @@ fn the_wheel_and_a_drag_belong_to_the_tool() {
 }
 
 #[test]
-fn what_is_looked_at_follows_a_pan() {
+fn the_look_at_point_follows_a_pan() {
     let mut window = window("cornell_spheres");
     window.key_press(Key::C);
     window.run_steps(2);

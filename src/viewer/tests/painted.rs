@@ -133,7 +133,7 @@ fn a_region_is_framed_with_the_tiles_that_it_takes() {
     let rect = |from: [f32; 2], to: [f32; 2]| Rect::from_min_max(from.into(), to.into());
     let region = rect([150.0, 300.0], [200.0, 350.0]);
     assert_eq!(frames(&mut app), [(1.0, rect([100.0, 260.0], [260.0, 420.0])), (2.5, region), (1.5, region)]);
-    // What is being drawn is seen in place of what was.
+    // A region that is being drawn replaces the earlier one.
     app.window.marking = Some(Region { from: [0, 0], to: [2, 2] });
     assert_eq!(frames(&mut app)[2], (1.5, rect([100.0, 100.0], [110.0, 110.0])));
 }

@@ -75,7 +75,7 @@ fn one_steps_through_paths_and_the_table_adds_up() {
 }
 
 #[test]
-fn what_is_inspected_is_of_the_picture_as_it_is_now() {
+fn the_inspected_path_follows_changes_of_the_image() {
     let mut window = inspecting("cornell_spheres");
     window.state_mut().path_inspector_mut().look_at([30, 20]);
     wait(&mut window, "its samples", |app| app.path_inspector().histogram().is_some() && app.path_inspector().replay().is_some());
@@ -135,7 +135,7 @@ fn a_path_that_leaves_the_scene_ends_in_a_dashed_line() {
 }
 
 #[test]
-fn what_is_inspected_can_be_copied() {
+fn an_inspected_path_can_be_copied() {
     let mut window = inspecting("cornell_spheres");
     window.state_mut().path_inspector_mut().look_at([30, 20]);
     wait(&mut window, "its samples", |app| app.path_inspector().histogram().is_some() && app.path_inspector().replay().is_some());
@@ -153,7 +153,7 @@ fn what_is_inspected_can_be_copied() {
 }
 
 #[test]
-fn what_is_inspected_can_be_saved() {
+fn an_inspected_path_can_be_saved() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = inspecting("cornell_spheres");
     window.state_mut().path_inspector_mut().look_at([30, 20]);

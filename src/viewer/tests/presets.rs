@@ -60,7 +60,7 @@ fn both_sides_of_a_comparison_name_their_path_reuse() {
 }
 
 #[test]
-fn a_preset_sets_what_it_says_and_the_panel_marks_the_one_in_force() {
+fn a_preset_changes_its_settings_and_the_panel_marks_the_one_in_force() {
     let mut window = window("cornell_spheres");
     let app = window.state_mut();
     app.session.settings = RenderSettings { sampler: Sampler::Stratified, max_bounces: Some(6), ..RenderSettings::default() };

@@ -101,7 +101,7 @@ fn drag_in_inspector(window: &mut Window, random: &mut SmallRng) {
     let from = place();
     let to = [place()[0], from[1]];
     drag(window, PointerButton::Primary, from, to);
-    // What a click may have opened.
+    // Closes a menu that the click may have opened.
     window.key_press(Key::Escape);
     window.run_steps(2);
 }
@@ -163,7 +163,7 @@ fn the_image_after_random_edits_is_that_of_the_saved_file() {
         event(&mut window, &mut random, &path);
     }
     settle(&mut window);
-    // What only a compiled scene tells leaves the image of the scene before.
+    // An error that only compiling finds leaves the image of the earlier scene.
     while let Some(reason) = uncompiled(&window) {
         assert!(["add up to", "two sides", "nested deeper"].iter().any(|known| reason.contains(known)), "{reason}");
         assert!(window.state().history.names()[0].is_some(), "{reason}");

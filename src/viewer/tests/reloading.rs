@@ -59,7 +59,7 @@ fn a_change_by_another_program_is_shown_and_camera_and_settings_stay() {
     assert_eq!((app.camera(), app.settings().seed), (camera, 7));
     let opened = app.opened().as_ref().expect("it is open");
     assert_eq!(&*opened.description, description(app), "the new scene is rendered");
-    // What the file changes is taken over: the camera as a whole, without the resolution.
+    // Changes of the file are applied: the camera as a whole, without the resolution.
     let wider = with_radius(&text, "0.21").replace("fov = 36", "fov = 50");
     assert_ne!(wider, with_radius(&text, "0.21"));
     write(&mut window, &path, &wider);

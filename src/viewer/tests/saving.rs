@@ -3,7 +3,7 @@ use super::*;
 use crate::viewer::instruments::tabs::InstrumentTab;
 
 #[test]
-fn ctrl_e_saves_what_is_shown_where_the_path_field_says() {
+fn ctrl_e_saves_the_shown_image_to_the_path_in_the_field() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("shot.exr");
     let mut window = window("cornell_spheres");
@@ -75,7 +75,7 @@ fn saving_never_moves_the_camera() {
 }
 
 #[test]
-fn exposure_and_tone_map_change_what_is_saved() {
+fn exposure_and_tone_map_change_the_saved_image() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = window("bright_sky");
     click(&mut window, "Pause");

@@ -42,7 +42,7 @@ fn is_written(window: &mut Window) {
 }
 
 #[test]
-fn saving_writes_the_changed_line_and_no_other_and_the_title_says_what_is_unsaved() {
+fn saving_writes_the_changed_line_and_no_other_and_the_title_marks_unsaved_changes() {
     let folder = tempfile::tempdir().expect("a folder");
     let (mut window, path, text) = window_of_copy(folder.path());
     let title = |window: &Window| window.state().window.title.clone();

@@ -79,7 +79,7 @@ fn lights_without_surface_are_parts_like_others() {
 }
 
 #[test]
-fn the_menu_adds_what_it_says() {
+fn the_menu_adds_materials_and_textures() {
     let mut window = window("cornell_spheres");
     for entries in [&["Add", "Material"][..], &["Add", "Texture"]] {
         click(&mut window, "Edit");

@@ -24,7 +24,7 @@ fn at_rest(scene: &str, spp: u32, change: impl FnOnce(&mut App)) -> Window {
             && (app.path_inspector().pixel.is_none()
                 || app.path_inspector().histogram().is_some_and(|histogram| histogram.samples.len() == spp as usize))
     });
-    // What is on its way arrives.
+    // Pending results arrive.
     for _ in 0..30 {
         window.step();
         std::thread::sleep(Duration::from_millis(2));

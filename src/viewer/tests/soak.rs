@@ -157,7 +157,7 @@ fn soak() {
 fn settled_memory(window: &mut Window, enough: usize) -> usize {
     const PATIENCE: Duration = Duration::from_secs(5);
     window.event(egui::Event::PointerGone);
-    // What camera rays meet is kept for as long as the scene is.
+    // First hits of camera rays are kept for as long as the scene is.
     *window.state_mut().look_mut() = DisplaySettings::default();
     window.state_mut().loader_mut().open(Some(shipped("cornell_spheres")));
     wait(window, "the scene", |app| !app.loader().is_busy());

@@ -58,7 +58,7 @@ fn the_numbers_of_the_last_column_add_up_to_the_sample() {
             let labels = labels(&window);
             let left = labels.iter().find(|(text, _)| text == "term").expect("the last column").1.left();
             let column = labels.iter().filter(|(_, rect)| (rect.left() - left).abs() < 0.5).map(|(text, _)| text);
-            // What is in brackets does not count.
+            // Terms in brackets do not count.
             let numbers: Vec<f64> = column.filter_map(|text| text.parse().ok()).collect();
             let (last, terms) = numbers.split_last().expect("there is a sum");
             let rounding = 0.0006 * numbers.len() as f64 + 0.01 * last;

@@ -5,7 +5,7 @@ use super::*;
 use crate::viewer::instruments::tabs::InstrumentTab;
 
 #[test]
-fn what_is_shown_is_chosen_by_lists_buttons_and_keys() {
+fn lists_buttons_and_keys_choose_the_view() {
     let mut window = window("cornell_spheres");
     for (map, name, _) in ColourMap::CHOICE.into_iter().rev() {
         click(&mut window, name);
@@ -62,7 +62,7 @@ fn what_is_shown_is_chosen_by_lists_buttons_and_keys() {
 }
 
 #[test]
-fn buttons_of_the_toolbar_do_what_they_say() {
+fn buttons_of_the_toolbar_work_as_labelled() {
     let mut window = window("cornell_spheres");
     wait(&mut window, "samples", |app| app.status().spp >= 1);
     click(&mut window, "Step");
@@ -99,7 +99,7 @@ fn buttons_of_the_toolbar_do_what_they_say() {
 }
 
 #[test]
-fn threads_and_tour_do_what_they_say() {
+fn threads_and_tour_work_as_labelled() {
     let mut window = window("cornell_spheres");
     window.state_mut().session.threads = 2;
     wait(&mut window, "threads", |app| app.worker().threads() == 2);

@@ -72,7 +72,7 @@ fn an_edit_that_is_undone_gives_its_samples_back() {
     assert!(again.radiance == first.radiance, "the very same samples");
     edits(&mut window, "forth again", redo);
     wait(&mut window, "its samples", |app| app.shown_frame().as_ref().is_some_and(|frame| frame.spp == 41));
-    // What is taken back at once was never rendered.
+    // An edit that is undone at once is never rendered.
     never_restarts(&mut window, |w| {
         let brighter = OwnedValue::Textured(Textured::Constant([0.75; 3]));
         w.state_mut().edit(&Edit::set(Path::of("materials.amber.lambertian.albedo"), brighter));

@@ -9,13 +9,13 @@ use super::{
 };
 use crate::viewer::panels::outliner::{Action, New};
 
-/// What the tooltip of Undo says of the last step.
+/// Returns the name of the last step in the tooltip of Undo.
 fn last_step(window: &Window) -> String {
     window.state().history.names()[0].clone().expect("there is a step")
 }
 
 #[test]
-fn the_last_step_says_what_it_did_to_what() {
+fn the_last_step_names_its_action_and_its_part() {
     let mut window = window("cornell_spheres");
     let amber = || Subject::Material("amber".to_owned());
     select(&mut window, amber());

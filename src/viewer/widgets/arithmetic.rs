@@ -137,7 +137,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_number_is_refused_with_its_text() {
+    fn a_text_that_is_no_number_is_refused_and_quoted() {
         assert_eq!(evaluate(" wide "), Err("expected a number, found “wide”".to_owned()));
         assert_eq!(evaluate("1/0"), Err("“1/0” is not a finite number".to_owned()));
         for text in ["", ".", "3/", "(1", "1)", "2 e", "1e", "inf", "NaN", "0x10", "3**2", "1e999", "½"] {

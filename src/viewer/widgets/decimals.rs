@@ -20,7 +20,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_rounds_to_zero_has_no_sign() {
+    fn numbers_that_round_to_zero_have_no_sign() {
         assert_eq!(three([-0.000_4, -0.0, -0.001], 3), "0.000 0.000 -0.001");
         assert_eq!([fixed(-1e-17, 0), fixed(2.5, 1), fixed(f64::NAN, 2)], ["0", "2.5", "NaN"]);
     }

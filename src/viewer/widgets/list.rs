@@ -26,7 +26,7 @@ pub fn explained(entry: Response, doc: &str) -> Response {
     entry
 }
 
-/// What was chosen in the list or menu of `ui`, which closes if that is something.
+/// Returns the choice in the list or menu of `ui`, and closes it if there is one.
 pub fn closing<T>(ui: &Ui, chosen: Option<T>) -> Option<T> {
     if chosen.is_some() {
         ui.close();

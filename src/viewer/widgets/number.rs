@@ -17,7 +17,7 @@ pub fn field<'a, N: Numeric>(ui: &Ui, value: &'a mut N, decimals: usize, range: 
     Explained::new(plain_field(ui, value, decimals, range), now)
 }
 
-/// The same without explanations.
+/// A field for a number without explanations.
 pub fn plain_field<'a, N: Numeric>(ui: &Ui, value: &'a mut N, decimals: usize, range: RangeInclusive<f64>) -> DragValue<'a> {
     let field = DragValue::from_get_set(kept(value, decimals, range.clone(), gave_up(ui)));
     let field = field.max_decimals(decimals).range(range).clamp_existing_to_range(false).update_while_editing(false);
@@ -88,7 +88,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_rounds_to_zero_has_no_sign() {
+    fn numbers_that_round_to_zero_have_no_sign() {
         assert_eq!([-0.000_4, -0.0, -0.001, 2.5].map(|x| shown(x, 3..=3)), ["0.000", "0.000", "-0.001", "2.500"]);
         assert_eq!(shown(-1e-17, 0..=3), "0");
     }

@@ -36,7 +36,7 @@ pub struct PathField {
 enum Keyboard {
     /// At first, and after an error.
     Once,
-    /// The same. The whole path is still to be selected.
+    /// At first, and after an error. The whole path is still to be selected.
     SelectsAll,
     /// Whenever nothing else has it. The name of the file is still to be selected.
     SelectsName,

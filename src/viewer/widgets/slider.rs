@@ -1,4 +1,4 @@
-//! What all sliders do: Shift drags ten times as slowly, and a double click resets.
+//! The behaviour of all sliders: Shift drags ten times as slowly, and a double click resets.
 use std::ops::RangeInclusive;
 
 use egui::{PointerButton, Pos2, Rect, Response, Ui, emath::Numeric, vec2};
@@ -51,7 +51,7 @@ pub fn show<N: Numeric>(
     response
 }
 
-/// The same for a default that takes time to find. Returns whether it is asked for.
+/// Shows a slider whose default takes time to find. Returns whether the default is requested.
 pub fn show_resettable<N: Numeric>(
     ui: &mut Ui,
     value: &mut N,

@@ -24,7 +24,7 @@ pub enum Structure {
     Serialized,
 }
 
-/// What reads the first file.
+/// The reader of the first file.
 #[derive(Clone, Copy, PartialEq)]
 pub enum Reader {
     /// A scene or a mesh of another program.

@@ -172,7 +172,7 @@ fn assert_sums(replay: &Replay, what: &str) {
     replay.shared.iter().for_each(|shared| assert_shared(replay, shared, what));
 }
 
-/// What a pixel keeps and what its neighbours find add up to its sample.
+/// Checks that the light of a pixel and of its neighbours adds up to its sample.
 fn assert_shared(replay: &Replay, shared: &SharedLight, what: &str) {
     let emissions = replay.vertices.iter().flat_map(|vertex| &vertex.emission).map(|term| (term.shared, term.contribution));
     let lights = replay.vertices.iter().flat_map(|vertex| &vertex.light).map(|term| (term.shared, term.contribution));

@@ -7,6 +7,7 @@ use noisefall_base::{
     file::{WriteError, replace},
 };
 use noisefall_scene::scene::{SceneError, describe, description::SceneDescription};
+use noisefall_writer::renamed;
 
 /// A state of a document: equal versions of one document have the same description and text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -42,7 +43,10 @@ impl Document {
     /// names are not read.
     pub fn open(path: impl AsRef<FilePath>, text: &str) -> Result<Document, SceneError> {
         let path = path.as_ref();
-        let content = read(&path.display().to_string(), text)?;
+        let name = path.display().to_string();
+        let content = read(&name, text)?;
+        // Edits use the current names.
+        let content = renamed(text).map_or(Ok(content), |text| read(&name, &text))?;
         let first = Version(0);
         Ok(Document {
             content,

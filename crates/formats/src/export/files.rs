@@ -162,7 +162,8 @@ mod tests {
             assets.insert(path, triangle());
         }
         let description = scene(&["meshes/a.ply", "../../meshes/A.ply", "meshes/a.ply"], "wood.png");
-        let source = ExportSource { description: &description, assets: &assets, folder: from.path(), allow_outside: false };
+        let source =
+            ExportSource { description: &description, assets: &assets, folder: from.path(), allow_outside: false, text: None };
         let done = write(source, &to.path().join("room.toml")).expect("it is written");
         assert_eq!((done.written, done.copied, done.folder), (2, 1, Some(to.path().join("room.files"))));
         let text = fs::read_to_string(to.path().join("room.toml")).expect("it is there");
@@ -183,7 +184,8 @@ mod tests {
         fs::create_dir(folder.path().join("textures")).expect("a folder");
         fs::write(folder.path().join("textures/wood.png"), "wood").expect("it is written");
         let (description, assets) = (scene(&[], "textures/../textures/wood.png"), Assets::default());
-        let source = ExportSource { description: &description, assets: &assets, folder: folder.path(), allow_outside: false };
+        let source =
+            ExportSource { description: &description, assets: &assets, folder: folder.path(), allow_outside: false, text: None };
         let done = write(source, &folder.path().join("room.toml")).expect("it is written");
         let text = fs::read_to_string(folder.path().join("room.toml")).expect("it is there");
         assert_eq!((done.written, done.copied, done.folder, named(&text)), (0, 0, None, vec!["textures/wood.png".to_owned()]));
@@ -197,7 +199,8 @@ mod tests {
         let mut assets = Assets::default();
         assets.insert("a.ply", triangle());
         let description = scene(&["a.ply"], "wood.png");
-        let source = ExportSource { description: &description, assets: &assets, folder: from.path(), allow_outside: false };
+        let source =
+            ExportSource { description: &description, assets: &assets, folder: from.path(), allow_outside: false, text: None };
         for name in ["room.toml", "room.xml"] {
             let path = to.path().join(name);
             fs::write(&path, "old").expect("it is written");
@@ -210,7 +213,8 @@ mod tests {
     fn nothing_is_written_if_a_file_is_missing() {
         let folder = tempfile::tempdir().expect("a folder");
         let (description, assets) = (scene(&[], "wood.png"), Assets::default());
-        let source = ExportSource { description: &description, assets: &assets, folder: folder.path(), allow_outside: false };
+        let source =
+            ExportSource { description: &description, assets: &assets, folder: folder.path(), allow_outside: false, text: None };
         let error = write(source, &folder.path().join("room.toml")).expect_err("it is missing");
         assert!(error.to_string().contains("wood.png"), "{error}");
         assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 0);

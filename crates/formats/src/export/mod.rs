@@ -51,6 +51,8 @@ pub struct ExportSource<'a> {
     pub folder: &'a Path,
     /// Whether files outside of that folder may be copied.
     pub allow_outside: bool,
+    /// The scene file of Noisefall that the description was read from, if there is one. Another such file keeps its comments.
+    pub text: Option<&'a str>,
 }
 
 /// A scene in another format, before anything is written.

@@ -25,7 +25,8 @@ pub struct RoundTrip {
 pub fn round_trip(description: &SceneDescription, assets: &Assets, folder: &Path, name: &str) -> RoundTrip {
     let out = tempfile::tempdir().expect("a folder");
     let path = out.path().join(name);
-    let prepared = prepare(ExportSource { description, assets, folder, allow_outside: false }, &path).expect("it can be written");
+    let prepared = prepare(ExportSource { description, assets, folder, allow_outside: false, text: None }, &path)
+        .expect("it can be written");
     prepared.write().expect("it is written");
     let imported = read(&path, &ImportOptions::default()).unwrap_or_else(|error| panic!("{}", error.report()));
     let problems = check(&mut imported.description.clone());

@@ -5,7 +5,7 @@ use super::{ExportError, ExportSource, Prepared, files::ExportedFiles};
 use crate::import::Remarks;
 use noisefall_base::{declare::for_each_file, memory::Size};
 use noisefall_scene::scene::LARGEST_FILE;
-use noisefall_writer::new_text;
+use noisefall_writer::{new_text, origin::Origins, updated};
 
 /// Places the files, and makes the text that names them.
 pub fn prepare(source: ExportSource, path: &Path) -> Result<Prepared, ExportError> {
@@ -14,7 +14,10 @@ pub fn prepare(source: ExportSource, path: &Path) -> Result<Prepared, ExportErro
     for_each_file(&mut description, &mut |file| named.push(file.clone()));
     let files = ExportedFiles::place(&source, named, path)?;
     for_each_file(&mut description, &mut |file| *file = files.path(file));
-    let text = new_text(&description);
+    let text = match source.text {
+        Some(text) => updated(text, source.description, &description, &Origins::of(source.description)),
+        None => new_text(&description),
+    };
     if text.len() as u64 > LARGEST_FILE {
         return Err(ExportError::TooLong { path: path.to_owned(), size: Size(text.len() as u64).to_string() });
     }

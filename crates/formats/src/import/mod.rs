@@ -64,6 +64,8 @@ pub struct ImportOptions {
     pub variant: Option<String>,
     /// Whether files outside the folder of the scene may be read.
     pub allow_outside: bool,
+    /// Whether former names in a scene file of Noisefall are rewritten before it is read.
+    pub rewrites: bool,
     /// Size of the image that is rendered, pixels. A perspective camera of glTF keeps its angle across the height at any size.
     pub size: Option<[u32; 2]>,
     /// Shows how far the reader is, and cancels it.

@@ -3,7 +3,7 @@ use std::{path::Path, sync::Arc};
 
 use super::{ImportOptions, Imported, Remarks, is_foreign, read};
 use noisefall_scene::scene::{self, Scene, SceneError, SceneText, description::SceneDescription};
-use noisefall_writer::new_text;
+use noisefall_writer::{new_text, renamed};
 
 /// A scene that was read from a file of any format.
 pub struct Opened {
@@ -18,11 +18,12 @@ pub struct Opened {
 /// Reads and compiles a scene file of Noisefall or of another program, a mesh file, or the scene in an image file.
 pub fn open(path: &Path, options: &ImportOptions) -> Result<Opened, SceneError> {
     if !is_foreign(path) {
-        return Ok(Opened {
-            scene: scene::load_watched(path, &options.progress)?,
-            remarks: Remarks::default(),
-            description: None,
-        });
+        let rewritten = if options.rewrites { scene::read_text(path).ok().and_then(|text| renamed(&text)) } else { None };
+        let scene = match rewritten {
+            Some(text) => scene::parse_watched(&path.display().to_string(), text, &options.progress)?,
+            None => scene::load_watched(path, &options.progress)?,
+        };
+        return Ok(Opened { scene, remarks: Remarks::default(), description: None });
     }
     let Imported { description, assets, remarks } = read(path, options)?;
     let description = Arc::new(description);

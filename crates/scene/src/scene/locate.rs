@@ -6,7 +6,10 @@ use toml::{
     de::{DeTable, DeValue},
 };
 
-use super::diagnostic::{SceneError, SourceText};
+use super::{
+    diagnostic::{SceneError, SourceText},
+    renamed,
+};
 use noisefall_base::declare::{Path, Problem, Step};
 
 /// Turns problems into errors with positions in the text.
@@ -37,7 +40,7 @@ fn span_of<'t>(table: &'t Spanned<DeTable<'t>>, path: &Path) -> (Range<usize>, O
     for (place, step) in path.0.iter().enumerate() {
         let here = value.map(Spanned::get_ref);
         let next = match (step, here) {
-            (Step::Key(key), None) if place == 0 => table.get_ref().get(key.as_str()),
+            (Step::Key(key), None) if place == 0 => renamed::value_of(table.get_ref(), key),
             (Step::Key(key), Some(DeValue::Table(table))) => table.get(key.as_str()),
             (Step::Item(index), Some(DeValue::Array(array))) => array.get(*index),
             _ => None,

@@ -29,6 +29,7 @@ pub mod projection;
 mod punctual_light;
 mod rays;
 mod read;
+mod renamed;
 mod reuse;
 pub mod roulette;
 mod same_image;
@@ -73,6 +74,7 @@ pub use self::{
     projection::Projection,
     punctual_light::PunctualLightInstance,
     rays::{CameraJoin, CameraRays},
+    renamed::{RENAMED, Renamed},
     reuse::{PathReuse, Reuse},
     roulette::Roulette,
     settings::{Changes, RenderSettings, Setting},

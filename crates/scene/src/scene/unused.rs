@@ -18,9 +18,9 @@ impl Scene {
 
     fn why_not_adaptive(&self, asked: &RenderSettings, path_reuse: PathReuse, has_light_paths: bool) -> Option<String> {
         let obstacle = match path_reuse {
-            PathReuse::Off => has_light_paths.then(|| "paths from lights bring light to any pixel".to_owned()),
-            PathReuse::Merged => Some("pixels share merged vertices".to_owned()),
-            shared => Some(format!("pixels have {}; --reuse off leaves each its own", shared.name())),
+            PathReuse::Off => has_light_paths.then(|| "light paths reach any pixel".to_owned()),
+            PathReuse::Merged => Some("light-path vertices are merged".to_owned()),
+            shared => Some(format!("path reuse is on ({}); --reuse off turns it off", shared.words())),
         };
         obstacle.filter(|_| asked.adaptive)
     }
@@ -31,10 +31,10 @@ fn why_not_shared(asked: &RenderSettings, path_reuse: PathReuse, has_light_paths
         return None;
     }
     Some(match path_reuse {
-        PathReuse::Merged => "pixels share merged vertices".to_owned(),
-        PathReuse::Off if has_light_paths => "paths from lights are shared by all pixels already".to_owned(),
-        PathReuse::Off => "pixels share nothing, because this scene and these settings do not allow it".to_owned(),
-        other => format!("pixels have {}, because this scene and these settings allow no more", other.name()),
+        PathReuse::Merged => "light-path vertices are merged".to_owned(),
+        PathReuse::Off if has_light_paths => "all pixels share the light paths already".to_owned(),
+        PathReuse::Off => "this scene and these settings do not allow path reuse".to_owned(),
+        other => format!("this scene and these settings allow only {}", other.words()),
     })
 }
 

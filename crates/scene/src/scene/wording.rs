@@ -3,7 +3,10 @@ use std::ops::Range;
 
 use toml::de::DeValue;
 
-use super::diagnostic::{SceneError, SourceText};
+use super::{
+    diagnostic::{SceneError, SourceText},
+    renamed::RENAMED,
+};
 use noisefall_base::{
     declare::{Entry, Looks, Parameter, Word, nearest},
     quote,
@@ -50,6 +53,10 @@ pub fn in_plain_words(source: &SourceText, error: &toml::de::Error) -> SceneErro
 /// The error for an unknown word, with its position.
 pub fn unknown(source: &SourceText, span: Range<usize>, what: &str, word: &str, known: &[Entry]) -> SceneError {
     let keys = || known.iter().map(|entry| entry.parameter.key);
+    if let Some(renamed) = RENAMED.iter().find(|renamed| renamed.former == word && keys().any(|key| key == renamed.now)) {
+        let error = source.error(span, format!("`{word}` is now `{}`", renamed.now), format!("write `{}`", renamed.now));
+        return error.with_help("`noisefall convert OLD.toml -o NEW.toml` rewrites a file, and keeps its comments");
+    }
     let by_alias = known.iter().find(|entry| entry.parameter.is_alias(word)).map(|entry| entry.parameter);
     let meant = by_alias.map(|parameter| parameter.key).or_else(|| nearest(word, keys()));
     let label = match meant {

@@ -14,7 +14,7 @@ const PAUSE: f64 = 0.5;
 /// The oldest step is dropped for a new one.
 const MOST_STEPS: usize = 12_000;
 
-/// What the controls are set to.
+/// The values of the controls.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Controls {
     pub camera: Camera,
@@ -54,7 +54,7 @@ pub struct Change {
     after: Controls,
 }
 
-/// What undo and redo restore.
+/// The change that undo or redo makes.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Restored {
     /// The controls become these.
@@ -105,7 +105,7 @@ impl Controls {
 }
 
 impl UndoStep {
-    /// What it does, in words that follow "Undo".
+    /// Names the step in words that follow "Undo".
     fn name(&self) -> String {
         let change = match self {
             UndoStep::Controls(change) => change,
@@ -204,7 +204,7 @@ impl History {
         restored
     }
 
-    /// What undo and redo would take back or repeat.
+    /// Names the steps that undo and redo would revert and repeat.
     pub fn names(&self) -> [Option<String>; 2] {
         [self.done.back(), self.undone.last()].map(|step| step.map(UndoStep::name))
     }

@@ -43,7 +43,7 @@ fn started() -> History {
 }
 
 #[test]
-fn steps_go_back_and_forth_and_a_new_one_forgets_what_was_undone() {
+fn steps_go_back_and_forth_and_a_new_one_forgets_undone_ones() {
     let mut history = started();
     assert_eq!((undone(&mut history), history.names()), (None, [None, None]));
     history.observe(seeded(1), at(1, false, 1.0));
@@ -52,7 +52,7 @@ fn steps_go_back_and_forth_and_a_new_one_forgets_what_was_undone() {
     assert_eq!((undone(&mut history), undone(&mut history), undone(&mut history)), (Some(seeded(1)), Some(controls()), None));
     assert_eq!((redone(&mut history), redone(&mut history), redone(&mut history)), (Some(seeded(1)), Some(seeded(2)), None));
     undone(&mut history);
-    // What is restored is no step itself.
+    // Restoring is not a step itself.
     history.observe(seeded(1), at(2, false, 2.0));
     assert_eq!(history.names(), ["change of seed"; 2].map(|name| Some(name.to_owned())));
     history.observe(moved(30.0), at(3, false, 3.0));

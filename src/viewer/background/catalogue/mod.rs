@@ -19,7 +19,7 @@ pub const BUILT_IN_STEM: &str = "cornell_spheres";
 /// A scene file and its title.
 pub struct CatalogueEntry {
     pub name: String,
-    /// What there is to see in it.
+    /// Its description for the list.
     pub notes: String,
     /// Canonical path, so each file has one; the name of a scene in the program.
     pub path: PathBuf,

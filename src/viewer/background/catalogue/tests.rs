@@ -72,7 +72,7 @@ fn scenes_of_a_user_come_after_those_of_the_program() {
 }
 
 #[test]
-fn a_folder_lists_its_scenes_and_what_is_opened_is_listed_once_under_its_last_name() {
+fn a_folder_lists_its_scenes_and_an_opened_scene_is_listed_once_under_its_last_name() {
     let folder = tempfile::tempdir().expect("a folder");
     let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).expect("it is written");
     // The file is longer than the part that is read.

@@ -98,7 +98,7 @@ impl RenderWorkerHandle {
         self.kept = Some((request, kept));
     }
 
-    /// What asks for checkpoints from other threads.
+    /// Returns a handle that requests checkpoints from other threads.
     pub fn keep_handle(&self) -> KeepHandle {
         self.renderer.keep_handle()
     }
@@ -187,13 +187,13 @@ mod tests {
         )
     }
 
-    /// The same picture with another seed.
+    /// Requests the same image with another seed.
     fn other(request: &RenderRequest, seed: u32) -> RenderTask {
         RenderTask::Picture(RenderRequest { settings: RenderSettings { seed, ..request.settings }, ..request.clone() })
     }
 
     #[test]
-    fn what_was_asked_for_is_awaited_until_it_is_shown_or_patience_ends() {
+    fn a_request_is_awaited_until_it_is_shown_or_patience_ends() {
         let (mut worker, request) = worker();
         worker.update(request.clone(), None, 10.0);
         assert_eq!((worker.generation(), worker.second_generation()), (1, 0));
@@ -212,7 +212,7 @@ mod tests {
     }
 
     #[test]
-    fn only_what_a_picture_depends_on_starts_a_new_one() {
+    fn only_changes_of_scene_camera_or_settings_start_a_new_image() {
         let (mut worker, request) = worker();
         worker.update(request.clone(), None, 0.0);
         assert!(worker.is_asked(&request, None) && !worker.is_asked(&request, Some(&RenderTask::Series(request.clone()))));
@@ -232,7 +232,7 @@ mod tests {
         worker.update(request.clone(), None, 0.0);
         worker.update(request.clone(), None, 0.0);
         assert_eq!(worker.generation(), 6, "it starts over once");
-        // What is beside the picture starts over with it, and anew with other settings.
+        // The second image starts over with the first, and anew with other settings.
         let other = |seed| Some(other(&request, seed));
         worker.update(request.clone(), other(1), 0.0);
         worker.update(request.clone(), other(2), 0.0);

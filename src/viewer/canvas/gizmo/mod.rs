@@ -110,7 +110,7 @@ impl Gizmo {
         };
         operation.point(camera, area.place(pointer));
         let change = operation.change(camera, size, ui.input(|input| input.modifiers.command));
-        // What is typed is meant as it is.
+        // Typed numbers are not rounded.
         let is_typed = operation.number().is_some();
         let change = if is_typed { change } else { rounding::rounded(change, pixel_width(camera, pivot)) };
         let moved = match change {

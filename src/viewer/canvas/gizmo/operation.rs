@@ -178,7 +178,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_moved_along_an_axis_stays_under_the_pointer() {
+    fn an_object_moved_along_an_axis_stays_under_the_pointer() {
         for (axis, direction) in AXES.into_iter().enumerate() {
             let by = direction * 0.75;
             let found = way(&drag(Mode::Move, Lock::Axis(axis), PIVOT, PIVOT + by, false));
@@ -187,7 +187,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_moved_in_a_plane_stays_under_the_pointer() {
+    fn an_object_moved_in_a_plane_stays_under_the_pointer() {
         for (normal, direction) in AXES.into_iter().enumerate() {
             let by = DVec3::new(0.3, -0.2, 0.5) * (DVec3::ONE - direction);
             let found = way(&drag(Mode::Move, Lock::Plane(normal), PIVOT, PIVOT + by, false));
@@ -223,7 +223,7 @@ mod tests {
     }
 
     #[test]
-    fn a_pointer_twice_as_far_scales_by_two_along_what_is_locked() {
+    fn a_pointer_twice_as_far_scales_by_two_along_the_locked_axes() {
         let [right, ..] = camera().axes();
         let scale = |lock| drag(Mode::Scale, lock, PIVOT + right * 0.4, PIVOT + right * 0.8, true);
         assert_eq!(scale(Lock::Free), Transform::Scale(DVec3::splat(2.0)));

@@ -223,7 +223,7 @@ mod tests {
         is(estimated.efficiency, 1.0 / (0.0016 * 2.5));
         is(estimated.noise, 0.04);
         assert!(estimated.reference.is_none() && estimated.trouble.is_none() && estimated.spp == 7 && estimated.seconds == 2.5);
-        // What is known to be true counts, not what is estimated.
+        // A known error counts instead of an estimated one.
         let known = side(&status, &unbiased, Some(0.0025));
         is(known.efficiency, 1.0 / (0.0025 * 2.5));
         is(known.reference, 0.05);

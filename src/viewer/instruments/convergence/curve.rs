@@ -27,7 +27,7 @@ pub struct Moment {
     pub true_error: Option<f64>,
     /// Bias of the mean over the image, in standard errors.
     pub bias: Option<f64>,
-    /// What pixels share.
+    /// Path reuse between the pixels.
     pub path_reuse: PathReuse,
     /// Few pixels carry the noise, so that it may be much larger.
     pub is_lower_bound: bool,
@@ -49,7 +49,7 @@ pub struct Curve {
     later_run: Option<Vec<Moment>>,
 }
 
-/// What was found against a reference that is not in force, by sample count.
+/// Figures against a reference that is not in force, by sample count.
 struct PutAway {
     reference: Weak<Reference>,
     figures: Vec<(u32, Option<f64>, Option<f64>)>,
@@ -131,7 +131,7 @@ impl Curve {
         }
     }
 
-    /// What the pixels of its picture share.
+    /// Returns the path reuse of its image.
     pub fn path_reuse(&self) -> PathReuse {
         self.moments.last().map_or(PathReuse::Off, |moment| moment.path_reuse)
     }
@@ -197,7 +197,7 @@ fn append(moments: &mut Vec<Moment>, moment: Moment) {
     if f64::from(moment.spp) >= last * SPACING && f64::from(moment.spp) > last {
         moments.push(moment);
     } else if moment.spp > 0 && moment.true_error.is_some() {
-        // What is there is held against a reference that came later.
+        // A reference that came later is compared with the same samples.
         if let Some(last) = moments.last_mut().filter(|last| last.spp == moment.spp) {
             *last = moment;
         }

@@ -70,7 +70,7 @@ impl History {
         drawing.replacen('>', "><rect width=\"100%\" height=\"100%\" fill=\"white\"/>", 1)
     }
 
-    /// What is plotted, in words.
+    /// Names the plotted quantity.
     fn label_of_errors(&self) -> &'static str {
         let has_floor = self.shown().any(|curve| self.bias_of_cap(curve).is_some());
         match (self.is_measured(), has_floor) {
@@ -146,7 +146,7 @@ mod tests {
     }
 
     #[test]
-    fn the_drawing_has_what_the_legend_shows() {
+    fn the_drawing_has_the_curves_of_the_legend() {
         let mut history = history();
         let [first, second] = [0, 1].map(|at| {
             let [red, green, blue, _] = COLOURS[history.curves[at].colour].to_array();
@@ -207,7 +207,7 @@ mod tests {
     }
 
     #[test]
-    fn the_drawing_is_over_what_the_plot_is_over() {
+    fn the_drawing_has_the_axis_of_the_plot() {
         let mut history = history();
         let over_samples = history.svg();
         assert!(over_samples.contains("samples per pixel") && over_samples.contains("Independent"));

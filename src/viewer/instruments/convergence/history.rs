@@ -234,7 +234,7 @@ mod tests {
     }
 
     #[test]
-    fn what_was_found_is_forgotten_with_camera_scene_and_truth() {
+    fn figures_are_forgotten_with_camera_scene_and_reference() {
         let scene = Arc::new(built_in());
         let truth = Arc::new(Reference::Constant([1.0; 3]));
         let with_truth = Moment { true_error: Some(0.1), bias: Some(1.0), ..moment(4, 0.2) };
@@ -276,7 +276,7 @@ mod tests {
     }
 
     #[test]
-    fn a_curve_is_named_by_what_differs_and_says_that_it_is_biased() {
+    fn a_curve_is_named_by_its_differences_and_says_that_it_is_biased() {
         let scene = Arc::new(built_in());
         let mut history = looking_at(&scene);
         let changed = RenderSettings { sampler: Sampler::Independent, max_bounces: Some(3), ..scene.settings };

@@ -16,7 +16,7 @@ const CLICK: &str = "A click hides or shows the curve. Right click or double cli
 /// The widest name, in points.
 const NAME: f32 = 236.0;
 
-/// What is done to a curve.
+/// An action on a curve.
 enum Act {
     Toggle,
     Rename,

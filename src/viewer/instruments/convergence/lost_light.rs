@@ -11,7 +11,7 @@ pub struct LostLight {
 }
 
 impl LostLight {
-    /// Those of a frame that has the series of the image without a cap.
+    /// Returns the fractions for a frame that has the series of the image without a cap.
     pub fn of(frame: &Frame) -> Option<LostLight> {
         let series = frame.series.as_ref().filter(|_| frame.spp > 0)?;
         let by_cap = (0..series.shares.len().saturating_sub(1)).map(|cap| series.lost_by_cap(cap)).collect();
@@ -40,7 +40,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_cap_loses_what_bounces_more_often() {
+    fn a_cap_loses_the_light_of_more_bounces() {
         let series = Series { terms: Vec::new(), shares: vec![0.5, 0.25, 0.125, 0.125, 0.0] };
         let lost = LostLight::of(&Frame { spp: 8, series: Some(series), ..Frame::default() }).expect("it has a series");
         assert_eq!([0, 1, 2, 3, 9].map(|cap| lost.by_cap(cap)), [Some(0.5), Some(0.25), Some(0.125), None, None]);

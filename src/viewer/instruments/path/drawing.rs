@@ -25,7 +25,7 @@ pub fn draw(ui: &Ui, area: &PictureArea, inspector: &PathInspector, camera: &Cam
         let [x, y] = project(camera, Vec3::from(p).as_dvec3())?;
         Some(area.screen(x, y))
     };
-    // What ends behind the camera is seen up to there, or nearly so.
+    // A line that ends behind the camera is shortened until its end projects into the image plane.
     let towards = |[o, d]: [[f32; 3]; 2], length: f32| {
         let end = |part: i32| (Vec3::from(o) + Vec3::from(d) * (length * 0.75f32.powi(part))).to_array();
         (0..12).find_map(|part| screen(end(part)))

@@ -92,7 +92,7 @@ impl PathInspector {
         self.histogram.ask(&self.ctx, &question(count_of(spp)), Patience::Waits, histogram);
     }
 
-    /// What the renderer failed at, in words.
+    /// Describes the failure of the renderer.
     pub fn failure(&self) -> Option<&'static str> {
         match (self.replay.failed, self.histogram.failed) {
             (true, _) => Some("The renderer fails at this sample"),

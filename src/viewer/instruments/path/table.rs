@@ -275,7 +275,7 @@ mod tests {
     }
 
     #[test]
-    fn what_a_vertex_lacks_leaves_its_columns_empty() {
+    fn missing_parts_of_a_vertex_leave_their_columns_empty() {
         let bare = Vertex { surface: None, object: None, emission: None, light: None, reflection: None, ..vertex() };
         let cells = &written(&of(vec![bare]))[COLUMNS.len()..2 * COLUMNS.len()];
         assert_eq!(cells[0], "3 leaves the scene");
@@ -283,7 +283,7 @@ mod tests {
     }
 
     #[test]
-    fn a_light_sample_says_what_became_of_it() {
+    fn a_light_sample_states_its_outcome() {
         let cells = |outcome| {
             let light = vertex().light.map(|light| SampledLight { object: None, outcome, ..light });
             written(&of(vec![Vertex { light, emission: None, ..vertex() }]))[COLUMNS.len() + 1].clone()
@@ -296,7 +296,7 @@ mod tests {
     }
 
     #[test]
-    fn shared_terms_are_in_brackets_and_what_comes_from_neighbours_has_a_row() {
+    fn shared_terms_are_in_brackets_and_light_from_neighbours_has_a_row() {
         let light = vertex().light.map(|light| SampledLight { shared: true, ..light });
         let shared = SharedLight { unshared: [0.105; 3], kept: [0.011; 3], from_neighbours: [0.1; 3] };
         let replay = Replay { shared: Some(shared), ..of(vec![Vertex { light, ..vertex() }]) };

@@ -33,7 +33,7 @@ impl Heading {
         Heading { title: parameter.label() + &symbol, tooltip: format!("{}{unit}", parameter.doc), mark }
     }
 
-    /// The same with the unit, for controls that do not show it.
+    /// Adds the unit to the title, for controls that do not show it.
     pub fn with_unit(parameter: &Parameter, mark: Mark) -> Heading {
         let heading = Heading::of(parameter, mark);
         let unit = if parameter.unit.is_empty() { String::new() } else { format!(" ({})", parameter.unit) };
@@ -52,7 +52,7 @@ impl Heading {
                 self.label(ui, RichText::new(&self.title))
             });
             let (label, is_marked) = label.inner;
-            // What does not fit beside the label goes on below the control, and not below the label.
+            // Parts that do not fit beside the label go on below the control, and not below the label.
             ui.vertical(|ui| ui.horizontal_wrapped(|ui| control(ui, label.id)));
             is_marked
         });

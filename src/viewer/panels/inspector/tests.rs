@@ -37,7 +37,7 @@ fn inspect<T: Declare + 'static>(part: T) -> Panel<T> {
     Harness::builder().with_size(vec2(336.0, 900.0)).build_ui_state(draw, State { part, asked: Vec::new() })
 }
 
-/// What was asked for by one click, or by one field.
+/// Returns the only request of a click or a field.
 fn only<T>(panel: &Panel<T>) -> &Request {
     match &panel.state().asked[..] {
         [InspectorRequests { requests, drag: Drag::None }] if requests.len() == 1 => &requests[0],
@@ -243,7 +243,7 @@ fn a_drag_goes_on_until_the_button_is_released() {
 }
 
 #[test]
-fn what_does_not_fit_beside_its_label_goes_on_below_the_control() {
+fn controls_that_do_not_fit_beside_their_label_go_on_below_the_first() {
     let panel = inspect(lambertian());
     let swatch = panel.get_by_role(Role::ColorWell).rect();
     let map = panel.get_by_role_and_label(Role::Button, "Albedo ρ").rect();

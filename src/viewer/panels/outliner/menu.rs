@@ -34,7 +34,7 @@ pub enum Action {
 }
 
 impl Action {
-    /// What a part that is dropped on an object does to it.
+    /// Returns the action of a part that is dropped on an object.
     pub fn assigns(dropped: &Subject) -> Option<Action> {
         match dropped {
             Subject::Material(name) => Some(Action::AssignMaterial(Some(name.clone()))),
@@ -49,7 +49,7 @@ impl Action {
 pub enum New {
     /// An object with a shape of this kind.
     Shape(&'static str),
-    /// The same that emits light.
+    /// An object that emits light, with a shape of this kind.
     AreaLight(&'static str),
     /// A punctual light of this kind.
     PunctualLight(&'static str),

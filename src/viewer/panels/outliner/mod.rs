@@ -41,7 +41,7 @@ pub struct Outliner {
     renamed: Option<Subject>,
     /// The parts that are listed.
     listed: Option<Listed>,
-    /// What was selected in the last frame, unless this is the first one: another part is scrolled into sight.
+    /// The selection of the last frame, unless this is the first one: another part is scrolled into sight.
     selected: Option<Option<Subject>>,
 }
 

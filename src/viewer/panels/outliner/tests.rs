@@ -82,7 +82,7 @@ fn a_click_selects_a_part() {
 }
 
 #[test]
-fn the_menu_of_a_part_asks_for_what_it_says() {
+fn entries_in_the_menu_of_a_part_request_their_actions() {
     let ball = Subject::Object(0);
     for (entries, action) in [
         (&["Look at"][..], Action::LookAt),

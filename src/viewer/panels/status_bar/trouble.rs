@@ -1,4 +1,4 @@
-//! What is wrong with a render: invalid samples, cut paths and failures.
+//! Problems of a render: invalid samples, cut paths and failures.
 use std::path::PathBuf;
 
 use egui::{Label, RichText};

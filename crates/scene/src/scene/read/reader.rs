@@ -9,6 +9,7 @@ use toml::{
 use crate::scene::{
     damage::Damage,
     diagnostic::{SceneError, SourceText},
+    renamed,
     wording::{found, suggestion, text_at, unknown},
 };
 use noisefall_base::declare::{Entry, Form, Looks, Parameter, Path};
@@ -81,7 +82,13 @@ impl<'t> Reader<'t> {
         let is_full = self.is_full();
         let frame = self.frame();
         frame.known.push(Entry { parameter: *parameter, looks });
-        frame.table.filter(|_| !is_full).and_then(|table| table.get(parameter.key))
+        let table = frame.table;
+        table.filter(|_| !is_full).and_then(|table| self.find(table, parameter.key))
+    }
+
+    /// The value of a parameter in the innermost table.
+    fn find(&self, table: &'t DeTable<'t>, key: &str) -> Option<&'t Spanned<DeValue<'t>>> {
+        if self.lengths.is_empty() { renamed::value_of(table, key) } else { table.get(key) }
     }
 
     /// Whether there are as many errors as are told: each further one would cost a look at the whole text.
@@ -134,7 +141,8 @@ impl<'t> Reader<'t> {
 
     /// The value of a parameter in the innermost table.
     pub(super) fn value_at(&mut self, parameter: &Parameter) -> Option<&'t Spanned<DeValue<'t>>> {
-        self.frame().table.and_then(|table| table.get(parameter.key))
+        let table = self.frame().table;
+        table.and_then(|table| self.find(table, parameter.key))
     }
 
     /// A frame for a value where a table is expected.
@@ -165,7 +173,9 @@ impl<'t> Reader<'t> {
             if errors.len() >= SceneError::MOST {
                 break;
             }
-            if !frame.known.iter().any(|entry| entry.parameter.key == key.get_ref()) {
+            let is_known = frame.known.iter().any(|entry| entry.parameter.key == key.get_ref())
+                || self.lengths.is_empty() && frame.table.is_some_and(|table| renamed::is_read(table, key.get_ref()));
+            if !is_known {
                 let what = if frame.choice.is_some() { "kind" } else { "key" };
                 errors.push(unknown(source, key.span(), what, key.get_ref(), &frame.known));
             }

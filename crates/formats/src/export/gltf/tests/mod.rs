@@ -49,7 +49,8 @@ fn files_are_the_same_each_time_and_have_no_empty_lists() {
         let folder = tempfile::tempdir().expect("a folder");
         let write = || {
             let assets = Assets::default();
-            let source = ExportSource { description: &description, assets: &assets, folder: &scenes(), allow_outside: false };
+            let source =
+                ExportSource { description: &description, assets: &assets, folder: &scenes(), allow_outside: false, text: None };
             let done = prepare(source, &folder.path().join(name)).expect("it can be written").write().expect("it is written");
             (fs::read(folder.path().join(name)).expect("it is there"), done)
         };

@@ -1,0 +1,51 @@
+//! Keys and values of scene files that had other names before version 0.1.
+
+use toml::{
+    Spanned,
+    de::{DeTable, DeValue},
+};
+
+/// A key or a value with its former name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Renamed {
+    /// Keys of the place: of the key itself, or of the key that has the value.
+    pub place: &'static [&'static str],
+    /// The former name.
+    pub former: &'static str,
+    /// The name now.
+    pub now: &'static str,
+    /// Whether files may still use the former name: scripts outside of the project write it.
+    pub is_read: bool,
+}
+
+/// All of them. The reader names the new name, and `noisefall convert` rewrites files.
+pub const RENAMED: [Renamed; 6] = [
+    key("lamps", "lights"),
+    key("truth", "reference"),
+    Renamed { is_read: true, ..key("background", "environment") },
+    value(&["render", "estimator"], "forward", "light_tracing"),
+    value(&["render", "reuse"], "on", "suffixes"),
+    value(&["render", "reuse"], "bright", "outliers"),
+];
+
+const fn key(former: &'static str, now: &'static str) -> Renamed {
+    Renamed { place: &[], former, now, is_read: false }
+}
+
+const fn value(place: &'static [&'static str], former: &'static str, now: &'static str) -> Renamed {
+    Renamed { place, former, now, is_read: false }
+}
+
+/// The value of a key at the top of a file, which may be under its former name.
+pub(super) fn value_of<'t>(file: &'t DeTable<'t>, key: &str) -> Option<&'t Spanned<DeValue<'t>>> {
+    file.get(key).or_else(|| file.get(former(key)?))
+}
+
+/// Whether a key at the top of a file is the former name of a key that is absent.
+pub(super) fn is_read(file: &DeTable, word: &str) -> bool {
+    RENAMED.iter().any(|renamed| renamed.is_read && renamed.former == word && !file.contains_key(renamed.now))
+}
+
+fn former(key: &str) -> Option<&'static str> {
+    RENAMED.iter().find(|renamed| renamed.is_read && renamed.now == key).map(|renamed| renamed.former)
+}
