@@ -43,11 +43,11 @@ fn first_picture(c: &mut Criterion) {
     let mut generation = 0;
     for (name, scene, settings) in [
         ("the built-in scene", built_in(), usual),
-        ("the built-in scene from both ends", built_in(), from_both_ends),
+        ("the built-in scene from camera and light", built_in(), from_both_ends),
         ("1.28 million triangles", triangles, usual),
     ] {
         let scene = Arc::new(scene);
-        c.bench_function(&format!("1280 x 720, camera change to first coarse picture, {name}, all cores"), |b| {
+        c.bench_function(&format!("1280 x 720, camera change to first coarse image, {name}, all cores"), |b| {
             b.iter(|| {
                 generation += 1;
                 let mut camera = Camera { resolution: RESOLUTION, ..scene.camera };
@@ -62,7 +62,7 @@ fn first_picture(c: &mut Criterion) {
     }
 }
 
-/// Time from a change to the finished image of 16 × 16 pixels, while paths of thousands of bounces, or paths from both ends with all of
+/// Time from a change to the finished image of 16 × 16 pixels, while paths of thousands of bounces, or bidirectional paths with all of
 /// their connections, render on all cores.
 fn leaves_heavy_renders(c: &mut Criterion) {
     let sphere = |albedo: f64, resolution: [u32; 2], estimator: &str| {
@@ -83,7 +83,7 @@ fn leaves_heavy_renders(c: &mut Criterion) {
         renderer.submit(generation, RenderRequest { scene: scene.clone(), camera: scene.camera, settings: scene.settings });
         generation
     };
-    for (name, heavy) in [("a heavy picture renders", long_paths), ("paths from both ends render", both_ends)] {
+    for (name, heavy) in [("a heavy image renders", long_paths), ("bidirectional paths render", both_ends)] {
         c.bench_function(&format!("16 x 16, a change while {name}, all cores"), |b| {
             b.iter_custom(|count| {
                 let mut sum = Duration::ZERO;

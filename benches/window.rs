@@ -37,7 +37,7 @@ fn main() {
 
 fn frames() {
     let states: [(&str, &[Key], &[&str]); 8] = [
-        ("only the picture", &[], &[]),
+        ("only the image", &[], &[]),
         ("convergence", &[Key::F2], &[]),
         ("compare", &[Key::F3], &["Compare with…", "Path sampling"]),
         ("bounces", &[Key::F4], &[]),

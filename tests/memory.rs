@@ -156,7 +156,7 @@ fn allocated_memory_is_counted() {
     file("large.ply", &format!("{header}{vertices}{faces}"));
     assert_counted("PLY", &file("ply.toml", &object("mesh = { path = 'large.ply' }")));
 
-    assert_counted("picture", &file("picture.toml", &scene(1200, "")));
+    assert_counted("image", &file("picture.toml", &scene(1200, "")));
 }
 
 #[test]

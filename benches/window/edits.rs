@@ -68,11 +68,11 @@ fn shift(object: &mut ObjectDescription, x: f64) {
 /// Times of one kind of edit.
 #[derive(Default)]
 struct Times {
-    /// From the edit to the picture on the screen.
+    /// From the edit to the image on the screen.
     shown: Vec<Duration>,
     /// Of them, the compile.
     compile: Vec<Duration>,
-    /// From the edit to the result, without the compile: stopping the old picture, and the frame of the window that asks.
+    /// From the edit to the result, without the compile: stopping the old image, and the frame of the window that asks.
     stop: Vec<Duration>,
     /// The last report of a compile.
     report: String,
@@ -129,7 +129,7 @@ fn place(edit: usize) -> f64 {
     0.2 + 0.6 * (edit % 20) as f64 / 20.0
 }
 
-/// Drags: every edit is made when the one before is on the screen, and its picture has been rendered for a while.
+/// Drags: every edit is made when the one before is on the screen, and its image has been rendered for a while.
 fn times(window: &mut Window, description: &SceneDescription, change: Change) -> Times {
     // On the status bar, where nothing is dragged: as long as the button is down, the drag goes on.
     let pointer = pos2(640.0, 796.0);
@@ -166,7 +166,7 @@ fn check(window: &Window, description: &SceneDescription, last: Change) {
     let opened = window.state().as_ref().and_then(|app| app.session.opened.as_ref()).expect("it is open");
     let exact = Arc::new(description.clone()).rebuild(&PathBuf::new(), &opened.scene, Precision::Exact).expect("it is valid");
     let new = description.build(Path::new("")).expect("it is valid");
-    assert_eq!(picture(&exact), picture(&new), "an edited scene has the picture of a new one");
+    assert_eq!(picture(&exact), picture(&new), "an edited scene has the image of a new one");
 }
 
 fn picture(scene: &Scene) -> Vec<[u32; 3]> {

@@ -17,7 +17,7 @@ pub struct Build {
     pub tests: Vec<(String, PathBuf)>,
 }
 
-/// Runs cargo on the copy in a folder, and tells which of the planted faults it refuses.
+/// Runs cargo on the copy in a folder, and tells which of the mutants it refuses.
 pub fn build(folder: &Path, target: &Path, arguments: &[&str], planted: &BTreeMap<String, Planted>) -> Outcome<Build> {
     let mut command = Command::new("cargo");
     command.args(arguments).args(["--release", "--locked", "--keep-going", "--message-format=json"]).current_dir(folder);

@@ -1,4 +1,4 @@
-//! Tells which of the planted faults is on. Only the copy that `mutation` makes has this file.
+//! Tells which of the mutants is on. Only the copy that `mutation` makes has this file.
 use std::{
     env,
     fs::OpenOptions,

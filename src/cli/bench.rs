@@ -32,7 +32,7 @@ Times of stages are wall-clock times summed over threads, so waiting on a busy m
 that decides what pixels share is not part of them. The table of bounces leaves out camera rays, path reuse and film; its rays per \
 sample include shadow rays. Path reuse includes outliers. The choice of lights is part of shading.
 
-The image is discarded, and sampling is uniform even if the scene asks for adaptive sampling. Paths from lights are not measured: \
+The image is discarded, and sampling is uniform even if the scene asks for adaptive sampling. Light paths are not measured: \
 if the scene asks for them, `mis` is measured.
 
 Example: noisefall bench scenes/million_triangles.toml -o where.svg";
@@ -92,7 +92,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let trial = start.elapsed();
     if settings.estimator != estimator {
         let [measured, asked] = [settings.estimator, estimator].map(Estimator::name);
-        tell(&format!("note: bench cannot measure `{asked}`; measuring `{measured}`"));
+        tell(&format!("warning: bench cannot measure `{asked}`; measuring `{measured}`"));
     }
     let job = PassJob { scene: &scene, rays: &rays, settings: &settings };
     let start = Instant::now();

@@ -34,7 +34,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
                 print(&format!("{}: ok, {objects}, {width} × {height}", path.display()))?;
                 let threads = Threads::new(0, SimdLevel::best()).map_err(|error| error.to_string())?;
                 for warning in scene.warnings().iter().chain(&reference::contradiction(&scene, &threads)) {
-                    print(&format!("{}: note: {warning}", path.display()))?;
+                    print(&format!("{}: warning: {warning}", path.display()))?;
                 }
             }
         }

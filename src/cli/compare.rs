@@ -62,7 +62,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     }
     output.as_ref().map_or(Ok(()), Output::check)?;
     if is_png(&arguments.a) != is_png(&arguments.b) {
-        tell("note: a PNG is clipped at 1 and rounded to display codes, an EXR is not: they differ by more than noise");
+        tell("warning: a PNG is clipped at 1 and rounded to display codes, an EXR is not: they differ by more than noise");
     }
     let (a, b) = (LoadedImage::read(&arguments.a)?, LoadedImage::read(&arguments.b)?);
     a.must_be_as_large_as(&b)?;
@@ -159,7 +159,7 @@ fn text(comparison: &Comparison, flip: Option<f64>, bias: &Bias, remarks: &[Stri
         let count = bias.block_z.len();
         lines.push(format!("blocks  {count} of 32 × 32 pixels: worst z {worst:+.2}, root mean square {rms:.2} (noise alone: 1)"));
     }
-    lines.extend(remarks.iter().map(|remark| format!("note: {remark}")));
+    lines.extend(remarks.iter().map(|remark| format!("warning: {remark}")));
     lines.join("\n")
 }
 

@@ -241,7 +241,7 @@ pub fn message(event: &KeepEvent) -> Option<String> {
         KeepEvent::Slower { took, every } => {
             let (took, every) = (took.as_secs_f64(), every.as_secs_f64());
             let often = format!("a checkpoint takes {took:.2} s, so they are at least {every:.0} s apart");
-            Some(format!("note: {often}: together they take 1 % of the time at most"))
+            Some(format!("warning: {often}: together they take 1 % of the time at most"))
         }
         KeepEvent::Failed(error) => Some(format!("warning: no checkpoint was written: {error}; the render continues")),
     }

@@ -46,7 +46,7 @@ impl Layers {
         let seen = if self.0.iter().any(|layer| layer.needs_features()) { Some(seen(scene, camera, threads)?) } else { None };
         let sources = LayerSources { features: seen.as_ref(), series: bounces.and_then(|frame| frame.series.as_ref()) };
         let (channels, notes) = channels(&self.0, frame, &sources);
-        notes.iter().for_each(|note| tell(&format!("note: {note}")));
+        notes.iter().for_each(|note| tell(&format!("warning: {note}")));
         Ok(channels)
     }
 }

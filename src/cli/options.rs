@@ -28,9 +28,9 @@ impl DisplayOptions {
         let said = match format {
             Some(Format::Png) => return None,
             Some(Format::Exr) => {
-                "note: an EXR stores the radiance unchanged; --exposure, --white-balance and --tone affect a PNG only"
+                "warning: an EXR stores the radiance unchanged; --exposure, --white-balance and --tone affect a PNG only"
             }
-            None => "note: a file of samples has no display; --exposure, --white-balance and --tone affect a PNG only",
+            None => "warning: a file of samples has no display; --exposure, --white-balance and --tone affect a PNG only",
         };
         self.is_given().then_some(said)
     }

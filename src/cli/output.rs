@@ -89,9 +89,7 @@ impl Output {
                 match stream.write_all(&bytes).and_then(|()| stream.flush()) {
                     Ok(()) => Ok(ExitCode::SUCCESS),
                     Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(ExitCode::FAILURE),
-                    Err(error) => {
-                        Err(rescue(&format!("standard output: {error}"), &format!("picture.{}", format.name()), &bytes))
-                    }
+                    Err(error) => Err(rescue(&format!("standard output: {error}"), &format!("image.{}", format.name()), &bytes)),
                 }
             }
         }
@@ -181,7 +179,7 @@ mod tests {
         let (reason, rescued) = error.split_once("\nthe image was saved as ").expect("it is saved");
         assert!(reason.contains("there is no folder"), "{error}");
         let rescued = Path::new(rescued.strip_suffix(" instead").expect("the end of the message"));
-        assert_eq!(noisefall_render::render::image_file::read(rescued).expect("it is a picture").radiance, [[1.0; 3]]);
+        assert_eq!(noisefall_render::render::image_file::read(rescued).expect("it is an image").radiance, [[1.0; 3]]);
         assert!(rescued.starts_with(std::env::temp_dir()));
         std::fs::remove_file(rescued).expect("it is there");
     }

@@ -111,7 +111,7 @@ impl Pixel<'_> {
         if last - first >= MOST_LISTED {
             return Err(format!("a table has at most {MOST_LISTED} samples"));
         }
-        path_samples::remark(self.settings.sampler).iter().for_each(|remark| tell(&format!("note: {remark}")));
+        path_samples::remark(self.settings.sampler).iter().for_each(|remark| tell(&format!("warning: {remark}")));
         let mut table = SampleTable::default();
         for begin in (first..=last).step_by(BATCH as usize) {
             table.extend(begin, &self.samples(begin, last.min(begin.saturating_add(BATCH - 1))));

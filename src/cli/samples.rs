@@ -41,7 +41,7 @@ const STEP: Duration = Duration::from_secs(2);
 
 /// Why targets do not split, and what to do instead.
 const ROUNDS: &str = "cannot be combined with --samples, because where it stops depends on the samples or on the machine. Render rounds \
-                      of a fixed number of samples, such as 0..64, then 64..128; `noisefall merge` prints the noise after each round";
+                      of a fixed number of samples, such as 0..64, then 64..128; `noisefall merge` prints the estimated error after each round";
 
 /// The mistake in the options of a range of samples, if there is one. `others` are the options that a range excludes.
 pub fn mistake(output: Option<&Output>, has_range: bool, others: &[(&str, bool)]) -> Option<String> {
@@ -77,7 +77,7 @@ pub struct SampleJob {
 impl SampleJob {
     /// Renders the samples of each image.
     pub fn run(&self, shots: &[Shot]) -> Result<ExitCode, Failure> {
-        self.scene.notes(&self.settings).iter().for_each(|note| tell(&format!("note: {note}")));
+        self.scene.notes(&self.settings).iter().for_each(|note| tell(&format!("warning: {note}")));
         let written = "interrupted: writing the samples so far (interrupt again to stop at once)";
         let stop = stop_signal(if self.is_sequence { DROPPED } else { written })?;
         for shot in shots {

@@ -86,7 +86,7 @@ impl SceneOptions {
             .filter(|(_, is_unused, _)| *is_unused)
             .map(|(name, _, of)| format!("{name} affects {of} only"))
             .collect();
-        (!unused.is_empty()).then(|| format!("note: {}", unused.join("; ")))
+        (!unused.is_empty()).then(|| format!("warning: {}", unused.join("; ")))
     }
 
     /// Prints the remarks about a file on standard error, or fails if there are any and `--strict` is given. `done` is what they were

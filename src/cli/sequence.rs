@@ -77,7 +77,7 @@ impl SequenceOptions {
         let left: Vec<Shot> =
             cameras.into_iter().zip(1..).filter(|(_, number)| frames.contains(number)).filter_map(shot).filter(is_left).collect();
         if left.len() < all {
-            tell(&format!("note: {} of {all} frames exist and are skipped", all - left.len()));
+            tell(&format!("warning: {} of {all} frames exist and are skipped", all - left.len()));
         }
         Ok(left)
     }

@@ -137,7 +137,7 @@ impl Job<'_> {
             tell("warning: the image is not denoised: denoising needs two samples of every pixel, and memory for half images");
             return None;
         };
-        tell(&format!("note: {}", denoise::LABEL));
+        tell(&format!("warning: {}", denoise::LABEL));
         let Frame { width, height, full_resolution, spp, path_reuse, elapsed, .. } = *frame;
         let counts = frame.counts.clone();
         Some(Frame { width, height, full_resolution, radiance, spp, counts, path_reuse, elapsed, ..Frame::default() })

@@ -51,7 +51,7 @@ impl SplitImage<'_> {
         picture.map_err(|error| error.to_string())
     }
 
-    /// Writes the image of a picture that is filled, and prints its line.
+    /// Writes the image of an image that is filled, and prints its line.
     pub fn deliver(&self, picture: SplitPicture, display: Display) -> Result<ExitCode, Failure> {
         let frame = picture.frame();
         let Header { scene, camera, settings, image, .. } = self.header;
@@ -93,7 +93,7 @@ impl SplitImage<'_> {
         format!("{output}: samples {}{counts}{noise}, {bias}; {rendered}", self.samples)
     }
 
-    /// The noise as in ", noise at most 2.50 %"; empty if it is unknown.
+    /// The noise as in ", estimated error at most 2.50 %"; empty if it is unknown.
     fn noise(&self, frame: &Frame) -> String {
         if frame.is_black() {
             return ", no light found".to_owned();
@@ -106,7 +106,7 @@ impl SplitImage<'_> {
         } else {
             "at most "
         };
-        frame.rel_mse_estimate.map_or_else(String::new, |rel_mse| format!(", noise {bound}{:.2} %", 100.0 * rel_mse.sqrt()))
+        frame.rel_mse_estimate.map_or_else(String::new, |rel_mse| format!(", estimated error {bound}{:.2} %", 100.0 * rel_mse.sqrt()))
     }
 
     fn figures(&self, frame: Option<&Frame>, bias: Option<&str>) -> Value {

@@ -90,7 +90,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let _memory = reserve(&study_scenes).map_err(|error| error.to_string())?;
     let mut store = Store::open(&arguments.output).map_err(|error| error.to_string())?;
     if store.dropped > 0 {
-        tell(&format!("note: {} lines of {CSV} belong to incomplete runs and are ignored", store.dropped));
+        tell(&format!("warning: {} lines of {CSV} belong to incomplete runs and are ignored", store.dropped));
     }
     let threads = Threads::new(arguments.threads.into(), SimdLevel::best()).map_err(|error| error.to_string())?;
     let (plan, machine) = (arguments.plan(), Machine::here(&threads));

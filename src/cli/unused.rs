@@ -10,6 +10,6 @@ pub fn tell_unused(threads: &Threads, scene: &Scene, rays: &CameraRays, settings
     let is_asked = settings.adaptive || settings.merging || settings.reuse != Reuse::Auto;
     if is_asked {
         let resolved = threads.install(|| resolved(scene, rays, settings));
-        scene.unused_settings(rays, settings, &resolved).iter().for_each(|note| tell(&format!("note: {note}")));
+        scene.unused_settings(rays, settings, &resolved).iter().for_each(|note| tell(&format!("warning: {note}")));
     }
 }

@@ -106,7 +106,7 @@ fn a_failed_write_to_standard_output_is_reported_and_the_picture_is_kept() {
     let kept: Vec<_> = fs::read_dir(shell.path("")).expect("it is there").flatten().map(|entry| entry.path()).collect();
     let told = text(&output.stderr);
     assert!(kept.len() == 1 && told.contains(&format!("the image was saved as {} instead", kept[0].display())), "{told}");
-    let picture = noisefall_render::render::image_file::read(&kept[0]).expect("a picture");
+    let picture = noisefall_render::render::image_file::read(&kept[0]).expect("an image");
     assert_eq!((picture.width, picture.height), (8, 8));
     // Empty output is valid too.
     let null = fs::File::options().write(true).open("/dev/null").expect("it is there");

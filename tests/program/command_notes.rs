@@ -37,7 +37,7 @@ fn roulette_with_infinite_variance_has_a_warning() {
     };
     // The walls reflect one half in uniform directions: (1/2)² · 4/3.
     assert!(
-        notes("0.2").contains("note: survival of 0.2") && notes("0.2").contains("the variance is infinite"),
+        notes("0.2").contains("warning: survival of 0.2") && notes("0.2").contains("the variance is infinite"),
         "{}",
         notes("0.2")
     );
@@ -53,7 +53,7 @@ fn a_reference_of_another_size_or_kind_is_reported() {
         .expect("written");
     let missing = shell.run(&["check", "scene.toml"]);
     assert!(text(&missing.stderr).contains("true.exr: cannot be read") && text(&missing.stderr).contains("scene.toml:"));
-    std::fs::write(shell.path("true.exr"), "no picture").expect("it is written");
+    std::fs::write(shell.path("true.exr"), "no image").expect("it is written");
     assert!(text(&shell.run(&["check", "scene.toml"]).stderr).contains("not an image"));
 
     let render = |to: &str, from: &str, size: &str| shell.run(&["render", from, "-o", to, "--spp", "2", "--size", size]);
@@ -91,17 +91,26 @@ fn options_without_effect_are_named() {
         text(&done.stderr)
     };
     for (options, note) in [
-        (&["-o", "a.png", "--adaptive", "on", "--reuse", "on"][..], "note: `adaptive` is not used: pixels have reused suffixes"),
-        (&["-o", "a.png", "--adaptive", "on", "--estimator", "bidirectional"], "note: `adaptive` is not used: paths from lights"),
-        (&["-o", "a.png", "--reuse", "both", "--estimator", "light_tracing"], "note: `reuse` is not used: paths from lights"),
-        (&["-o", "a.png", "--merging", "on", "--estimator", "mis"], "note: `merging` is not used: it belongs to the estimator"),
+        (
+            &["-o", "a.png", "--adaptive", "on", "--reuse", "on"][..],
+            "warning: `adaptive` is not used: pixels have reused suffixes",
+        ),
+        (&["-o", "a.png", "--adaptive", "on", "--estimator", "bidirectional"], "warning: `adaptive` is not used: light paths"),
+        (&["-o", "a.png", "--reuse", "both", "--estimator", "light_tracing"], "warning: `reuse` is not used: light paths"),
+        (
+            &["-o", "a.png", "--merging", "on", "--estimator", "mis"],
+            "warning: `merging` is not used: it belongs to the estimator",
+        ),
         (&["-o", "a.exr", "--tone", "aces"], "affect a PNG only"),
-        (&["-o", "a.png", "-D", "a=1", "--at", "2", "--variant", "b"], "note: -D affects scenes of Mitsuba only; --at affects"),
+        (
+            &["-o", "a.png", "-D", "a=1", "--at", "2", "--variant", "b"],
+            "warning: -D affects scenes of Mitsuba only; --at affects",
+        ),
     ] {
         assert!(said(options).contains(note), "{options:?}: {}", said(options));
     }
     let plain = said(&["-o", "a.png", "--adaptive", "on", "--reuse", "off", "--estimator", "mis"]);
-    assert!(!plain.contains("shared") && !plain.contains("paths from lights"), "{plain}");
+    assert!(!plain.contains("shared") && !plain.contains("light paths"), "{plain}");
     assert_eq!(said(&["-o", "a.png", "--reuse", "off"]), "");
     let samples = ["--samples", "0..8", "--size", "16x16", "--adaptive", "on", "--reuse", "on", "--exposure", "1"];
     let done = shell.run(&[&["render", &scene("cornell_box"), "-o", "a.nf"], &samples[..]].concat());

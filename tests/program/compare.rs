@@ -57,7 +57,7 @@ fn assert_text_agrees(told: &str, line: &Value) {
         format!("RMSE    {:.6e}\nrelMSE  {:.6e}\n", number("rmse"), number("rel_mse")),
         format!("bias    {bias:+.6e} ± {error:.2e}: {z:+.2} standard errors\n"),
         format!(" of 32 × 32 pixels: worst z {worst:+.2}, root mean square {rms:.2} (noise alone: 1)\n"),
-        "note: the error of truth.exr itself is unknown and assumed to be 0\n".to_owned(),
+        "warning: the error of truth.exr itself is unknown and assumed to be 0\n".to_owned(),
     ] {
         assert!(told.contains(&part), "{part}: {told}");
     }
@@ -238,7 +238,7 @@ fn differences_are_written_as_numbers_and_as_colours() {
     };
     assert!(said("difference.png").contains("full colour is a difference of"));
     assert!(said("difference.exr").contains("A minus B"));
-    let read = |file: &str| image_file::read(&shell.path(file)).expect("a picture").radiance;
+    let read = |file: &str| image_file::read(&shell.path(file)).expect("an image").radiance;
     let (a, b, difference) = (read("a.exr"), read("b.exr"), read("difference.exr"));
     let exact = |(a, b): (&[f32; 3], &[f32; 3])| [0, 1, 2].map(|c| a[c] - b[c]);
     assert!(a.iter().zip(&b).map(exact).eq(difference) && a != b);
@@ -272,7 +272,7 @@ fn colours_of_a_difference_have_its_sign_and_size() {
     save_constant(&shell, "b.exr", 1.0);
     let told = said(&shell, &["a.exr", "b.exr", "-o", "difference.png"]);
     assert!(told.contains("full colour is a difference of 99.5 %"), "{told}");
-    let shown = image_file::read(&shell.path("difference.png")).expect("a picture").radiance;
+    let shown = image_file::read(&shell.path("difference.png")).expect("an image").radiance;
     let near =
         |i: usize, exact: [f32; 3]| assert!(shown[i].iter().zip(exact).all(|(a, b)| (a - b).abs() < 0.01), "{i}: {:?}", shown[i]);
     near(0, [0.445, 0.017, 0.025]);

@@ -1,8 +1,8 @@
-//! The picture of the crates in the documentation is what cargo says.
+//! The image of the crates in the documentation is what cargo says.
 use std::{collections::BTreeMap, path::Path, process::Command};
 
 const PAGE: &str = "docs/architecture.md";
-/// The page has the picture between these lines.
+/// The page has the image between these lines.
 const FENCES: [&str; 2] = ["<!-- crates -->\n", "<!-- end of crates -->\n"];
 
 /// The crates of the workspace: what each is for, and those that it uses.

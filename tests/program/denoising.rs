@@ -77,7 +77,7 @@ fn a_comparison_says_which_image_is_denoised_and_takes_none_for_a_repeat() {
     let compared = |files: &[&str]| shell.run(&[&["compare"], files].concat());
     let said = |files: &[&str]| text(&compared(files).stdout);
     for file in ["denoised.exr", "denoised.png"] {
-        let remark = format!("note: {file} is denoised, and so biased\n");
+        let remark = format!("warning: {file} is denoised, and so biased\n");
         assert!(said(&[file, "plain.exr"]).contains(&remark), "{}", said(&[file, "plain.exr"]));
         assert!(said(&[file, "plain.exr"]).contains("has no variances; render it without --denoise"));
         assert!(said(&["plain.exr", file]).contains(&remark), "{}", said(&["plain.exr", file]));

@@ -21,7 +21,7 @@ use noisefall_scene::scene::{
 };
 use rand::{Rng, SeedableRng, rngs::SmallRng};
 
-/// The bits of a small picture, with every way to share that the scene allows.
+/// The bits of a small image, with every way to share that the scene allows.
 pub fn picture(scene: &Scene, threads: &Threads) -> Vec<[u32; 3]> {
     let camera = Camera { resolution: [16, 12], ..scene.camera };
     let settings = RenderSettings { reuse: Reuse::Suffixes, ..scene.settings };
@@ -46,7 +46,7 @@ pub fn assert_same(edited: &Scene, new: &Scene, threads: &Threads, what: &str) {
     let numbers = |scene: &Scene| (scene.owners.clone(), scene.size.to_bits(), scene.deepest_media, scene.textures.len());
     assert_eq!(numbers(edited), numbers(new), "{what}");
     assert_eq!((edited.camera, edited.settings, edited.spp), (new.camera, new.settings, new.spp), "{what}");
-    assert!(picture(edited, threads) == picture(new, threads), "{what}: pictures");
+    assert!(picture(edited, threads) == picture(new, threads), "{what}: images");
 }
 
 /// Changes a scene at random, and says what.

@@ -33,7 +33,7 @@ fn check_files(shell: &Shell, stdout: &str) -> BTreeSet<String> {
     let count = format!("out: {} files of figures and tables", names.len() - 2);
     assert!(stdout.contains(&count), "{count}: {stdout} {names:?}");
     let page = fs::read_to_string(shell.path("out/report.html")).expect("a page");
-    // The two sheets of pictures are on the page as they are.
+    // The two sheets of images are on the page as they are.
     assert_eq!((page.matches("<table").count(), page.matches("<svg").count()), (tables.len(), with(".svg").len() - 2));
     assert_eq!(page.matches("<img").count(), 2);
     for outside in ["http://", "https://", "<script", "<link"] {
@@ -86,7 +86,7 @@ fn the_chapter_of_the_furnace_agrees_with_the_exact_biases() {
     assert!(read("bias_of_roulette.tex").contains("\\begin{tabular}{lrrrrrl}"));
     // The corner of the first image with a cap has radiance 1.
     let corner = || {
-        let sheet = noisefall_render::render::image_file::read(&shell.path("out/pictures_by_cap.png")).expect("a picture");
+        let sheet = noisefall_render::render::image_file::read(&shell.path("out/pictures_by_cap.png")).expect("an image");
         sheet.radiance[12 * sheet.width as usize + 12][0]
     };
     assert!((corner() - 1.0).abs() < 2e-3, "{}", corner());

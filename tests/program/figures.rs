@@ -172,7 +172,7 @@ fn exposure_and_tone_map_change_a_png_and_not_an_exr() {
             ["render", &furnace, "-o", file, "--spp", "1", "--size", "4x4", "--directions", "cosine", "--max-bounces", "0"];
         let done = shell.run(&[&fixed[..], options].concat());
         assert!(done.status.success(), "{}", text(&done.stderr));
-        let picture = noisefall_render::render::image_file::read(&shell.path(file)).expect("a picture");
+        let picture = noisefall_render::render::image_file::read(&shell.path(file)).expect("an image");
         (f64::from(picture.radiance[5][1]), text(&done.stderr))
     };
     // Every pixel is 1, up to 1 % for 8-bit codes.

@@ -98,7 +98,7 @@ fn a_scene_in_memory_and_the_exported_one_have_the_same_bits() {
     let exported = write(source, &path).expect("it is written");
     assert_eq!((exported.written, exported.copied), (3, 0));
     let read = load(&path).unwrap_or_else(|error| panic!("{}", error.report()));
-    assert!(picture(&scene, &threads()) == picture(&read, &threads()), "pictures");
+    assert!(picture(&scene, &threads()) == picture(&read, &threads()), "images");
     assert_eq!((scene.camera, scene.settings, scene.size.to_bits()), (read.camera, read.settings, read.size.to_bits()));
 }
 
@@ -112,7 +112,7 @@ fn files_in_memory_stay_with_the_scene_through_edits() {
     let without = Arc::new(SceneDescription { objects: Vec::new(), ..(*description).clone() });
     let empty = rebuild(&without, &before);
     let again = rebuild(&description, &empty);
-    let made = |scene: &Scene| ["meshes", "skies", "pictures"].map(|part| scene.compiled.made(part));
+    let made = |scene: &Scene| ["meshes", "skies", "images"].map(|part| scene.compiled.made(part));
     assert_eq!((made(&before), made(&again)), ([1, 1, 1], [1, 0, 0]), "a mesh that was gone is made of the same data");
     assert!(picture(&before, &threads()) == picture(&again, &threads()));
     assert_eq!(made(&rebuild(&description, &again)), [0; 3]);

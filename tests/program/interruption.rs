@@ -58,7 +58,7 @@ fn an_interrupted_render_saves_its_samples_and_states_their_number() {
     for (in_file, in_line) in [("spp", "spp"), ("mean_spp", "mean_spp"), ("samples", "paths")] {
         assert_eq!(number(&settings, in_file), number(&line, in_line), "{in_file}");
     }
-    assert!(read(&shell.path("out.exr")).expect("a picture").radiance.iter().flatten().all(|c| c.is_finite()));
+    assert!(read(&shell.path("out.exr")).expect("an image").radiance.iter().flatten().all(|c| c.is_finite()));
 }
 
 #[test]

@@ -198,7 +198,7 @@ fn skies() {
         let view = "camera = { eye = [0, 0, 4], look_at = [0, 0, 0], fov = 40, resolution = [8, 8] }";
         let text = format!("format = 1\n{view}\nbackground = {{ image = 'sky.hdr'{rest} }}");
         let scene = parse(&name, text).unwrap_or_else(|error| panic!("{}", error.report()));
-        let Some(Environment::Image(sky)) = &scene.lights.environment else { panic!("it is a picture") };
+        let Some(Environment::Image(sky)) = &scene.lights.environment else { panic!("it is an image") };
         let (sin, cos) = degrees.to_radians().sin_cos();
         // From −z towards −x, which is counter-clockwise seen from above.
         sky.radiance(One, V { x: F(-sin as f32), y: F(0.0), z: F(-cos as f32) }).x.0

@@ -140,7 +140,7 @@ fn files_that_are_not_pictures_are_refused() {
     let folder = tempfile::tempdir().expect("a folder");
     for name in ["broken.png", "broken.exr"] {
         let path = folder.path().join(name);
-        fs::write(&path, b"this is no picture").expect("it is written");
+        fs::write(&path, b"this is no image").expect("it is written");
         assert!(read(&path).expect_err("it is refused").to_string().contains(name));
     }
 }

@@ -131,7 +131,7 @@ fn samples_come_as_a_table_in_one_process_and_the_first_lit_one_is_found() {
         text(&done.stderr)
     };
     assert_eq!(written("independent"), "");
-    assert!(written("sobol").starts_with("note: these samples are not independent"));
+    assert!(written("sobol").starts_with("warning: these samples are not independent"));
 
     let line = |sample: &str| {
         let output = shell.run(

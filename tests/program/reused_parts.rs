@@ -82,7 +82,7 @@ fn only_parts_that_a_change_concerns_are_made_again() {
     is_made(parts(|scene| shift(scene, "light")), &["lights", "shapes", "surfaces"]);
     let turned = |scene: &mut SceneDescription| match &mut scene.environment {
         Some(EnvironmentDescription::Image(image)) => image.rotate = 30.0,
-        _ => panic!("it is a picture"),
+        _ => panic!("it is an image"),
     };
     is_made(parts(turned), &["lights", "surfaces"]);
 }
@@ -104,7 +104,7 @@ fn a_mesh_that_moves_keeps_its_tree_until_it_is_compiled_exactly() {
     let threads = Threads::new(2, SimdLevel::best()).expect("threads can be had");
     let new = description.build(Path::new("")).expect("it is valid");
     assert_same(&exact, &new, &threads, "exact");
-    // Of a picture of two samples, some paths part at an edge that is rounded differently.
+    // Of an image of two samples, some paths part at an edge that is rounded differently.
     let [a, b] = [&moved, &new].map(|scene| picture(scene, &threads));
     let near = |(a, b): (&[u32; 3], &[u32; 3])| (0..3).all(|i| (f32::from_bits(a[i]) - f32::from_bits(b[i])).abs() < 1e-3);
     let count = a.iter().zip(&b).filter(|(a, b)| near((a, b))).count();

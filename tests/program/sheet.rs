@@ -8,7 +8,7 @@ fn a_sheet_has_a_picture_for_each_combination() {
     let sheet = |file: &str, options: &[&str]| {
         let done = shell.run(&[&["sheet", &furnace, "-o", file, "--size", "220x10"], options].concat());
         assert!(done.status.success(), "{}", text(&done.stderr));
-        (noisefall_render::render::image_file::read(&shell.path(file)).expect("a picture"), text(&done.stdout))
+        (noisefall_render::render::image_file::read(&shell.path(file)).expect("an image"), text(&done.stdout))
     };
     let two = ["--spp", "2,1,2", "--estimators", "path,mis", "--max-bounces", "0", "--exposure", "-1"];
     let (picture, said) = sheet("a.png", &two);
@@ -42,7 +42,7 @@ fn another_seed_gives_other_pictures() {
     let picture = |seed: &str| {
         let done = shell.run(&[&["sheet", "red.toml", "-o", "a.png", "--seed", seed], &few[..]].concat());
         assert!(done.status.success(), "{}", text(&done.stderr));
-        let sheet = noisefall_render::render::image_file::read(&shell.path("a.png")).expect("a picture").radiance;
+        let sheet = noisefall_render::render::image_file::read(&shell.path("a.png")).expect("an image").radiance;
         sheet.into_iter().filter(|rgb| rgb[0] != rgb[1]).collect::<Vec<_>>()
     };
     let first = picture("1");

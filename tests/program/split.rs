@@ -41,7 +41,7 @@ fn parts_join_to_the_file_of_one_render() {
     let done = merge(&shell, &["c.nf", "a.nf", "b.nf", "-o", "joined.exr"]);
     assert!(done.status.success(), "{}", text(&done.stderr));
     assert!(text(&done.stderr).contains("c.nf: samples 6..9"), "{}", text(&done.stderr));
-    assert!(text(&done.stdout).contains("joined.exr: samples 0..9 (9 spp), noise at most "), "{}", text(&done.stdout));
+    assert!(text(&done.stdout).contains("joined.exr: samples 0..9 (9 spp), estimated error at most "), "{}", text(&done.stdout));
     assert!(bytes(&shell, "joined.exr") == bytes(&shell, "whole.exr"));
     assert!(merge(&shell, &["c.nf", "b.nf", "-o", "bc.nf"]).status.success());
     assert!(merge(&shell, &["bc.nf", "a.nf", "-o", "joined.png"]).status.success());

@@ -85,7 +85,7 @@ fn a_study_that_was_cut_off_goes_on_where_it_was() {
     fs::write(&path, &whole[..cut]).expect("it can be written");
     let again = study(&shell, &[&scene("furnace")]);
     let told = text(&again.stderr);
-    assert!(again.status.success() && told.contains("note: 2 lines of study.csv belong to incomplete runs"), "{told}");
+    assert!(again.status.success() && told.contains("warning: 2 lines of study.csv belong to incomplete runs"), "{told}");
     assert!(told.contains(&format!("{} of {runs} runs are already measured", runs - 1)), "{told}");
     assert_eq!(fs::read_to_string(&path).expect("measurements").lines().count(), lines);
 }
@@ -172,7 +172,7 @@ fn references_are_files_where_there_are_some() {
     let report = |folder: &str| fs::read_to_string(shell.path(folder).join("report.html")).expect("a report");
     assert!(report("out").contains("sky.ref.exr, which itself has an estimated error of"));
     // A file of another program, or of an older version of this one.
-    let picture = noisefall_render::render::image_file::read(&shell.path("sky.ref.exr")).expect("a picture");
+    let picture = noisefall_render::render::image_file::read(&shell.path("sky.ref.exr")).expect("an image");
     let frame = noisefall_render::render::Frame { width: 20, height: 10, radiance: picture.radiance, ..Default::default() };
     noisefall_render::render::image_file::save(&frame, Default::default(), "{}", &shell.path("foreign.exr"))
         .expect("it is saved");
@@ -187,7 +187,7 @@ fn references_are_files_where_there_are_some() {
     let declared = ["study", &scene("furnace"), "-o", "declared", "--reference", "foreign.exr", "--max-bounces", "1"];
     let told = text(&shell.run(&[&declared[..], &few[..]].concat()).stdout);
     assert!(told.contains("The error of the reference foreign.exr itself is unknown and assumed to be 0."), "{told}");
-    fs::copy(shell.path("sky.ref.exr"), shell.path("other.exr")).expect("a picture");
+    fs::copy(shell.path("sky.ref.exr"), shell.path("other.exr")).expect("an image");
     let other = study(&["--reference", "other.exr", "--size", "16x16"]);
     assert_eq!(other.status.code(), Some(1));
     let told = text(&other.stderr);

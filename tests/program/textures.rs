@@ -44,7 +44,7 @@ fn pictures_that_cannot_be_used_are_named() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = |name: &str| folder.path().join(name);
     image(&file("nowhere.png"), "nowhere.png: cannot be read: there is no such file");
-    fs::write(file("text.png"), "no picture").expect("it is written");
+    fs::write(file("text.png"), "no image").expect("it is written");
     image(&file("text.png"), "not an image");
     image(folder.path(), "cannot be read");
     hdr(&file("empty.hdr"), "-Y 0 +X 0", &[]);

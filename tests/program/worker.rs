@@ -60,7 +60,7 @@ fn the_first_picture_is_coarse_and_the_next_ones_finer_until_full() {
     renderer.submit(1, request(&scene));
     let first = wait_for(&renderer, "a first frame", |p| p.frame.generation == 1).frame;
     assert!(first.is_coarse() && first.full_resolution == [1024, 1024]);
-    assert!(first.radiance.iter().all(|pixel| *pixel == [0.5; 3]), "a coarse picture has no holes");
+    assert!(first.radiance.iter().all(|pixel| *pixel == [0.5; 3]), "a coarse image has no holes");
     let last = wait_for(&renderer, "the end", |p| matches!(p.status.state, State::Done(_)));
     assert_eq!((last.frame.width, last.frame.spp, last.status.spp), (1024, 2, 2));
     assert!(last.frame.radiance.iter().all(|pixel| *pixel == [0.5; 3]));
@@ -91,7 +91,7 @@ fn assert_plain(frame: &Frame) {
     assert_eq!((frame.radiance.len(), pixels > 0), (pixels, frame.generation > 0));
 }
 
-/// The picture of a scene with noise after exactly so many samples, without interruption.
+/// The image of a scene with noise after exactly so many samples, without interruption.
 fn uninterrupted(request: RenderRequest, spp: u32) -> Vec<[f32; 3]> {
     let renderer = renderer(Publish::Sparse);
     renderer.set_budget(Budget { max_spp: Some(spp), ..Budget::default() });
@@ -110,12 +110,12 @@ fn look_at_another_picture(renderer: &Renderer) {
     renderer.submit_second(1, RenderTask::Picture(request(&plain(0.5, 16))));
     let start = Instant::now();
     while renderer.latest_second().frame.generation != 1 {
-        assert!(start.elapsed() < Duration::from_secs(60), "the other picture never came");
+        assert!(start.elapsed() < Duration::from_secs(60), "the other image never came");
         std::thread::sleep(Duration::from_micros(200));
     }
     renderer.stop_second();
     while renderer.latest_second().frame.generation != 0 {
-        assert!(start.elapsed() < Duration::from_secs(60), "the other picture never went");
+        assert!(start.elapsed() < Duration::from_secs(60), "the other image never went");
         std::thread::sleep(Duration::from_micros(200));
     }
 }
@@ -138,7 +138,7 @@ fn pause_and_resume_lose_nothing() {
         wait_for(&renderer, "the resumption", |p| p.status.state != State::Paused);
     }
     let last = wait_for(&renderer, "the end", |p| matches!(p.status.state, State::Done(_)));
-    assert!(last.frame.radiance == uninterrupted(noisy(), 40), "pausing changed the picture");
+    assert!(last.frame.radiance == uninterrupted(noisy(), 40), "pausing changed the image");
 }
 
 #[test]
@@ -225,7 +225,7 @@ fn a_panic_in_a_pass_becomes_a_status_with_pixel_sample_and_message() {
     let replays = || noisefall_kernel::integrator::replay(&scene, &rays, &settings, failure.at.pixel, failure.at.sample);
     assert!(std::panic::catch_unwind(std::panic::AssertUnwindSafe(replays)).is_err());
     renderer.submit(2, noisy());
-    wait_for(&renderer, "the next picture", |p| p.frame.generation == 2);
+    wait_for(&renderer, "the next image", |p| p.frame.generation == 2);
 }
 
 #[test]
@@ -246,7 +246,7 @@ fn samples_that_are_no_numbers_are_dropped_and_counted_with_the_way_to_replay_th
     renderer.submit(1, RenderRequest { scene: scene.clone(), camera, settings: scene.settings });
     let done = wait_for(&renderer, "the end", |p| matches!(p.status.state, State::Done(_)));
     assert!(done.status.invalid_samples > 0 && done.frame.radiance.len() == 64 * 64);
-    assert!(done.frame.radiance.iter().flatten().all(|c| c.is_finite()), "the picture stays finite");
+    assert!(done.frame.radiance.iter().flatten().all(|c| c.is_finite()), "the image stays finite");
     let first = done.status.first_invalid.expect("the first one is known");
     let replayed = noisefall_kernel::integrator::replay(&scene, &scene.rays(&camera), &scene.settings, first.pixel, first.sample);
     assert!(replayed.radiance[1].is_nan());

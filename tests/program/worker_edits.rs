@@ -17,7 +17,7 @@ use noisefall_scene::{
 
 use crate::worker::{renderer, request, wait_for};
 
-/// A scene whose whole picture is one colour: a sphere around the camera that emits and reflects nothing.
+/// A scene whose whole image is one colour: a sphere around the camera that emits and reflects nothing.
 fn plain(radiance: f64) -> SceneDescription {
     let mut scene = SceneDescription::default();
     scene.camera.resolution = [200, 120];
@@ -70,13 +70,13 @@ fn an_edit_is_compiled_and_rendered_and_its_scene_is_handed_over() {
     let renderer = renderer(Publish::Live);
     let before = compiled(&plain(0.5));
     renderer.submit(1, request(&before));
-    assert_eq!(colour(&wait_for(&renderer, "a picture", is_full(1)).frame), 0.5);
+    assert_eq!(colour(&wait_for(&renderer, "an image", is_full(1)).frame), 0.5);
     renderer.edit(2, edit(plain(2.0), &before));
     let EditResult { generation, scene } = result(&renderer);
     let scene = scene.expect("it is valid");
     assert_eq!((generation, scene.compiled.made("lights"), scene.compiled.made("shapes")), (2, 1, 0));
     assert!(Arc::ptr_eq(&scene.shapes, &before.shapes));
-    assert_eq!(colour(&wait_for(&renderer, "the edited picture", is_full(2)).frame), 2.0);
+    assert_eq!(colour(&wait_for(&renderer, "the edited image", is_full(2)).frame), 2.0);
     assert!(renderer.take_edited().is_none(), "once");
 }
 

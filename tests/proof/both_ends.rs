@@ -1,4 +1,4 @@
-//! Replays of paths from both ends: the terms add up to the renderer's sum bit for bit, and pdfs and weights are exact.
+//! Replays of bidirectional paths: the terms add up to the renderer's sum bit for bit, and pdfs and weights are exact.
 use std::f64::consts::{FRAC_1_PI, PI};
 
 use glam::{DVec3, Vec3};
@@ -81,7 +81,7 @@ fn the_terms_of_the_strategies_add_up_to_the_samples_of_the_renderer_bit_for_bit
         let (mut connected, mut splats) = (0, 0);
         for [x, y] in (0..TILE).step_by(3).flat_map(|y| (0..TILE).step_by(5).map(move |x| [x, y])) {
             let Replay { radiance, both_ends: Some(both), .. } = replay(&scene, &rays, &settings, [x, y], 3) else {
-                panic!("{} traces paths from lights", estimator.name())
+                panic!("{} traces light paths", estimator.name())
             };
             let [r, g, b, _] = batch.radiance()[(y * TILE + x) as usize];
             assert_eq!((sum(&both.strategies), radiance), ([r, g, b], [r, g, b]), "{} {x},{y}", estimator.name());
@@ -153,7 +153,7 @@ fn pdfs_and_weights_are_those_of_the_closed_forms() {
     for sample in 0..20 {
         for pixel in [[4, 20], [12, 25], [16, 14], [22, 20], [28, 28]] {
             let Some(BothEnds { light, camera, strategies }) = replay(&scene, &rays, &settings, pixel, sample).both_ends else {
-                panic!("it traces paths from lights")
+                panic!("it traces light paths")
             };
             for term in &strategies {
                 let (ball, floor, own) = match (term.s, term.t) {

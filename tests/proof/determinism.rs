@@ -112,7 +112,7 @@ fn replayed_samples_add_up_to_the_film() {
     }
 }
 
-/// The settings of an estimator with paths from lights.
+/// The settings of an estimator with light paths.
 fn from_both_ends(estimator: Estimator) -> RenderSettings {
     RenderSettings { estimator, adaptive: false, ..settings(Sampler::Sobol, Reuse::Off) }
 }

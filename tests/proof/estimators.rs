@@ -198,7 +198,7 @@ fn they_agree_among_hundreds_of_lights() {
     for estimator in beside_path().filter(|estimator| *estimator != Estimator::LightTracing) {
         deviations.extend(path.iter().zip(of(estimator)).map(|(a, b)| b.z_from(*a)));
         let whole = deviations[deviations.len() - 1];
-        println!("whole picture: {:.5}, {} deviates by {whole:.2} σ", path[path.len() - 1].mean, estimator.name());
+        println!("whole image: {:.5}, {} deviates by {whole:.2} σ", path[path.len() - 1].mean, estimator.name());
     }
     assert_all_within(&deviations, "estimators among hundreds of lights");
 }

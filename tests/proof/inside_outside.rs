@@ -85,7 +85,7 @@ fn a_light_in_the_middle_lights_the_inside_evenly() {
     assert!((exact - 0.5).abs() < 1e-12);
     for directions in Directions::ALL {
         let picture = render(&scene("inside_lit_inside"), directions, 512);
-        assert_within(z_of_sum(picture.iter().map(|pixel| (*pixel, exact))), &format!("the whole picture, {directions:?}"));
+        assert_within(z_of_sum(picture.iter().map(|pixel| (*pixel, exact))), &format!("the whole image, {directions:?}"));
         for (i, quarter) in picture.chunks(picture.len() / 4).enumerate() {
             assert_within(z_of_sum(quarter.iter().map(|pixel| (*pixel, exact))), &format!("quarter {i}, {directions:?}"));
         }
@@ -102,7 +102,7 @@ fn a_ball_lit_from_outside_is_lamberts_ball() {
         mean_over_pixel(&camera, place, |o, d| lamberts_ball(ALBEDO, LIGHT, o, d))
     };
     let lit: Vec<_> = picture.iter().enumerate().filter_map(|(i, pixel)| Some((*pixel, exact(i)?))).collect();
-    assert!(lit.len() > 150, "the ball is in the picture: {}", lit.len());
+    assert!(lit.len() > 150, "the ball is in the image: {}", lit.len());
     assert_within(z_of_sum(lit.iter().copied()), "the lit part of the ball");
     for (i, part) in lit.chunks(lit.len().div_ceil(4)).enumerate() {
         assert_within(z_of_sum(part.iter().copied()), &format!("part {i} of the ball"));

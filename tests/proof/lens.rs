@@ -49,7 +49,7 @@ fn assert_shows(found: &Picture, exact: impl Fn(usize, usize) -> f64, what: &str
     let means = found.pixels.iter().enumerate();
     let pixels: Vec<(f64, f64)> = means.map(|(i, pixel)| (pixel.mean, rounded(exact(i % SIDE, i / SIDE)))).collect();
     let gray = pixels.iter().filter(|(_, exact)| (0.01..0.99).contains(exact)).count();
-    assert!(gray >= SIDE, "{what}: the edge is in the picture");
+    assert!(gray >= SIDE, "{what}: the edge is in the image");
     assert_within(z(&pixels), what);
     let rows: Vec<f64> = pixels.chunks(SIDE).map(z).collect();
     assert_all_within(&rows, &format!("{what}, by rows"));
@@ -107,7 +107,7 @@ fn a_straight_edge_out_of_focus_is_a_circular_segment_of_the_lens() {
     for z in [250.0, 500.0, 900.0, 1500.0, 3000.0] {
         let scale = z / FOCUS;
         let blur = LENS * (1.0 - scale).abs();
-        // Not in the middle of a pixel, nor of the picture. Over its height a sphere of this size bends by 10⁻⁵ m, and by the slope
+        // Not in the middle of a pixel, nor of the image. Over its height a sphere of this size bends by 10⁻⁵ m, and by the slope
         // of rays it is moved by 3·10⁻⁶ m.
         let (edge, radius) = (0.0123 * scale, 2000.0);
         let found = emitter(&lens_camera(z), [edge + radius, 0.0, 0.0], radius);
@@ -177,7 +177,7 @@ fn a_straight_edge_is_the_integral_of_the_pixel_filter() {
     ];
     for (filter, left_of) in filters {
         for (edge, across) in [(16.3, true), (9.75, false)] {
-            // A tenth of a metre a pixel: over the picture the sphere bends away from its edge by 10⁻⁴ pixels.
+            // A tenth of a metre a pixel: over the image the sphere bends away from its edge by 10⁻⁴ pixels.
             let place = RADIUS + (edge - 16.0) * 0.1;
             let center = if across { [place, 0.0, -5.0] } else { [0.0, -place, -5.0] };
             let camera = format!(

@@ -224,7 +224,7 @@ fn normal_maps_tilt_normals_along_u_and_against_v() {
     }
 }
 
-/// A light lights a wall over a mirror whose normals lean by 15°: paths from the camera and paths from the light meet it at cosines
+/// A light lights a wall over a mirror whose normals lean by 15°: camera paths and paths from the light meet it at cosines
 /// that differ by a factor of 2 (Veach 1997, section 5.3).
 #[test]
 fn light_paths_and_camera_paths_agree_at_a_mirror_with_tilted_normals() {

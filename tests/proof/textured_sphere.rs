@@ -117,12 +117,12 @@ fn so_do_pictures() {
     const SCALE: f64 = 3.0;
     const ALBEDO: [[u8; 5]; 3] = [[40, 230, 90, 180, 10], [255, 20, 128, 60, 200], [100, 100, 240, 0, 150]];
     const RADIANCE: [[u8; 4]; 4] = [[0, 255, 30, 60], [10, 20, 200, 255], [90, 0, 0, 120], [255, 40, 80, 160]];
-    let folder = tempfile::tempdir().expect("a folder for pictures");
+    let folder = tempfile::tempdir().expect("a folder for images");
     let write = |name: &str, width: usize, bytes: &[u8]| {
-        let file = std::fs::File::create(folder.path().join(name)).expect("a picture can be written");
+        let file = std::fs::File::create(folder.path().join(name)).expect("an image can be written");
         let mut encoder = png::Encoder::new(file, width as u32, (bytes.len() / width) as u32);
         encoder.set_color(png::ColorType::Grayscale);
-        encoder.write_header().and_then(|mut writer| writer.write_image_data(bytes)).expect("a picture can be written");
+        encoder.write_header().and_then(|mut writer| writer.write_image_data(bytes)).expect("an image can be written");
         format!("image = {{ path = '{name}', encoding = 'linear' }}")
     };
     let textures = [write("albedo.png", 5, ALBEDO.as_flattened()), write("radiance.png", 4, RADIANCE.as_flattened())];

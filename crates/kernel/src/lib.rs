@@ -1,4 +1,4 @@
-//! The integrator: light sampling, roulette, media and paths from lights over batches of paths; and the measures of error.
+//! The integrator: light sampling, roulette, media and light paths over batches of paths; and the measures of error.
 
 pub mod integrator;
 pub mod measure;

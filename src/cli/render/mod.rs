@@ -80,7 +80,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     tell_unused(&of_images, &scene, &rays, &settings);
     if settings.estimator == Estimator::Auto {
         of_images.install(|| resolved(&scene, &rays, &settings));
-        scene.estimator_in_force(&settings).iter().for_each(|chosen| tell(&format!("note: estimator `auto` is {chosen}")));
+        scene.estimator_in_force(&settings).iter().for_each(|chosen| tell(&format!("warning: estimator `auto` is {chosen}")));
     }
     let request = RenderRequest { scene: scene.clone(), camera, settings };
     let image = KeptImage { request: &request, description: description.as_deref(), path: &path, size: arguments.size };
@@ -134,7 +134,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
 fn print_notes(scene: &Scene, settings: &RenderSettings, reference: Option<&Reference>, resolution: [u32; 2]) {
     let mismatch = reference.and_then(|truth| truth.mismatch(resolution));
     let notes = mismatch.into_iter().chain(scene.notes(settings));
-    notes.for_each(|note| tell(&format!("note: {note}")));
+    notes.for_each(|note| tell(&format!("warning: {note}")));
 }
 
 /// The title of a scene, or else the name of its file.
@@ -166,7 +166,7 @@ impl Arguments {
         let layers = self.layers.clone().unwrap_or_default();
         if output.format() != Some(Format::Exr) {
             if !layers.0.is_empty() {
-                tell("note: --layers affects an EXR only");
+                tell("warning: --layers affects an EXR only");
             }
             return Layers::default();
         }
@@ -183,7 +183,7 @@ impl Arguments {
             ("--exposure, --white-balance and --tone", self.display.unused(None).is_some()),
         ];
         let given: Vec<&str> = given.iter().filter(|(_, is_given)| *is_given).map(|(name, _)| *name).collect();
-        (!given.is_empty()).then(|| format!("note: --pixel replays single samples; it does not use {}", given.join(", ")))
+        (!given.is_empty()).then(|| format!("warning: --pixel replays single samples; it does not use {}", given.join(", ")))
     }
 
     /// The options that a range of samples excludes, and whether they are given.

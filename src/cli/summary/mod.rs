@@ -42,7 +42,7 @@ impl Done<'_> {
             notes.push(format!("warning: {invalid_samples} invalid samples were dropped; the first one: {replay}"));
         }
         if self.frame.is_black() {
-            notes.push(format!("note: the image is entirely black: {}", self.scene.why_black(camera, self.settings)));
+            notes.push(format!("warning: the image is entirely black: {}", self.scene.why_black(camera, self.settings)));
         }
         if self.status.error_is_lower_bound && !self.is_denoised && !self.frame.is_black() {
             notes.push(
@@ -60,7 +60,7 @@ impl Done<'_> {
             && self.frame.counts.is_empty()
             && !self.has_light_paths()
         {
-            notes.push("note: `adaptive` is not used: there are few samples, or a pilot found no gain in it".to_owned());
+            notes.push("warning: `adaptive` is not used: there are few samples, or a pilot found no gain in it".to_owned());
         }
         if let Some(contradiction) = &self.contradiction {
             let why = self.bias().map_or_else(String::new, |why| format!(" (it is biased: {why})"));
@@ -151,10 +151,10 @@ fn mean(radiance: &[[f32; 3]]) -> [f64; 3] {
     [0, 1, 2].map(|c| radiance.iter().map(|rgb| f64::from(rgb[c])).sum::<f64>() / count)
 }
 
-/// The estimated noise as in ", noise 2.50 %"; empty if it is unknown. An estimate that few pixels carry is a lower bound.
+/// The estimated noise as in ", estimated error 2.50 %"; empty if it is unknown. An estimate that few pixels carry is a lower bound.
 pub fn noise_text(status: &Status) -> String {
     let bound = if status.error_is_lower_bound { "≥ " } else { "" };
-    status.relative_noise().map_or_else(String::new, |noise| format!(", noise {bound}{:.2} %", 100.0 * noise))
+    status.relative_noise().map_or_else(String::new, |noise| format!(", estimated error {bound}{:.2} %", 100.0 * noise))
 }
 
 #[cfg(test)]

@@ -100,7 +100,7 @@ fn the_line_states_the_samples_and_why_the_render_stopped() {
     let million = Status { samples: 1_000_000, ..status(State::Done(Target::Samples(2))) };
     assert_eq!(
         line(&million, &frame(1.0)),
-        "out.png: 2.5 spp on average (2 to 3) in 0.50 s (2.0 M samples/s), noise 3.00 %, true error 2.00 %, \
+        "out.png: 2.5 spp on average (2 to 3) in 0.50 s (2.0 M samples/s), estimated error 3.00 %, true error 2.00 %, \
          biased: 6 paths cut; stopped at 2 spp"
     );
     let whole = Status { cut_paths: 0, rel_mse_estimate: None, ..status(State::Paused) };
@@ -117,7 +117,7 @@ fn notes_report_problems_and_nothing_else() {
     let all = notes(&status(State::Done(Target::Time)), &frame(0.0));
     assert_eq!(all.len(), 3);
     assert_eq!(all[0], "warning: 4 invalid samples were dropped; the first one: noisefall render a.toml --pixel 1,0");
-    assert!(all[1].starts_with("note: the image is entirely black: "), "{}", all[1]);
+    assert!(all[1].starts_with("warning: the image is entirely black: "), "{}", all[1]);
     assert!(all[2].starts_with(&format!("warning: 6 paths were cut after {}", RenderSettings::LONGEST_PATH)), "{}", all[2]);
     assert_eq!(notes(&Status { cut_paths: 0, ..status(State::Paused) }, &frame(1.0)).len(), 1);
     let heavy = Status { cut_paths: 0, error_is_lower_bound: true, ..status(State::Paused) };

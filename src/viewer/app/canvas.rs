@@ -48,16 +48,16 @@ impl App {
         }
     }
 
-    /// The pictures that the canvas draws.
+    /// The images that the canvas draws.
     fn pictures(&self) -> Option<Pictures> {
         let [first, second] = self.results.textures.each_ref().map(|texture| texture.as_ref().map(TextureHandle::id));
-        // The picture keeps its own shape until another one is there, which may be never: settings can be impossible.
+        // The image keeps its own shape until another one is there, which may be never: settings can be impossible.
         let resolution = self.results.shown.as_ref().map_or(self.session.camera.resolution, |frame| frame.full_resolution);
         let split = self.comparison().map_or(Split::None, |comparison| comparison.layout.split());
         Some(Pictures { first: first?, second: second.filter(|_| split != Split::None), resolution, split })
     }
 
-    /// A click on the picture.
+    /// A click on the image.
     fn click(&mut self, pixel: [u32; 2]) {
         match self.window.tool {
             Tool::Inspect => self.window.tab = Some(InstrumentTab::Path),
@@ -70,7 +70,7 @@ impl App {
         }
     }
 
-    /// Draws what lies over the picture. `second` is where B lies, if that is elsewhere.
+    /// Draws what lies over the image. `second` is where B lies, if that is elsewhere.
     pub fn overlays(&mut self, ui: &mut Ui, area: &PictureArea, second: Option<&PictureArea>) {
         self.outline_selection(ui, area);
         self.show_light_icons(ui, area);

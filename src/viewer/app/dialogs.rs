@@ -111,7 +111,7 @@ impl App {
         }
     }
 
-    /// Whether a study has the machine, and the picture waits.
+    /// Whether a study has the machine, and the image waits.
     pub fn is_studying(&self) -> bool {
         self.environment.adviser.as_ref().is_some_and(Adviser::is_busy)
     }

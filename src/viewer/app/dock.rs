@@ -177,7 +177,7 @@ impl App {
         }
     }
 
-    /// The picture that the path inspector looks at: that of the side that was clicked.
+    /// The image that the path inspector looks at: that of the side that was clicked.
     pub fn inspected_request(&self) -> Option<RenderRequest> {
         let request = self.environment.worker.request()?.clone();
         let other = self.comparison().filter(|_| self.instruments.path.of_second).map(|comparison| comparison.other);

@@ -63,7 +63,7 @@ impl App {
         self.environment.sequence = Some(SequenceTask::start(&self.ctx, request));
     }
 
-    /// Whether numbered frames have the machine, and the picture waits.
+    /// Whether numbered frames have the machine, and the image waits.
     pub fn is_rendering_sequence(&self) -> bool {
         self.environment.sequence.is_some()
     }

@@ -13,7 +13,7 @@ use crate::viewer::canvas::{
 use crate::viewer::panels::subject::Subject;
 
 impl App {
-    /// Gives the gizmo its keys, before the window looks at its own: while the pointer is over the picture.
+    /// Gives the gizmo its keys, before the window looks at its own: while the pointer is over the image.
     pub fn take_gizmo_keys(&mut self) {
         let is_free = self.front().is_none() && self.has_gizmo();
         let gizmo = &mut self.selection.gizmo;
@@ -28,7 +28,7 @@ impl App {
         is_moving_tool && self.selection.movable().is_some() && self.editor.is_some()
     }
 
-    /// Shows the gizmo of the selected part over the picture, and makes its edits.
+    /// Shows the gizmo of the selected part over the image, and makes its edits.
     pub fn show_gizmo(&mut self, ui: &mut Ui, area: &PictureArea) {
         let Some((subject, pivot)) = self.selection.movable().cloned().zip(self.pivot()).filter(|_| self.has_gizmo()) else {
             return self.selection.end_operation();

@@ -132,7 +132,7 @@ impl App {
         self.selection.gizmo.is_active() || self.ctx.input(|input| input.pointer.any_down())
     }
 
-    /// Whether the picture is, or will be, that of the document.
+    /// Whether the image is, or will be, that of the document.
     pub fn shows_document(&self) -> bool {
         let (Some(editor), Some(opened)) = (&self.editor, &self.session.opened) else { return false };
         self.is_compiling() || editor.document.description() == &*opened.description

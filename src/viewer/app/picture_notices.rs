@@ -16,10 +16,10 @@ const EXPOSURE: [(&str, &str); 2] = [
 ];
 
 impl App {
-    /// Shows the notice that the picture needs, if any.
+    /// Shows the notice that the image needs, if any.
     pub fn notices(&mut self, ui: &mut Ui, area: &PictureArea) {
         let is_full = self.results.shown.as_ref().is_some_and(|frame| !frame.is_coarse());
-        // A notice would hide the other picture of a wipe.
+        // A notice would hide the other image of a wipe.
         let is_alone = self.comparison().is_none_or(|comparison| comparison.layout == CompareLayout::SideBySide);
         if !is_full || !is_alone || self.session.look.view != View::Radiance {
             return;

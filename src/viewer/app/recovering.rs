@@ -32,7 +32,7 @@ impl App {
         if let Some(found) = self.environment.recovery.take() {
             self.dialogs.recovery = Some(found);
         }
-        // Advice is for the picture that it was asked for, and for none that has changed since.
+        // Advice is for the image that it was asked for, and for none that has changed since.
         let (edited, camera) = (*self.session.edited(), self.session.camera);
         let adviser = &mut self.environment.adviser;
         adviser.iter_mut().for_each(Adviser::receive);

@@ -30,11 +30,11 @@ pub struct Results {
     pub values: PixelValues,
     pub second_values: PixelValues,
     pub scores: Option<ZScoreHistogram>,
-    /// The picture on the screen is black.
+    /// The image on the screen is black.
     pub black: bool,
     /// Why it is black, and its generation.
     pub black_reason: Option<(u64, String)>,
-    /// The last camera whose picture was not black.
+    /// The last camera whose image was not black.
     pub last_seeing: Option<Camera>,
     /// The first image of the open scene is not measured yet.
     pub awaits_meter: bool,
@@ -46,10 +46,10 @@ pub struct Results {
 impl Results {
     /// Takes over an image for the screen.
     pub fn show(&mut self, ctx: &Context, image: DisplayImage) {
-        // A reduced picture has a texel for each pixel of the screen, but for the moment in which the zoom changes.
+        // A reduced image has a texel for each pixel of the screen, but for the moment in which the zoom changes.
         let options = if image.is_reduced { TextureOptions::LINEAR } else { TextureOptions::NEAREST };
-        set(ctx, &mut self.textures[0], "picture", Some(image.image), options);
-        set(ctx, &mut self.textures[1], "picture beside", image.second_image, options);
+        set(ctx, &mut self.textures[0], "image", Some(image.image), options);
+        set(ctx, &mut self.textures[1], "image beside", image.second_image, options);
         (self.comparison, self.second_comparison) = (image.comparison, image.second_comparison);
         self.error_ratio = image.error_ratio;
         (self.legend, self.values, self.scores) = (image.legend, image.values, image.scores);
@@ -57,7 +57,7 @@ impl Results {
         self.shown = Some(image.frame);
     }
 
-    /// The likeliest reason why the picture on the screen is black, if it is.
+    /// The likeliest reason why the image on the screen is black, if it is.
     pub fn why_black(&self) -> Option<&str> {
         self.black_reason.as_ref().filter(|_| self.black).map(|(_, reason)| reason.as_str())
     }

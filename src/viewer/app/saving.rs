@@ -19,7 +19,7 @@ use crate::viewer::dialogs::{
 use crate::viewer::instruments::path::copying::{PathForm, written};
 
 impl App {
-    /// Whether the screen shows the full picture that the controls describe.
+    /// Whether the screen shows the full image that the controls describe.
     pub fn can_save(&self) -> bool {
         let worker = &self.environment.worker;
         let is_found = || worker.request().is_some_and(|request| self.environment.features.has(&request.scene, &request.camera));
@@ -66,7 +66,7 @@ impl App {
         DisplayRequest { on_screen: None, most_side: usize::MAX, ..self.display_request(frame) }
     }
 
-    /// Saves the picture on the screen.
+    /// Saves the image on the screen.
     pub fn save_to(&mut self, path: PathBuf) {
         if !self.can_save() {
             self.tell("Not saved: some pixels have no sample yet. Try again in a moment.".to_owned(), true);
@@ -90,7 +90,7 @@ impl App {
     }
 }
 
-/// Settings that say which part of the picture a PNG shows. An EXR has all of it.
+/// Settings that say which part of the image a PNG shows. An EXR has all of it.
 fn remarks(request: &DisplayRequest, path: &Path) -> Vec<(&'static str, String)> {
     let view = request.look.view;
     let mut remarks = Vec::new();

@@ -18,7 +18,7 @@ use super::state::App;
 use crate::viewer::instruments::tabs::InstrumentTab;
 
 impl App {
-    /// Saves the picture on the screen with all layers that are known.
+    /// Saves the image on the screen with all layers that are known.
     pub fn save_layers_to(&mut self, path: PathBuf) {
         let of_worker = self.environment.worker.request().cloned();
         let (Some(frame), Some(of), true) = (self.results.shown.clone(), of_worker, self.can_save()) else {

@@ -10,7 +10,7 @@ use crate::viewer::canvas::{framing, picking, picture_area::PictureArea, selecti
 use crate::viewer::panels::subject::Subject;
 
 impl App {
-    /// Selects the object at a pixel of the picture, or nothing. The page of the panel stays.
+    /// Selects the object at a pixel of the image, or nothing. The page of the panel stays.
     pub fn select_at(&mut self, pixel: [u32; 2]) {
         let object = self.object_at(pixel);
         self.selection.clicked = Some(pixel);
@@ -29,14 +29,14 @@ impl App {
         self.selection.select(subject);
     }
 
-    /// The place in the description of the object at a pixel of the picture.
+    /// The place in the description of the object at a pixel of the image.
     pub fn object_at(&self, pixel: [u32; 2]) -> Option<usize> {
         let request = self.request_of_open_scene();
         let request = request.filter(|request| (0..2).all(|axis| pixel[axis] < request.camera.resolution[axis]));
         request.and_then(|request| picking::object_at(&request.scene, &request.camera, pixel))
     }
 
-    /// The point and the normal of the surface at a pixel, or else where the picture was clicked last, or else at its middle.
+    /// The point and the normal of the surface at a pixel, or else where the image was clicked last, or else at its middle.
     pub fn surface_at(&self, pixel: Option<[u32; 2]>) -> Option<[DVec3; 2]> {
         let RenderRequest { scene, camera, .. } = self.request_of_open_scene()?;
         let [width, height] = camera.resolution;
@@ -62,7 +62,7 @@ impl App {
         }
     }
 
-    /// Moves the camera so that the selected object fills the picture.
+    /// Moves the camera so that the selected object fills the image.
     pub fn look_at_selection(&mut self) {
         let Some((request, object)) = self.request_of_open_scene().zip(self.selection.object()) else { return };
         let scene = &request.scene;

@@ -55,7 +55,7 @@ impl Session {
         }
     }
 
-    /// The picture that the controls describe, of the open scene.
+    /// The image that the controls describe, of the open scene.
     pub fn request(&self) -> Option<RenderRequest> {
         let scene = self.opened.as_ref()?.scene.clone();
         Some(RenderRequest { scene, camera: self.camera, settings: self.settings })

@@ -183,7 +183,7 @@ impl App {
         self.window.panel == PanelTab::Edit && is_pressed(input, Key::A, Modifiers::SHIFT)
     }
 
-    /// Closes what lies over the picture: the dialog in front first, then the tour, messages, the selection, and the region.
+    /// Closes what lies over the image: the dialog in front first, then the tour, messages, the selection, and the region.
     fn escape(&mut self) {
         // A menu, a list or a colour picker closes itself, and nothing else.
         if Popup::is_any_open(&self.ctx) {

@@ -61,7 +61,7 @@ impl App {
         self.session.opened.as_ref().is_some_and(|opened| Arc::ptr_eq(&request.scene, &opened.scene))
     }
 
-    /// The picture that the render must converge to: the one that the user gave, or that of the scene, which is known for
+    /// The image that the render must converge to: the one that the user gave, or that of the scene, which is known for
     /// the scene's own camera only.
     pub fn reference(&self) -> Option<Arc<Reference>> {
         let (opened, request) = (self.session.opened.as_ref()?, self.environment.worker.request()?);
@@ -73,13 +73,13 @@ impl App {
         self.exact_solution().cloned().filter(|_| is_of_scene)
     }
 
-    /// The picture that the scene file says the scene converges to. It need not hold after an edit.
+    /// The image that the scene file says the scene converges to. It need not hold after an edit.
     pub fn exact_solution(&self) -> Option<&Arc<Reference>> {
         let is_edited = self.editor.as_ref().is_some_and(|editor| !editor.is_as_opened());
         self.session.opened.as_ref()?.reference.as_ref().filter(|_| !is_edited)
     }
 
-    /// Whether a picture with light in this fraction of its pixels shows nothing. Out of a closed object one path in a hundred million
+    /// Whether an image with light in this fraction of its pixels shows nothing. Out of a closed object one path in a hundred million
     /// escapes by rounding: inside of one, a few pixels with light are still nothing.
     pub fn shows_nothing(&self, lit: f32) -> bool {
         const STRAY: f32 = 0.01;
@@ -88,10 +88,10 @@ impl App {
         lit == 0.0 || (lit < STRAY && is_shut_in())
     }
 
-    /// Records whether the camera of a new picture sees something, or why not. The search for the reason can take as long as a visit to
-    /// all triangles, so each picture has one search.
+    /// Records whether the camera of a new image sees something, or why not. The search for the reason can take as long as a visit to
+    /// all triangles, so each image has one search.
     pub fn note_blackness(&mut self, generation: u64) {
-        // A picture of the scene before can come after another one was opened and before it is requested.
+        // An image of the scene before can come after another one was opened and before it is requested.
         let is_latest = generation == self.environment.worker.generation();
         let request = self.environment.worker.request().filter(|request| is_latest && self.is_of_open_scene(request));
         let Some(request) = request else { return };

@@ -128,7 +128,7 @@ impl App {
         }
     }
 
-    /// Shows a message over the picture.
+    /// Shows a message over the image.
     pub fn tell(&mut self, text: String, is_error: bool) {
         self.dialogs.notices.add(text, is_error, self.ctx.input(|input| input.time));
     }

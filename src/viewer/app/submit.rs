@@ -7,7 +7,7 @@ use super::state::App;
 use crate::viewer::canvas::interaction::Tool;
 
 impl App {
-    /// Requests the picture that the controls describe.
+    /// Requests the image that the controls describe.
     pub fn submit(&mut self) {
         let (pressed, now) = self.ctx.input(|input| (input.pointer.any_down(), input.time));
         if !pressed && let Err(error) = self.environment.worker.set_threads(self.session.threads) {
@@ -21,10 +21,10 @@ impl App {
         let [width, height] = session.camera.resolution;
         session.budget.region = session.budget.region.and_then(|region| region.within([width, height]));
         let Some(request) = session.request() else { return };
-        // Even where no picture can be asked for, the last one can be held.
+        // Even where no image can be asked for, the last one can be held.
         let paused = session.budget.paused || self.window.hidden || waits_for_other;
         worker.set_budget(Budget { paused, halves, ..session.budget });
-        // A control that is dragged asks for a new picture at every step; the next one is not asked for before the last is seen.
+        // A control that is dragged asks for a new image at every step; the next one is not asked for before the last is seen.
         let shown = [&self.results.shown, &self.results.second_frame];
         let shown = shown.map(|frame| frame.as_ref().map_or(0, |frame| frame.generation));
         let drags_control = pressed && self.window.tool != Tool::Camera;

@@ -22,7 +22,7 @@ pub struct WindowState {
     pub tab: Option<InstrumentTab>,
     /// The pixel under the pointer.
     pub hovered: Option<[u32; 2]>,
-    /// It is a pixel of the second picture.
+    /// It is a pixel of the second image.
     pub over_second: bool,
     /// A field or a list had the keyboard when the last frame ended.
     pub had_focus: bool,

@@ -17,7 +17,7 @@ use super::{
 pub struct DisplayImage {
     pub frame: Arc<Frame>,
     pub second: Option<Arc<Frame>>,
-    /// Display pixels row by row, as a PNG stores them; those of the image if the picture is reduced.
+    /// Display pixels row by row, as a PNG stores them; those of the image if the image is reduced.
     pub pixels: Vec<[u8; 4]>,
     pub image: egui::ColorImage,
     /// Whether the image has fewer pixels than the frame.
@@ -194,7 +194,7 @@ mod tests {
         };
         assert_eq!((seen(0, false), seen(1, false), seen(2, false)), (0.1, 0.2, 0.4));
         assert!((seen(1, true) - 0.3).abs() < 1e-6 && (seen(2, true) - 0.7).abs() < 1e-6);
-        // A series of another size is not of this picture.
+        // A series of another size is not of this image.
         let small = Arc::new(Frame { radiance: vec![[1.0; 3]], ..Frame::default() });
         let term = Some(BounceTerm { of: small, strategy: None, k: 0, up_to: false });
         assert!(render(DisplayRequest { term, ..request(whole) }).values.radiance.is_none());

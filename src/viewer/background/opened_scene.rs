@@ -87,7 +87,7 @@ pub fn open(scene: GivenScene) -> OpenResult {
         let lines = remarks.lines(remarks.len()).join("\n");
         return Err(format!("{}: with --strict, each of these is an error:\n{lines}", path.display()));
     }
-    // A picture carries its scene, and is not replaced by it. A scene in the program has no file.
+    // An image carries its scene, and is not replaced by it. A scene in the program has no file.
     let is_picture = path.extension().is_some_and(|extension| !extension.eq_ignore_ascii_case("toml"));
     let is_shipped = ShippedScene::of(&path).is_some();
     let document = match description {

@@ -105,7 +105,7 @@ mod tests {
 
     use super::*;
 
-    /// The outline of a picture of letters, where `#` is inside.
+    /// The outline of an image of letters, where `#` is inside.
     fn outline(rows: &[&str]) -> Vec<[[u32; 2]; 2]> {
         let size = [rows[0].len() as u32, rows.len() as u32];
         Outline::of(size, &|x, y| rows[y as usize].as_bytes()[x as usize] == b'#').0

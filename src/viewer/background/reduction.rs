@@ -2,7 +2,7 @@
 use noisefall_base::math::colour::linear_from_srgb;
 use noisefall_render::render::{Display, tone::to_srgb};
 
-/// The size of the texture for a picture: that of the screen where it has fewer pixels, and never more than `most_side`.
+/// The size of the texture for an image: that of the screen where it has fewer pixels, and never more than `most_side`.
 pub fn texture_size(picture: [usize; 2], screen: Option<[u32; 2]>, most_side: usize) -> [usize; 2] {
     let on_screen = screen.map_or(picture, |screen| screen.map(|side| side as usize));
     let mut size = [0, 1].map(|axis| picture[axis].min(on_screen[axis]).max(1));

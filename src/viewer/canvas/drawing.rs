@@ -3,7 +3,7 @@ use egui::{Color32, CursorIcon, Painter, PointerButton, Pos2, Rect, Response, Te
 
 use super::{picture_area::PictureArea, picture_view::PictureView};
 
-/// How two pictures are arranged.
+/// How two images are arranged.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Split {
     /// Only the first.
@@ -13,7 +13,7 @@ pub enum Split {
     SideBySide,
 }
 
-/// The pictures to draw.
+/// The images to draw.
 #[derive(Clone, Copy)]
 pub struct Pictures {
     pub first: TextureId,
@@ -26,7 +26,7 @@ pub struct Pictures {
 /// Distance from which the wipe line can be dragged, in points.
 const GRIP: f32 = 7.0;
 
-/// Finds where the pictures lie.
+/// Finds where the images lie.
 pub fn areas(ui: &egui::Ui, room: Rect, pictures: &Pictures, view: &mut PictureView) -> Vec<PictureArea> {
     const GAP: f32 = 2.0;
     let resolution = Vec2::from(pictures.resolution.map(|side| side as f32));
@@ -40,7 +40,7 @@ pub fn areas(ui: &egui::Ui, room: Rect, pictures: &Pictures, view: &mut PictureV
     vec![area(room)]
 }
 
-/// Draws the pictures. Returns whether the line between them was dragged.
+/// Draws the images. Returns whether the line between them was dragged.
 pub fn draw(ui: &egui::Ui, response: &Response, pictures: &Pictures, areas: &[PictureArea], view: &mut PictureView) -> bool {
     let paint = |painter: &Painter, texture: TextureId, rect: Rect| {
         painter.image(texture, rect, Rect::from_min_max(Pos2::ZERO, Pos2::new(1.0, 1.0)), Color32::WHITE);
@@ -92,7 +92,7 @@ fn drag_line(ui: &egui::Ui, response: &Response, seen: Rect, view: &mut PictureV
     view.wiping
 }
 
-/// Whether a point of the screen shows the second picture.
+/// Whether a point of the screen shows the second image.
 pub fn is_second(at: Pos2, pictures: &Pictures, areas: &[PictureArea], view: &PictureView) -> bool {
     let seen = areas[0].rect.intersect(areas[0].clip);
     match pictures.split {
@@ -103,7 +103,7 @@ pub fn is_second(at: Pos2, pictures: &Pictures, areas: &[PictureArea], view: &Pi
     }
 }
 
-/// Labels a picture in its upper left corner.
+/// Labels an image in its upper left corner.
 fn letter(ui: &egui::Ui, clip: Rect, letter: &str) {
     let at = clip.left_top() + Vec2::splat(8.0);
     let painter = ui.painter_at(clip);

@@ -13,7 +13,7 @@ const FLIGHT_SPEED: f64 = 0.25;
 /// surface.
 const CHORD: f64 = 0.05;
 
-/// The camera, if it was moved: by the mouse if `by_mouse` is set, by keys if `by_keys` is. `rect` is where the picture lies.
+/// The camera, if it was moved: by the mouse if `by_mouse` is set, by keys if `by_keys` is. `rect` is where the image lies.
 pub fn moved(
     ui: &egui::Ui,
     response: &Response,

@@ -14,7 +14,7 @@ pub fn look_at(camera: &Camera, center: DVec3, radius: f64) -> Camera {
     let shorter = (height / width).min(1.0);
     let radius = radius.max(1e-9);
     let distance = if camera.projection.has_angle() {
-        // The half angle of a cone that fits into the picture.
+        // The half angle of a cone that fits into the image.
         radius / (camera.projection.half_width(camera.fov) * shorter * PART).atan().sin()
     } else {
         camera.eye.distance(camera.look_at).max(2.0 * radius)

@@ -11,7 +11,7 @@ use super::{
 /// The tool: the action of a drag and the wheel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Tool {
-    /// Move and magnify the picture. Never restarts the render.
+    /// Move and magnify the image. Never restarts the render.
     #[default]
     Picture,
     /// Move the camera: orbit, pan, dolly.
@@ -25,7 +25,7 @@ pub enum Tool {
 /// Input on the canvas.
 #[derive(Default)]
 pub struct CanvasOutput {
-    /// The picture's pixel under the pointer.
+    /// The image's pixel under the pointer.
     pub hovered: Option<[u32; 2]>,
     /// Whether that pixel is in the second image.
     pub over_second: bool,
@@ -37,13 +37,13 @@ pub struct CanvasOutput {
     pub camera: Option<Camera>,
     /// The area of the canvas, for its menu.
     pub response: Option<Response>,
-    /// Where the first picture lies, for overlays.
+    /// Where the first image lies, for overlays.
     pub area: Option<PictureArea>,
     /// Where the second one lies, if that is elsewhere.
     pub second_area: Option<PictureArea>,
 }
 
-/// Draws the pictures into the available space and reads the mouse and the keys. The camera moves through `scene`, by keys only
+/// Draws the images into the available space and reads the mouse and the keys. The camera moves through `scene`, by keys only
 /// if `keys` is set.
 pub fn show(
     ui: &mut egui::Ui,
@@ -56,7 +56,7 @@ pub fn show(
 ) -> CanvasOutput {
     let room = ui.available_rect_before_wrap();
     let response = ui.allocate_rect(room, Sense::click_and_drag());
-    // Not white: a bright picture would have no edge.
+    // Not white: a bright image would have no edge.
     let ground = if ui.visuals().dark_mode { ui.visuals().extreme_bg_color } else { Color32::from_gray(190) };
     ui.painter_at(room).rect_filled(room, 0.0, ground);
     let Some(pictures) = pictures else { return CanvasOutput::default() };
@@ -66,7 +66,7 @@ pub fn show(
     if response.double_clicked() {
         view.fit();
     }
-    // A drag may leave the picture that it began in.
+    // A drag may leave the image that it began in.
     let distance = |area: &&PictureArea, at: Pos2| area.clip.distance_sq_to_pos(at);
     // A handle of the gizmo takes clicks and drags, not the pixel under the pointer or the wheel.
     let over = response.contains_pointer().then(|| ui.input(|input| input.pointer.hover_pos())).flatten();

@@ -17,7 +17,7 @@ pub struct Notice<'a> {
 }
 
 impl Notice<'_> {
-    /// Draws the notice in the middle of the picture. Returns the place of the button that was clicked.
+    /// Draws the notice in the middle of the image. Returns the place of the button that was clicked.
     pub fn show(&self, ui: &mut Ui, area: &PictureArea) -> Option<usize> {
         let most = MOST_WIDTH.min(area.clip.width() - 4.0 * MARGIN);
         let layout = |text: String, font: FontId, ink: Color32| ui.painter().layout(text, font, ink, most);

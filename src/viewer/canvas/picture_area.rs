@@ -13,12 +13,12 @@ pub struct PictureArea {
 }
 
 impl PictureArea {
-    /// The point of the screen at a position in picture pixels.
+    /// The point of the screen at a position in image pixels.
     pub fn screen(&self, x: f32, y: f32) -> Pos2 {
         self.rect.min + Vec2::new(x, y) / self.resolution * self.rect.size()
     }
 
-    /// The position in picture pixels of a point of the screen.
+    /// The position in image pixels of a point of the screen.
     pub fn place(&self, at: Pos2) -> [f32; 2] {
         ((at - self.rect.min) / self.rect.size() * self.resolution).into()
     }

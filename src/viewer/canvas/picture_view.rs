@@ -58,7 +58,7 @@ impl PictureView {
         Rect::from_min_size(snap(rect.min), rect.size())
     }
 
-    /// Width and height of the picture in screen pixels, if it is minified.
+    /// Width and height of the image in screen pixels, if it is minified.
     pub fn on_screen(&self) -> Option<[u32; 2]> {
         let is_minified = self.drawn_zoom > 0.0 && self.drawn_zoom < 1.0;
         is_minified.then_some([self.drawn_size.x as u32, self.drawn_size.y as u32])

@@ -15,7 +15,7 @@ pub fn project(camera: &Camera, p: DVec3) -> Option<[f32; 2]> {
     Some([(width * (1.0 + x) / 2.0) as f32, ((height - width * y) / 2.0) as f32])
 }
 
-/// The half-line of points that [`project`] puts at a place of the picture: origin and unit direction.
+/// The half-line of points that [`project`] puts at a place of the image: origin and unit direction.
 pub fn ray(camera: &Camera, [x, y]: [f32; 2]) -> [DVec3; 2] {
     let [right, up, forward] = camera.axes();
     let [width, height] = camera.resolution.map(f64::from);

@@ -7,7 +7,7 @@ use crate::viewer::background::outline::Outline;
 const INK: Color32 = Color32::from_rgb(255, 160, 40);
 const GROUND: Color32 = Color32::from_black_alpha(150);
 
-/// Draws an outline of a picture of the resolution of the area.
+/// Draws an outline of an image of the resolution of the area.
 pub fn draw(ui: &Ui, area: &PictureArea, outline: &Outline) {
     let mut mesh = Mesh::default();
     for (colour, half_width) in [(GROUND, 1.75), (INK, 0.75)] {

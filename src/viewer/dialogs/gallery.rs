@@ -13,15 +13,15 @@ use noisefall_scene::scene::ShippedScene;
 use super::question::hold_keyboard;
 use crate::viewer::background::catalogue::{BUILT_IN_NAME, CatalogueEntry, SceneRequest, open_entry};
 
-/// Of a card: its picture, and below it two lines of text.
+/// Of a card: its image, and below it two lines of text.
 const PICTURE: Vec2 = Vec2 { x: 164.0, y: 112.0 };
 const TEXT: f32 = 36.0;
 /// Between two cards of a row.
 const GAP: f32 = 12.0;
-/// Stands in the place of a picture.
+/// Stands in the place of a image.
 const NO_PICTURE: &str = "no image";
 
-/// Pictures of scenes, read off the UI thread when they are first looked at.
+/// Images of scenes, read off the UI thread when they are first looked at.
 #[derive(Default)]
 pub struct Gallery {
     pub open: bool,
@@ -31,24 +31,24 @@ pub struct Gallery {
     last_frame: Option<u64>,
     pictures: HashMap<PathBuf, TextureHandle>,
     arriving: Option<Receiver<(PathBuf, ColorImage)>>,
-    /// All pictures that exist have arrived.
+    /// All images that exist have arrived.
     is_complete: bool,
 }
 
 impl Gallery {
-    /// How many pictures have been read.
+    /// How many images have been read.
     #[cfg(test)]
     pub fn count(&self) -> usize {
         self.pictures.len()
     }
 
-    /// Whether all pictures that exist have been read.
+    /// Whether all images that exist have been read.
     #[cfg(test)]
     pub fn is_complete(&self) -> bool {
         self.is_complete
     }
 
-    /// Has the pictures read, once, and takes in those that are there.
+    /// Has the images read, once, and takes in those that are there.
     fn receive(&mut self, ctx: &egui::Context, scenes: impl Iterator<Item = PathBuf>) {
         let arriving = self.arriving.get_or_insert_with(|| {
             let (sender, receiver) = unbounded();
@@ -146,7 +146,7 @@ impl Gallery {
         chosen
     }
 
-    /// A picture with a name.
+    /// An image with a name.
     fn card(&self, ui: &mut Ui, name: &str, picture: Option<&TextureHandle>, takes_keyboard: bool) -> Response {
         let (rect, response) = ui.allocate_exact_size(PICTURE + vec2(0.0, TEXT), Sense::click());
         if takes_keyboard {
@@ -205,7 +205,7 @@ fn picture(scene: &Path) -> Option<ColorImage> {
     Some(ColorImage::from_rgba_unmultiplied([picture.width as usize, picture.height as usize], pixels.as_flattened()))
 }
 
-/// The middle of a picture that covers a card: no ground of another brightness shows beside it, whatever the theme.
+/// The middle of an image that covers a card: no ground of another brightness shows beside it, whatever the theme.
 fn covering(size: Vec2) -> egui::Rect {
     let part = PICTURE / size / (PICTURE / size).max_elem();
     egui::Rect::from_center_size(egui::pos2(0.5, 0.5), part)

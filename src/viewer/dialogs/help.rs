@@ -83,7 +83,7 @@ pub fn show(ctx: &egui::Context, is_open: &mut bool) -> bool {
             egui::ScrollArea::vertical().max_height(most).min_scrolled_height(most).show(ui, keys);
             tour = ui
                 .button("Take the tour")
-                .on_hover_text("Shows noise, bounces, roulette and paths from both ends on five short pages.")
+                .on_hover_text("Shows noise, bounces, roulette and bidirectional paths on five short pages.")
                 .clicked();
         });
     *is_open = open && !tour;

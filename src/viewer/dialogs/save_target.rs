@@ -12,7 +12,7 @@ pub enum SaveTarget {
     /// The scene file.
     Scene,
     Picture,
-    /// The picture as an EXR with layers.
+    /// The image as an EXR with layers.
     Layers,
     /// The render, to be continued.
     Progress,

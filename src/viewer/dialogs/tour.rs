@@ -1,4 +1,4 @@
-//! The tour on first run: noise, bounces, roulette and paths from both ends, shown on the image itself.
+//! The tour on first run: noise, bounces, roulette and bidirectional paths, shown on the image itself.
 use egui::{Button, RichText, ScrollArea, TextStyle, TextWrapMode, Ui, WidgetText, Window};
 
 use crate::viewer::{instruments::tabs::InstrumentTab, widgets::palette::Palette};
@@ -133,7 +133,7 @@ pub fn show(ctx: &egui::Context, number: usize, has_glass: bool) -> Option<TourR
     let window = Window::new("Tour").open(&mut open).collapsible(false).resizable(false).default_pos([MARGIN, TOP]);
     window.show(ctx, |ui| {
         ui.set_width(width);
-        // The buttons stay where they are from page to page: a second click on Next must not hit the picture.
+        // The buttons stay where they are from page to page: a second click on Next must not hit the image.
         let height = PAGES.iter().map(|page| height(ui, page, width)).fold(0.0, f32::max).min(most_height);
         ScrollArea::vertical().max_height(height).min_scrolled_height(height).auto_shrink([true, false]).show(ui, |ui| {
             ui.label(heading(ui, page));

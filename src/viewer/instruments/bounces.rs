@@ -30,17 +30,17 @@ impl Default for Bounces {
 }
 
 const LAST: usize = TERMS - 1;
-/// Larger pictures would take gigabytes: a pixel takes about a hundred bytes in the film and as many in a frame.
+/// Larger images would take gigabytes: a pixel takes about a hundred bytes in the film and as many in a frame.
 const MOST_PIXELS: u64 = 4_200_000;
 /// The last bar counts this many bounces and more.
 const BARS: usize = 16;
 
-/// Whether a picture is small enough to be split into its series.
+/// Whether an image is small enough to be split into its series.
 pub fn has_room_for_series(resolution: [u32; 2]) -> bool {
     resolution.map(u64::from).iter().product::<u64>() <= MOST_PIXELS
 }
 
-/// The picture whose series is shown.
+/// The image whose series is shown.
 #[derive(Clone, Copy)]
 pub struct Subject<'a> {
     /// The frame that has the series.
@@ -48,7 +48,7 @@ pub struct Subject<'a> {
     /// The view of the canvas.
     pub view: View,
     pub resolution: [u32; 2],
-    /// The image beside takes paths from lights, too.
+    /// The image beside takes light paths, too.
     pub has_light_paths: bool,
     /// Why there are no strategies to show, if so.
     pub without_strategies: Option<&'a str>,
@@ -117,7 +117,7 @@ fn show_series(ui: &mut Ui, bounces: &mut Bounces, Subject { frame, has_light_pa
     let remark = match known {
         Some((frame, _)) => {
             let samples = counted(frame.spp, "sample");
-            let how = if has_light_paths { "by paths from the camera (MIS)" } else { "without path reuse" };
+            let how = if has_light_paths { "by camera paths (MIS)" } else { "without path reuse" };
             format!("After {samples} per pixel {how}. Shares are fractions of the luminance of the image.")
         }
         None => "Available after one sample per pixel.".to_owned(),

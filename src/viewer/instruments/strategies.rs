@@ -45,8 +45,8 @@ fn cell(ui: &mut Ui, each: Strategy, chosen: &mut Strategy) {
 pub fn meaning(Strategy { s, t, .. }: Strategy) -> String {
     let how = match (s, t) {
         (0, 2) => "the camera sees a light".to_owned(),
-        (0, _) => "the path from the camera hits a light".to_owned(),
-        (1, _) => "the path from the camera samples a light".to_owned(),
+        (0, _) => "the camera path hits a light".to_owned(),
+        (1, _) => "the camera path samples a light".to_owned(),
         (_, 1) => "the light path is connected to the camera".to_owned(),
         _ => "vertices of both paths are connected".to_owned(),
     };

@@ -63,7 +63,7 @@ pub fn show(
 fn show_reference(ui: &mut Ui, progress: ReferenceProgress) -> bool {
     let percent = |x: f64| format!("{:.2} %", 100.0 * x);
     let noise = progress.noise.map_or_else(|| "–".to_owned(), percent);
-    let text = format!("Rendering a reference: {} spp, noise {noise} of {}", progress.spp, percent(progress.goal));
+    let text = format!("Rendering a reference: {} spp, estimated error {noise} of {}", progress.spp, percent(progress.goal));
     ui.label(text).on_hover_text("It takes half of the threads. The image goes on.");
     let part = progress.part();
     ui.add(ProgressBar::new(part).desired_width(120.0).text(format!("{:.0} %", 100.0 * part)));

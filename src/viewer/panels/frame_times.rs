@@ -59,7 +59,7 @@ impl FrameTimes {
         self.whole.record(took);
     }
 
-    /// Shows the figures over the picture, if they are wanted. `compiled` reports the compile of the scene.
+    /// Shows the figures over the image, if they are wanted. `compiled` reports the compile of the scene.
     pub fn show(&self, ctx: &egui::Context, threads: usize, generation: u64, compiled: Option<&CompileReport>) {
         if !self.shown {
             return;

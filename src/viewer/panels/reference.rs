@@ -6,7 +6,7 @@ use crate::viewer::widgets::{
     style::{controls, elided, row_with_note},
 };
 
-/// The reference of the picture.
+/// The reference of the image.
 pub enum ReferenceSource<'a> {
     /// A file or a rendered image, and its relative noise, if that is known. It may be of another camera or scene.
     Given {
@@ -66,14 +66,14 @@ fn show(ui: &mut Ui, reference: ReferenceRow<'_>, label: egui::Id) -> Option<Ref
 }
 
 fn render_button(ui: &mut Ui, noise: &mut f64, is_rendering: bool, label: egui::Id) -> bool {
-    let doc = "Renders the scene without bias, with samples of its own, until the noise is as low as this. It goes on beside the image, \
+    let doc = "Renders the scene without bias, with samples of its own, until its estimated error is as low as this. It goes on beside the image, \
                and can be stopped and continued.";
     let button = ui.add_enabled(!is_rendering, Button::new("Render a reference")).on_hover_text(doc);
     let is_clicked = button.on_disabled_hover_text("It is being rendered: see the line at the bottom.").clicked();
     let (mut percent, now) = (100.0 * *noise, 100.0 * *noise);
     let field = DragValue::new(&mut percent).range(0.01..=50.0).speed(0.02).max_decimals(2);
     let field = ui.add(Explained::new(field, now).suffix(" %")).labelled_by(label);
-    if field.on_hover_text("Relative noise at which the reference is done.").changed() {
+    if field.on_hover_text("Estimated error at which the reference is done.").changed() {
         *noise = percent / 100.0;
     }
     is_clicked
@@ -87,9 +87,9 @@ fn show_source(ui: &mut Ui, source: &ReferenceSource) -> bool {
             let (text, doc) = match (is_in_force, noise) {
                 (false, _) => ("elsewhere".to_owned(), "It is of another camera or scene than the image."),
                 (true, Some(noise)) => {
-                    (format!("noise {:.2} %", 100.0 * noise), "The reference's own noise. Errors near it are partly its own.")
+                    (format!("estimated error {:.2} %", 100.0 * noise), "The error of the reference itself. Errors near it are partly its own.")
                 }
-                (true, None) => ("noise unknown".to_owned(), "The file does not tell its noise. It is taken to be exact."),
+                (true, None) => ("estimated error unknown".to_owned(), "The file does not state its error and is assumed to be exact."),
             };
             ui.weak(text).on_hover_text(doc);
             return ui.small_button("Remove").on_hover_text("Returns to the reference of the scene, if it has one.").clicked();

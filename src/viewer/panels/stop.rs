@@ -39,7 +39,7 @@ pub fn show(ui: &mut Ui, budget: &mut Budget, resolution: [u32; 2]) {
             |ui, label| {
                 let before = budget.noise.map(|noise| 100.0 * noise);
                 let mut percent = before;
-                number::optional(ui, label, &mut percent, ("never", "% noise"), DEFAULT_PERCENT, 3, 0.001..=100.0);
+                number::optional(ui, label, &mut percent, ("never", "% error"), DEFAULT_PERCENT, 3, 0.001..=100.0);
                 // There and back, rounding could make another number of it.
                 if percent != before {
                     budget.noise = percent.map(|percent| percent / 100.0);

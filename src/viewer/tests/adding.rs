@@ -17,7 +17,7 @@ fn studio() -> Window {
     let mut window = open(Some(path));
     wait(&mut window, "the scene", |app| app.opened().is_some());
     window.state_mut().camera_mut().resolution = [96, 64];
-    wait(&mut window, "a picture", |app| app.shown_frame().as_ref().is_some_and(|frame| frame.width == 96));
+    wait(&mut window, "an image", |app| app.shown_frame().as_ref().is_some_and(|frame| frame.width == 96));
     window
 }
 

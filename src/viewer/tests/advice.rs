@@ -6,7 +6,7 @@ fn advice_is_asked_for_given_with_figures_and_taken() {
     let mut window = window("cornell_spheres");
     window.state_mut().settings_mut().estimator = Estimator::Path;
     window.state_mut().settings_mut().sampler = Sampler::Independent;
-    wait(&mut window, "a picture", |app| app.status().spp >= 1);
+    wait(&mut window, "an image", |app| app.status().spp >= 1);
     click(&mut window, "What should I use here?");
     assert!(window.state().is_studying());
     wait(&mut window, "the pause", |app| app.worker().latest().status.state == State::Paused);
@@ -39,7 +39,7 @@ fn escape_ends_a_study_and_the_picture_goes_on() {
 #[test]
 fn advice_for_another_view_is_given_up() {
     let mut window = window("furnace");
-    wait(&mut window, "a picture", |app| app.status().spp >= 1);
+    wait(&mut window, "an image", |app| app.status().spp >= 1);
     click(&mut window, "What should I use here?");
     assert!(window.state().is_studying());
     window.state_mut().camera_mut().fov = 33.0;

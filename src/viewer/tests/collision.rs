@@ -7,10 +7,10 @@ use super::*;
 const WALL: &str = "The camera is inside “left wall”.";
 const BACK: &str = "Back to the last view with light";
 
-/// Waits for the full picture of what the controls say, and returns its mean luminance.
+/// Waits for the full image of what the controls say, and returns its mean luminance.
 fn brightness(window: &mut Window) -> f32 {
     window.run_steps(2);
-    wait(window, "the picture", |app| {
+    wait(window, "the image", |app| {
         let asked = app.worker().request().is_some_and(|request| request.camera == app.camera());
         asked && app.can_save()
     });
@@ -116,7 +116,7 @@ fn a_black_picture_says_why_and_leads_back() {
     let [title, reason, back] = ["No light found yet", WALL, BACK].map(|label| window.get_by_label(label).rect());
     let middle = Pos2::new((1280.0 - 336.0) / 2.0, 640.0);
     assert!((title.left() - back.left()).abs() < 1.0 && title.bottom() <= reason.top() && reason.bottom() <= back.top());
-    assert!((back.center().x - middle.x).abs() < 60.0 && (back.center().y - middle.y).abs() < 120.0, "on the picture: {back:?}");
+    assert!((back.center().x - middle.x).abs() < 60.0 && (back.center().y - middle.y).abs() < 120.0, "on the image: {back:?}");
     // Not where numbers of another kind are seen.
     choose(&mut window, "View", "Normals");
     assert!(window.query_by_label(WALL).is_none());
@@ -167,7 +167,7 @@ fn a_picture_of_the_scene_before_is_no_view_of_the_one_that_was_opened() {
     let app = window.state_mut();
     app.environment.loader.open(Some(shipped("inside_lit_outside")));
     let start = Instant::now();
-    // As in a frame in which a scene is opened, and a picture of the one before arrives.
+    // As in a frame in which a scene is opened, and an image of the one before arrives.
     while app.opened().as_ref().map(|opened| std::sync::Arc::as_ptr(&opened.scene)) == old.as_ref().map(std::sync::Arc::as_ptr) {
         assert!(start.elapsed() < Duration::from_secs(60), "the scene never came");
         app.receive();
@@ -199,7 +199,7 @@ fn home_leads_back_from_everywhere_by_button_and_by_key() {
     window.run_steps(2);
     restarts(&mut window, "the scene's camera", |w| click(w, "Home"));
     assert_eq!(window.state().camera(), home);
-    // With the keyboard on a control that has no use for it, and with a camera that can take no picture.
+    // With the keyboard on a control that has no use for it, and with a camera that can take no image.
     for camera in [away, Camera { up: DVec3::ZERO, ..away }] {
         *window.state_mut().camera_mut() = camera;
         window.get_by_role_and_label(Role::Slider, "Exposure").focus();

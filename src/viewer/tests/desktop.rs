@@ -34,7 +34,7 @@ fn ctrl_c_copies_all_pixels_of_the_picture_as_a_png_has_them() {
     assert!(window.query_by_label("Copied the image, 96 × 64 pixels").is_some());
     window.state_mut().save_to(path.clone());
     wait(&mut window, "the file", |app| app.last_saved().is_some());
-    let saved = image::open(&path).expect("it is a picture").into_rgba8();
+    let saved = image::open(&path).expect("it is an image").into_rgba8();
     assert_eq!(copied.size, [96, 64]);
     let differing = copied.as_raw().iter().zip(saved.as_raw()).filter(|(a, b)| a != b).count();
     assert_eq!(differing, 0);

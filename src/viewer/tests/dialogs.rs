@@ -93,7 +93,7 @@ fn tab_does_not_leave_a_form() {
 fn a_later_scene_proposes_its_own_name() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = window("furnace");
-    wait(&mut window, "a full picture", App::can_save);
+    wait(&mut window, "a full image", App::can_save);
     window.state_mut().save_to(folder.path().join("first.png"));
     wait(&mut window, "the file", |app| app.last_saved().is_some());
     window.state_mut().loader_mut().open(Some(shipped("bright_sky")));

@@ -27,10 +27,10 @@ fn picture(folder: &tempfile::TempDir, name: &str) -> PathBuf {
     path
 }
 
-/// Drops a file and waits for the picture of the edited scene; then undo gives the scene before, and redo this one.
+/// Drops a file and waits for the image of the edited scene; then undo gives the scene before, and redo this one.
 fn is_one_step(window: &mut Window, path: PathBuf) -> Option<usize> {
     let before = bits(window);
-    edits(window, "the picture with the file", |w| {
+    edits(window, "the image with the file", |w| {
         drop_file(w, path);
         wait(w, "the edit", App::has_unsaved_changes);
     });

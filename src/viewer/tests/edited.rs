@@ -13,7 +13,7 @@ pub fn bits(window: &Window) -> Tree {
     Tree::of(&mut description(window).clone())
 }
 
-/// Does something and waits for the picture of the edited scene.
+/// Does something and waits for the image of the edited scene.
 pub fn edits(window: &mut Window, what: &str, act: impl FnOnce(&mut Window)) {
     let before = generation(window);
     act(window);

@@ -17,11 +17,11 @@ fn description(scene: &str) -> SceneDescription {
     describe(&path.display().to_string(), text).expect("the scene is valid")
 }
 
-/// Makes an edit, and waits for its picture.
+/// Makes an edit, and waits for its image.
 fn edit(window: &mut Window, description: &SceneDescription) {
     window.state_mut().edit_scene(Arc::new(description.clone()));
     window.step();
-    wait(window, "the edited picture", |app| {
+    wait(window, "the edited image", |app| {
         let shown = app.shown_frame().as_ref().map_or(0, |frame| frame.generation);
         let waits = app.worker().is_editing() || app.session.waiting_edit.is_some();
         !waits && shown == app.worker().generation()
@@ -29,7 +29,7 @@ fn edit(window: &mut Window, description: &SceneDescription) {
 }
 
 fn mean(app: &App) -> f32 {
-    let frame = app.shown_frame().as_ref().expect("a picture is shown");
+    let frame = app.shown_frame().as_ref().expect("an image is shown");
     frame.radiance.iter().map(|[_, g, _]| g).sum::<f32>() / frame.radiance.len() as f32
 }
 

@@ -36,7 +36,7 @@ fn the_choice_by_trial_names_its_result_and_the_reason() {
 #[test]
 fn an_estimator_that_the_scene_does_not_allow_names_its_substitute() {
     let mut window = window("textures_and_bump");
-    restarts(&mut window, "paths from lights", |w| choose(w, "Estimator", "Light tracing"));
+    restarts(&mut window, "light paths", |w| choose(w, "Estimator", "Light tracing"));
     wait(&mut window, "samples", |app| app.status().spp >= 1);
     window.run_steps(3);
     assert!(
@@ -56,11 +56,11 @@ fn instruments_say_that_they_show_paths_from_the_camera_alone() {
         choose(&mut window, "Estimator", estimator);
         *window.state_mut().tab_mut() = Some(InstrumentTab::Bounces);
         wait(&mut window, "the series", |app| app.second_frame().as_ref().is_some_and(|frame| frame.series.is_some()));
-        assert_eq!(says(&mut window, "by paths from the camera (MIS)"), traces, "{estimator}");
+        assert_eq!(says(&mut window, "by camera paths (MIS)"), traces, "{estimator}");
         *window.state_mut().tab_mut() = Some(InstrumentTab::Path);
         window.state_mut().path_inspector_mut().look_at([40, 30]);
         wait(&mut window, "its samples", |app| app.path_inspector().histogram().is_some());
-        assert_eq!(says(&mut window, "Samples lack the light that paths from lights bring"), traces, "{estimator}");
+        assert_eq!(says(&mut window, "Samples lack the light that light paths bring"), traces, "{estimator}");
     }
 }
 
@@ -95,7 +95,7 @@ fn bounces_show_the_image_of_a_single_strategy() {
 #[test]
 fn a_scene_without_paths_from_lights_has_no_strategies_to_show() {
     let mut window = window("leaves");
-    // Paths from both ends do not count crossings.
+    // Bidirectional paths do not count crossings.
     window.state_mut().settings_mut().count_crossings = true;
     *window.state_mut().tab_mut() = Some(InstrumentTab::Bounces);
     window.state_mut().session.bounces.strategy = Some(Strategy { s: 1, t: 2, weighted: true });

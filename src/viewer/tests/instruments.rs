@@ -8,7 +8,7 @@ use super::*;
 use crate::viewer::background::display_image::render;
 use crate::viewer::instruments::{compare::comparison::CompareLayout, tabs::InstrumentTab};
 
-/// A window with a small picture, most of whose height is the picture's.
+/// A window with a small image, most of whose height is the image's.
 fn with_tab(scene: &str, tab: &str) -> Window {
     let mut window = window(scene);
     window.get_by_role_and_label(Role::Button, tab).click();
@@ -72,7 +72,7 @@ fn an_outdated_second_picture_is_not_recorded(app: &mut App, other: RenderSettin
     };
     let before = curve(app);
     assert_eq!(before.0, app.worker().second_generation());
-    let frame = app.shown_frame().clone().expect("a picture");
+    let frame = app.shown_frame().clone().expect("an image");
     let mut image = render(app.display_request(frame));
     image.second = Some(Arc::new(Frame { generation: before.0 - 1, spp: 1 << 20, ..Frame::default() }));
     app.take_image(image);
@@ -102,13 +102,13 @@ fn a_comparison_starts_with_one_click_and_both_sides_converge() {
         app.results.legend.as_ref().is_some_and(|legend| legend.title == "Difference A − B" && legend.scale.is_some())
     });
     click(&mut window, "Wipe");
-    wait(&mut window, "both pictures", |app| app.results.textures.iter().all(Option::is_some));
+    wait(&mut window, "both images", |app| app.results.textures.iter().all(Option::is_some));
     let line = window.state().picture_view().wipe;
     let [middle, height] = [(1280.0 - 336.0) / 2.0, 500.0];
     never_restarts(&mut window, |w| drag(w, PointerButton::Primary, [middle, height], [middle - 100.0, height]));
     assert!(
         window.state().picture_view().wipe < line - 0.05 && window.state().picture_view().zoom.is_none(),
-        "the line moved, and not the picture"
+        "the line moved, and not the image"
     );
     never_restarts(&mut window, |w| drag(w, PointerButton::Primary, [middle - 100.0, height], [middle + 100.0, height]));
     assert!(window.state().picture_view().wipe > line + 0.05, "and to the other side");
@@ -183,7 +183,7 @@ fn every_view_is_shown_with_a_legend_and_none_restarts() {
     window.run_steps(3);
     assert!(window.query_by_label_contains(")  Z-score ").is_some(), "the line below says what the view shows there");
     choose(&mut window, "View", "Radiance");
-    wait(&mut window, "the picture", |app| app.results.legend.is_none());
+    wait(&mut window, "the image", |app| app.results.legend.is_none());
     press(&mut window, Key::V);
     assert_eq!(window.state().look().view, Shown::StandardError);
 }
@@ -198,7 +198,7 @@ fn a_region_is_dragged_rendered_first_and_cleared() {
         drag(w, PointerButton::Primary, [440.0, 380.0], [500.0, 420.0]);
     });
     let region = window.state().budget().region.expect("it is marked");
-    // 60 by 40 points of the screen, at so many points a pixel of the picture.
+    // 60 by 40 points of the screen, at so many points a pixel of the image.
     let zoom = window.state().picture_view().drawn_zoom;
     let [width, height] = region.size().map(|side| side as f32 * zoom);
     assert!((width - 60.0).abs() < 2.0 * zoom && (height - 40.0).abs() < 2.0 * zoom, "{region:?} {zoom}");
@@ -239,21 +239,21 @@ fn a_reference_that_is_dropped_gives_true_error_and_bias() {
     let path = folder.path().join("reference.exr");
     let mut window = window("cornell_spheres");
     assert!(window.state().measured_error().is_none());
-    wait(&mut window, "a picture", App::can_save);
+    wait(&mut window, "an image", App::can_save);
     window.state_mut().save_to(path.clone());
     wait(&mut window, "the file", |app| app.last_saved().is_some());
     let camera = window.state().camera();
     window.state_mut().loader_mut().read_reference(path, camera);
     wait(&mut window, "the true error", |app| app.measured_error().is_some());
     window.state_mut().settings_mut().seed = 9;
-    wait(&mut window, "another picture", |app| {
+    wait(&mut window, "another image", |app| {
         app.measured_error().is_some_and(|against| against.rel_mse > 0.0 && against.bias.is_some()) && app.status().spp >= 2
     });
     window.state_mut().camera_mut().resolution = [64, 64];
     wait(&mut window, "another size", |app| app.measured_error().is_none());
     window.run_steps(2);
     assert!(window.query_by_label_contains("true error unknown").is_some());
-    std::fs::write(folder.path().join("bad.exr"), "no picture").expect("it is written");
+    std::fs::write(folder.path().join("bad.exr"), "no image").expect("it is written");
     window.state_mut().loader_mut().read_reference(folder.path().join("bad.exr"), camera);
     wait(&mut window, "the refusal", |app| app.dialogs.notices.0.iter().any(|notice| notice.is_error));
     // Alone, so that it stays where it is when others have had their time.

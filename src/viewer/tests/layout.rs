@@ -15,13 +15,13 @@ use crate::viewer::widgets::style::PANEL_WIDTH;
 /// Sizes in points, and pixels per point.
 const SIZES: [(Vec2, f32); 2] = [(vec2(900.0, 600.0), 1.0), (vec2(800.0, 500.0), 2.0)];
 
-/// A window of this size with a small picture.
+/// A window of this size with a small image.
 fn sized(size: Vec2, scale: f32) -> Window {
     let builder = Harness::builder().with_size(size).with_pixels_per_point(scale).renderer(Blind);
     let mut window = builder.build_ui_state(drawing(Some(shipped("cornell_spheres")), |_| {}), Lazy(None));
     wait(&mut window, "the scene", |app| app.opened().is_some());
     window.state_mut().camera_mut().resolution = [48, 48];
-    wait(&mut window, "a picture", |app| app.shown_frame().as_ref().is_some_and(|frame| frame.width == 48));
+    wait(&mut window, "an image", |app| app.shown_frame().as_ref().is_some_and(|frame| frame.width == 48));
     window.run_steps(3);
     window
 }

@@ -11,7 +11,7 @@ fn a_hidden_window_renders_nothing_and_goes_on_when_it_is_seen() {
     window.state_mut().hide(true);
     wait_without_frames(&window, |app| app.worker().latest().status.state == State::Paused);
     let samples = window.state().worker().latest().status.samples;
-    // The worker takes its orders in their order: when it has rendered another picture's first sample, which a pause does not hold
+    // The worker takes its orders in their order: when it has rendered another image's first sample, which a pause does not hold
     // back, whatever else it meant to do with this one would be done.
     let app = window.state_mut();
     let request = app.worker().request().cloned().expect("it was asked for");
@@ -77,7 +77,7 @@ fn a_dragged_control_asks_for_the_next_picture_when_it_has_seen_the_last() {
     window.run_steps(2);
     press(&window, start, true);
     window.run_steps(1);
-    // A picture is asked for where the last one is shown, or where the time to wait for it is over, by the clock of the window.
+    // An image is asked for where the last one is shown, or where the time to wait for it is over, by the clock of the window.
     let clock = |window: &Window| window.ctx.input(|input| input.time);
     let (mut waited, mut asked) = (0, 0);
     for step in 0..60 {
@@ -94,7 +94,7 @@ fn a_dragged_control_asks_for_the_next_picture_when_it_has_seen_the_last() {
             assert!(!is_shown && !patience_ends, "it waits for what is there already");
             waited += 1;
         } else if app.worker().generation() > before {
-            assert!(is_shown || patience_ends, "pictures pile up");
+            assert!(is_shown || patience_ends, "images pile up");
             asked += 1;
         }
     }

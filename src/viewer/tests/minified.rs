@@ -6,18 +6,18 @@ use noisefall_render::render::Frame;
 use super::*;
 use crate::viewer::background::{display_image::render, display_request::DisplayRequest};
 
-/// The texture of the picture.
+/// The texture of the image.
 fn texture_size(window: &Window) -> [usize; 2] {
-    window.state().results.textures[0].as_ref().expect("a picture is shown").size()
+    window.state().results.textures[0].as_ref().expect("an image is shown").size()
 }
 
 #[test]
 fn fit_averages_over_the_pixels_of_the_screen() {
     let mut window = window("furnace");
-    assert_eq!(texture_size(&window), [96, 64], "a magnified picture has its own pixels");
+    assert_eq!(texture_size(&window), [96, 64], "a magnified image has its own pixels");
     window.state_mut().budget_mut().max_spp = Some(1);
     window.state_mut().camera_mut().resolution = [2000, 250];
-    wait(&mut window, "a large picture", |app| {
+    wait(&mut window, "a large image", |app| {
         app.shown_frame().as_ref().is_some_and(|frame| frame.width == 2000 && frame.spp == 1)
     });
     wait(&mut window, "its texture", |app| {
@@ -35,7 +35,7 @@ fn fit_averages_over_the_pixels_of_the_screen() {
 fn thin_lines_are_seen_however_small_the_picture_is() {
     let mut window = window("furnace");
     let app = window.state_mut();
-    // A column in six is white: where the picture has a sixth of its pixels, all have as much of it.
+    // A column in six is white: where the image has a sixth of its pixels, all have as much of it.
     let radiance = (0..96 * 64).map(|i| if i % 6 == 3 { [1.0; 3] } else { [0.0; 3] }).collect();
     let striped = Frame { width: 96, height: 64, full_resolution: [96, 64], radiance, ..Frame::default() };
     let request = app.display_request(Arc::new(striped));

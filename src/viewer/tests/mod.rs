@@ -139,12 +139,12 @@ fn drawing(scene: Option<PathBuf>, prepare: impl Fn(&mut App) + 'static) -> impl
     }
 }
 
-/// A window with a small picture of a scene.
+/// A window with a small image of a scene.
 fn window(scene: &str) -> Window {
     let mut window = open(Some(shipped(scene)));
     wait(&mut window, "the scene", |app| app.opened().is_some());
     window.state_mut().camera_mut().resolution = [96, 64];
-    wait(&mut window, "a picture", |app| app.shown_frame().as_ref().is_some_and(|frame| frame.width == 96));
+    wait(&mut window, "an image", |app| app.shown_frame().as_ref().is_some_and(|frame| frame.width == 96));
     window
 }
 
@@ -183,12 +183,12 @@ fn a_long_title_does_not_push_the_panel_out_of_the_window() {
     assert!(label.left() > 1280.0 - 336.0 && button.right() < 1280.0, "{label:?} {button:?}");
 }
 
-/// The number of the picture that was asked for last: known at once, and not only when the worker has taken it up.
+/// The number of the image that was asked for last: known at once, and not only when the worker has taken it up.
 fn generation(window: &Window) -> u64 {
     window.state().worker().generation()
 }
 
-/// Does something and waits for a picture of what it asked for.
+/// Does something and waits for an image of what it asked for.
 fn restarts(window: &mut Window, what: &str, act: impl FnOnce(&mut Window)) {
     let before = generation(window);
     act(window);
@@ -201,7 +201,7 @@ fn never_restarts(window: &mut Window, act: impl FnOnce(&mut Window)) {
     let second = |window: &Window| (window.state().second_view(), window.state().worker().second_generation());
     let second_before = second(window);
     act(window);
-    // A new picture is asked for in the frame that finds that it is wanted.
+    // A new image is asked for in the frame that finds that it is wanted.
     window.run_steps(20);
     assert_eq!(generation(window), before, "the render was restarted");
     let second = second(window);
@@ -211,7 +211,7 @@ fn never_restarts(window: &mut Window, act: impl FnOnce(&mut Window)) {
 #[test]
 fn the_built_in_scene_appears_and_refines() {
     let mut window = open(None);
-    wait(&mut window, "a first picture", |app| app.shown_frame().is_some());
+    wait(&mut window, "a first image", |app| app.shown_frame().is_some());
     wait(&mut window, "samples", |app| app.status().spp >= 2);
     assert_eq!(window.state().status().state, State::Running);
     assert!(window.query_by_label("Running").is_some() && window.query_by_label("unbiased").is_some());

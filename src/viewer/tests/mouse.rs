@@ -4,7 +4,7 @@ use noisefall_scene::scene::Camera;
 use super::*;
 use crate::viewer::{canvas::navigation, instruments::compare::comparison::CompareLayout};
 
-/// The middle of the picture, which fills the width of a window of 1280 × 1300.
+/// The middle of the image, which fills the width of a window of 1280 × 1300.
 const MIDDLE: [f32; 2] = [472.0, 600.0];
 
 fn beside([x, y]: [f32; 2], dx: f32, dy: f32) -> [f32; 2] {
@@ -40,12 +40,12 @@ fn the_pointer_is_over_the_pixel_that_lies_under_it() {
     let zoom = window.state().picture_view().drawn_zoom;
     window.hover_at(MIDDLE.into());
     window.run_steps(2);
-    let [x, y] = window.state().hovered().expect("it is over the picture");
+    let [x, y] = window.state().hovered().expect("it is over the image");
     assert!(x.abs_diff(48) <= 1, "the middle of 96: {x}");
     for (dx, dy) in [(7.0, 0.0), (0.0, 5.0), (-9.0, -4.0)] {
         window.hover_at(beside(MIDDLE, dx * zoom, dy * zoom).into());
         window.run_steps(2);
-        let at = window.state().hovered().expect("it is over the picture");
+        let at = window.state().hovered().expect("it is over the image");
         assert_eq!([at[0] as f32 - x as f32, at[1] as f32 - y as f32], [dx, dy]);
     }
     // Its number stands in the line below.
@@ -88,7 +88,7 @@ fn the_wheel_and_a_drag_belong_to_the_tool() {
     let fitted = window.state().picture_view().drawn_zoom;
     wheel(&mut window, MIDDLE, -40.0, Modifiers::NONE);
     assert!(window.state().picture_view().drawn_zoom < 0.95 * fitted && window.state().camera() == start);
-    // A double click fits the picture again.
+    // A double click fits the image again.
     let press = |pressed| egui::Event::PointerButton {
         pos: MIDDLE.into(),
         button: PointerButton::Primary,
@@ -120,7 +120,7 @@ fn the_look_at_point_follows_a_pan() {
     window.key_press(Key::C);
     window.run_steps(2);
     let start = window.state().camera();
-    // The picture is 944 points wide.
+    // The image is 944 points wide.
     let width = window.state().picture_view().drawn_zoom * 96.0;
     let by = [0.05 * width, 0.03 * width];
     drag(&mut window, PointerButton::Secondary, MIDDLE, beside(MIDDLE, by[0], by[1]));
@@ -137,7 +137,7 @@ fn the_look_at_point_follows_a_pan() {
     assert!((camera.look_at - camera.eye).distance(start.look_at - start.eye) < 1e-9 && camera.eye != start.eye, "{camera:?}");
 }
 
-/// Drags from the middle of the picture while Shift is held.
+/// Drags from the middle of the image while Shift is held.
 fn shift_drag(window: &mut Window, button: PointerButton, by: [f32; 2]) {
     let at = Pos2::from(MIDDLE);
     window.hover_at(at);
@@ -229,7 +229,7 @@ fn pixels_of_a_comparison_are_those_of_the_side_that_they_lie_on() {
     assert!(window.query_all_by_label_contains("RGB 0.000 0.000 0.000").count() == 1);
     let letters = |window: &Window| {
         let texts = painted(window);
-        // In the upper corners of the pictures, and not in the panels.
+        // In the upper corners of the images, and not in the panels.
         let is_letter = |letter: &str, text: &str, at: Pos2| text == letter && at.x < 944.0 && at.y < 100.0;
         let x = |letter: &str| texts.iter().find(|(text, at)| is_letter(letter, text, *at)).expect("it is painted").1.x;
         (x("A"), x("B"))

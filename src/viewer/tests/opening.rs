@@ -15,7 +15,7 @@ fn another_scene_takes_everything_over_and_the_same_one_keeps_the_exposure() {
     let path = folder.path().join("mine.toml");
     std::fs::write(&path, text.replace("[render]", "[render]\nspp = 5\nseed = 3")).expect("it is written");
     let mut window = window("cornell_spheres");
-    wait(&mut window, "a full picture", App::can_save);
+    wait(&mut window, "a full image", App::can_save);
     click(&mut window, "Pin this");
     assert!(window.state().session.pinned.is_some());
     let app = window.state_mut();
@@ -52,7 +52,7 @@ fn another_scene_takes_everything_over_and_the_same_one_keeps_the_exposure() {
 fn a_dropped_file_is_a_scene_a_picture_with_its_scene_or_a_reference() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = window("cornell_spheres");
-    wait(&mut window, "a full picture", App::can_save);
+    wait(&mut window, "a full image", App::can_save);
     let [reference, picture] = ["reference.EXR", "picture.png"].map(|name| {
         let path = folder.path().join(name);
         window.state_mut().save_to(path.clone());
@@ -66,7 +66,7 @@ fn a_dropped_file_is_a_scene_a_picture_with_its_scene_or_a_reference() {
     wait(&mut window, "the scene", |app| app.opened().as_ref().is_some_and(|opened| opened.name == "Furnace"));
     assert!(window.state().session.given_reference.is_none(), "it was of the other scene");
     drop_file(&mut window, picture.clone());
-    wait(&mut window, "the scene of the picture", |app| {
+    wait(&mut window, "the scene of the image", |app| {
         app.opened().as_ref().is_some_and(|opened| opened.path.as_ref() == Some(&picture))
     });
     let of_picture = window.state().opened().as_ref().map(|opened| opened.scene.objects.len());

@@ -47,7 +47,7 @@ fn near(found: f32, exact: f32) {
     assert!((found - exact).abs() < 0.6, "{found} is not {exact}");
 }
 
-/// A picture of 64 × 64 pixels, five points each.
+/// An image of 64 × 64 pixels, five points each.
 const AREA: PictureArea = PictureArea {
     clip: Rect::from_min_max(pos2(100.0, 100.0), pos2(420.0, 420.0)),
     rect: Rect::from_min_max(pos2(100.0, 100.0), pos2(420.0, 420.0)),

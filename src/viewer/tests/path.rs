@@ -100,7 +100,7 @@ fn the_inspected_path_follows_changes_of_the_image() {
         let replay = noisefall_kernel::integrator::replay(scene, &rays, &resolved(scene, &rays, &app.settings()), [31, 25], 2);
         assert_eq!(app.path_inspector().replay().map(|(_, shown)| shown.vertices.clone()), Some(replay.vertices));
     }
-    // A pixel that the picture has no more is not inspected.
+    // A pixel that the image has no more is not inspected.
     window.state_mut().camera_mut().resolution = [31, 25];
     wait(&mut window, "its end", |app| app.path_inspector().pixel.is_none() && app.path_inspector().replay().is_none());
 }

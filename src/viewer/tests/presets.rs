@@ -76,7 +76,7 @@ fn a_preset_changes_its_settings_and_the_panel_marks_the_one_in_force() {
     let settings = window.state().settings();
     assert_eq!((Preset::of(&settings), settings.max_bounces), (Some(Preset::Fastest), Some(6)), "a cap is no matter of speed");
     wait(&mut window, "its samples", |app| app.status().spp >= 1 && app.status().path_reuse == PathReuse::Suffixes);
-    assert_eq!(in_force(&window), Some(Estimator::Mis), "paths from both ends cost more in this room");
+    assert_eq!(in_force(&window), Some(Estimator::Mis), "bidirectional paths cost more in this room");
     window.get_by_role_and_label(Role::CheckBox, "Adaptive").click();
     window.run_steps(3);
     assert!(window.query_by_label("Custom").is_some() && !is_marked(&window, "Fastest"));
@@ -112,7 +112,7 @@ fn the_panel_says_that_adaptive_sampling_is_not_used_where_pixels_share_paths() 
 fn advice_tries_the_other_path_reuse() {
     let mut window = window("cornell_box");
     restarts(&mut window, "no path reuse", |w| choose(w, "Path reuse", "Off"));
-    wait(&mut window, "a picture", |app| app.status().spp >= 1);
+    wait(&mut window, "an image", |app| app.status().spp >= 1);
     click(&mut window, "What should I use here?");
     wait(&mut window, "the advice", |app| !app.is_studying());
     let advice = window.state().environment.adviser.as_ref().and_then(|adviser| adviser.advice.as_ref());

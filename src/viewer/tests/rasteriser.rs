@@ -51,7 +51,7 @@ impl TestRenderer for Rasteriser {
     }
 }
 
-/// Draws nothing and keeps no texture: what the harness would keep until somebody wants a picture is a lot after thousands of frames.
+/// Draws nothing and keeps no texture: what the harness would keep until somebody wants an image is a lot after thousands of frames.
 pub struct Blind;
 
 impl TestRenderer for Blind {

@@ -75,7 +75,7 @@ fn a_click_on_side_b_shows_the_samples_of_b() {
         let exact = exact.expect("nobody interrupts");
         assert!(exact == found, "{:?} {:?}", exact.iter().map(|rgb| luminance(*rgb)).collect::<Vec<_>>(), found);
     }
-    // The path is drawn over its own picture.
+    // The path is drawn over its own image.
     let marks = window.output().shapes.iter().filter_map(|clipped| match &clipped.shape {
         egui::Shape::Circle(circle) if circle.radius == 4.0 => Some(circle.center.x),
         _ => None,
@@ -94,5 +94,5 @@ fn a_button_ends_the_comparison_whatever_is_open() {
     never_restarts(&mut window, |w| click(w, "End comparison"));
     assert!(window.state().compared_with().is_none() && window.state().settings() == settings);
     assert!(window.query_by_label("End comparison").is_none() && window.query_by_label("Compare with…").is_some());
-    wait(&mut window, "one picture", |app| app.second_frame().is_none() && app.results.textures[1].is_none());
+    wait(&mut window, "one image", |app| app.second_frame().is_none() && app.results.textures[1].is_none());
 }

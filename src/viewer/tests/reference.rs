@@ -5,10 +5,10 @@ use noisefall_scene::scene::Camera;
 use super::*;
 use crate::viewer::{background::given_reference::GivenReference, instruments::tabs::InstrumentTab};
 
-/// Waits for a full picture of what the controls say, as the window shows it.
+/// Waits for a full image of what the controls say, as the window shows it.
 fn full(window: &mut Window) {
     window.run_steps(2);
-    wait(window, "a full picture", |app| {
+    wait(window, "a full image", |app| {
         app.worker().request().is_some_and(|request| request.camera == app.camera()) && app.can_save()
     });
     window.run_steps(2);
@@ -29,7 +29,7 @@ fn the_truth_of_the_scene_goes_with_its_camera_and_comes_back_with_it() {
     let mut window = window("furnace");
     full(&mut window);
     assert!(window.state().measured_error().is_some() && states_error(&window) && says(&window, "from the scene"));
-    // Another resolution is another sampling of the same picture.
+    // Another resolution is another sampling of the same image.
     window.state_mut().camera_mut().resolution = [48, 40];
     full(&mut window);
     assert!(window.state().measured_error().is_some());
@@ -44,7 +44,7 @@ fn the_truth_of_the_scene_goes_with_its_camera_and_comes_back_with_it() {
     let of_elsewhere = window.state().shown_frame().clone().expect("it is shown");
     window.key_press(Key::Home);
     window.run_steps(2);
-    // The last picture of elsewhere is never held against the truth, not even while it is the one that is shown.
+    // The last image of elsewhere is never held against the truth, not even while it is the one that is shown.
     let request = window.state_mut().display_request(of_elsewhere);
     assert!(request.reference.is_none() && window.state().reference().is_some());
     full(&mut window);
@@ -61,7 +61,7 @@ fn a_given_reference_holds_for_the_camera_that_it_was_dropped_at() {
         Some(GivenReference { name: "mine.exr".to_owned(), reference, camera, scene: None });
     wait(&mut window, "the true error", |app| app.measured_error().is_some());
     window.run_steps(2);
-    assert!(says(&window, "mine.exr") && says(&window, "noise unknown"));
+    assert!(says(&window, "mine.exr") && says(&window, "estimated error unknown"));
     *window.state_mut().camera_mut() = Camera { eye: camera.eye + DVec3::X * 0.1, ..camera };
     full(&mut window);
     assert!(window.state().measured_error().is_none() && !states_error(&window));

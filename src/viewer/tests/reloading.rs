@@ -238,7 +238,7 @@ fn an_image_of_a_texture_is_read_again_when_it_changes() {
     );
     write(&mut window, &path, &textured);
     assert_eq!(window.state().dialogs.file_error, None);
-    let made = |window: &Window| window.state().opened().as_ref().expect("it is open").scene.compiled.made("pictures");
+    let made = |window: &Window| window.state().opened().as_ref().expect("it is open").scene.compiled.made("images");
     let before = generation(&window);
     paint(4, 20);
     window.state().environment.files.report(&image);

@@ -14,7 +14,7 @@ fn ctrl_e_saves_the_shown_image_to_the_path_in_the_field() {
     window.run_steps(3);
     click(&mut window, "Save");
     wait(&mut window, "the file", |app| app.last_saved().is_some());
-    let saved = image_file::read(&path).expect("it is a picture");
+    let saved = image_file::read(&path).expect("it is an image");
     assert_eq!([saved.width, saved.height], [96, 64]);
     assert!(window.state().dialogs.notices.0.iter().any(|notice| !notice.is_error));
     window.state_mut().save_to(folder.path().join("nowhere/shot.png"));
@@ -87,7 +87,7 @@ fn exposure_and_tone_map_change_the_saved_image() {
         *window.state_mut().last_saved_mut() = None;
         window.state_mut().save_to(path.clone());
         wait(&mut window, "the file", |app| app.last_saved().is_some());
-        pictures.push(image_file::read(&path).expect("it is a picture").radiance);
+        pictures.push(image_file::read(&path).expect("it is an image").radiance);
     }
     for i in 1..pictures.len() {
         assert!(pictures[..i].iter().all(|other| *other != pictures[i]), "tone map {i} shows nothing new");

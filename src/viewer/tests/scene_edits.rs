@@ -73,7 +73,7 @@ fn an_edit_that_the_reader_would_refuse_changes_nothing_and_says_so() {
 fn the_camera_of_the_scene_is_edited_and_the_window_follows_without_a_step() {
     let mut window = window("cornell_spheres");
     let fov = |degrees: f64| Edit::set(Path::of("camera.fov"), OwnedValue::Number(degrees));
-    edits(&mut window, "a wider picture", |w| {
+    edits(&mut window, "a wider image", |w| {
         w.state_mut().edit(&fov(50.0));
         w.run_steps(1);
     });

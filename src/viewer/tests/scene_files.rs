@@ -19,7 +19,7 @@ pub fn window_of_copy(folder: &FilePath) -> (Window, PathBuf, String) {
     let mut window = open(Some(path.clone()));
     wait(&mut window, "the scene", |app| app.opened().is_some());
     window.state_mut().camera_mut().resolution = [96, 64];
-    wait(&mut window, "a picture", |app| app.shown_frame().as_ref().is_some_and(|frame| frame.width == 96));
+    wait(&mut window, "an image", |app| app.shown_frame().as_ref().is_some_and(|frame| frame.width == 96));
     (window, path, text)
 }
 

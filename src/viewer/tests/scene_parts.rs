@@ -37,7 +37,7 @@ fn parts_are_added_duplicated_renamed_assigned_and_deleted() {
     assert!(description(&window).environment.is_some());
     window.state_mut().act_on(ball(), Action::Delete);
     assert_eq!((description(&window).objects.len(), window.state().selected().clone()), (10, None));
-    edits(&mut window, "the picture of all of it", |w| w.run_steps(2));
+    edits(&mut window, "the image of all of it", |w| w.run_steps(2));
     (0..9).for_each(|_| undo(&mut window));
     assert!(bits(&window).is_identical(&start));
 }
@@ -71,7 +71,7 @@ fn lights_without_surface_are_parts_like_others() {
             .map(|punctual_light| (punctual_light.name.clone(), punctual_light.kind.name())),
         [("spot".to_owned(), "spot"), ("stage".to_owned(), "point")]
     );
-    edits(&mut window, "the picture of both", |w| w.run_steps(2));
+    edits(&mut window, "the image of both", |w| w.run_steps(2));
     window.state_mut().act_on(Subject::PunctualLight(1), Action::Delete);
     assert_eq!((description(&window).punctual_lights.len(), window.state().selected().clone()), (1, None));
     (0..5).for_each(|_| undo(&mut window));

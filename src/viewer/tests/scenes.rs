@@ -15,7 +15,7 @@ fn opened(path: PathBuf) -> Window {
     let mut window = open(Some(path));
     wait(&mut window, "the scene", |app| app.opened().is_some());
     window.state_mut().camera_mut().resolution = [48, 32];
-    wait(&mut window, "a picture", |app| app.shown_frame().as_ref().is_some_and(|frame| frame.width == 48));
+    wait(&mut window, "an image", |app| app.shown_frame().as_ref().is_some_and(|frame| frame.width == 48));
     window
 }
 
@@ -51,7 +51,7 @@ fn a_black_picture_is_told_with_its_likely_cause() {
 fn a_true_picture_of_another_size_is_told() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut first = opened(shipped("furnace"));
-    wait(&mut first, "a full picture", App::can_save);
+    wait(&mut first, "a full image", App::can_save);
     first.state_mut().save_to(folder.path().join("true.exr"));
     wait(&mut first, "the file", |app| app.last_saved().is_some());
     let text = std::fs::read_to_string(shipped("furnace")).expect("it is shipped");
@@ -106,7 +106,7 @@ fn the_list_marks_the_open_scene_however_it_was_named_and_knows_those_from_elsew
     assert!(window.state().catalogue.iter().any(|entry| entry.name == "A furnace of mine"));
 }
 
-/// Messages lie in the middle of the picture, beside the panel and above the tabs.
+/// Messages lie in the middle of the image, beside the panel and above the tabs.
 #[test]
 fn messages_lie_over_the_picture() {
     let mut window = window("furnace");

@@ -13,7 +13,7 @@ pub fn seen(window: &mut Window, p: DVec3) -> Pos2 {
     let at = Pos2::new(430.0, 430.0);
     window.hover_at(at);
     window.run_steps(2);
-    let hovered = window.state().hovered().expect("it is over the picture");
+    let hovered = window.state().hovered().expect("it is over the image");
     let pixel = project(&window.state().camera(), p).expect("it is in front");
     let zoom = window.state().picture_view().drawn_zoom;
     at + vec2(pixel[0] - hovered[0] as f32, pixel[1] - hovered[1] as f32) * zoom

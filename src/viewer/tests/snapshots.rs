@@ -7,7 +7,7 @@ use crate::viewer::instruments::tabs::InstrumentTab;
 /// Where the figures change with every run: the line at the bottom.
 const STATUS_BAR: u32 = 34;
 
-/// A window as large as the smallest that is meant to be comfortable, with a picture of so many samples.
+/// A window as large as the smallest that is meant to be comfortable, with an image of so many samples.
 fn at_rest(scene: &str, spp: u32, change: impl FnOnce(&mut App)) -> Window {
     let builder = Harness::builder().with_size(vec2(1280.0, 800.0)).renderer(Rasteriser::default());
     let mut window = builder.build_ui_state(drawing(Some(shipped(scene)), |_| {}), Lazy(None));
@@ -16,7 +16,7 @@ fn at_rest(scene: &str, spp: u32, change: impl FnOnce(&mut App)) -> Window {
     app.camera_mut().resolution = [60, 60];
     app.budget_mut().max_spp = Some(spp);
     change(app);
-    wait(&mut window, "the picture", |app| {
+    wait(&mut window, "the image", |app| {
         let shown = app.shown_frame().as_ref().is_some_and(|frame| frame.spp == spp && frame.width == 60);
         let beside = app.second_view().is_none() || app.second_frame().as_ref().is_some_and(|frame| frame.spp == spp);
         shown

@@ -78,7 +78,7 @@ fn event(window: &mut Window, random: &mut SmallRng, at: &mut Pos2) {
     window.step();
 }
 
-/// Takes back what no machine could stand, or what a test must not do: huge pictures, slow scenes, dialogs of the system.
+/// Takes back what no machine could stand, or what a test must not do: huge images, slow scenes, dialogs of the system.
 fn tame(window: &mut Window) {
     let app = window.state_mut();
     for side in &mut app.camera_mut().resolution {
@@ -111,7 +111,7 @@ fn soak() {
     let mut window = window("cornell_spheres");
     let mut random = SmallRng::seed_from_u64(7);
     let (mut at, mut warm) = (Pos2::ZERO, 0);
-    // The pictures of the gallery are read once.
+    // The images of the gallery are read once.
     window.state_mut().dialogs.gallery.open = true;
     let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("assets").join("gallery");
     let has_picture = |scene: &PathBuf| scene.file_stem().is_some_and(|name| folder.join(name).with_extension("png").is_file());
@@ -130,7 +130,7 @@ fn soak() {
         if number % 1000 == 700 {
             // Whatever the controls say by now, the window comes to show it.
             window.event(egui::Event::PointerGone);
-            wait(&mut window, "the picture of what was asked for last", |app| {
+            wait(&mut window, "the image of what was asked for last", |app| {
                 let asked = app
                     .environment
                     .worker
@@ -148,11 +148,11 @@ fn soak() {
     println!("memory: {} kB after {WARM} events, {} kB after {EVENTS}", warm / 1000, end / 1000);
     assert!(end < warm + warm / 20, "memory grew from {warm} to {end} bytes");
     let app = window.state();
-    let shown = app.shown_frame().as_ref().expect("there is a picture");
+    let shown = app.shown_frame().as_ref().expect("there is an image");
     assert_eq!(shown.generation, app.worker().generation(), "a stale frame is shown");
 }
 
-/// The fewest bytes in use, besides the texture of letters, while the picture of the scene as it opens is at rest: until there are as few as this,
+/// The fewest bytes in use, besides the texture of letters, while the image of the scene as it opens is at rest: until there are as few as this,
 /// or for some seconds. Threads that were given up let go of what they looked at when they notice.
 fn settled_memory(window: &mut Window, enough: usize) -> usize {
     const PATIENCE: Duration = Duration::from_secs(5);
@@ -170,7 +170,7 @@ fn settled_memory(window: &mut Window, enough: usize) -> usize {
     // At rest there is one frame, and not one more for each that is on its way.
     let budget = noisefall_render::render::Budget { max_spp: Some(8), ..Default::default() };
     (app.session.budget, app.window.tab, app.session.comparison) = (budget, None, None);
-    wait(window, "the picture", |app| {
+    wait(window, "the image", |app| {
         app.shown_frame().as_ref().is_some_and(|frame| frame.generation == app.worker().generation() && frame.spp == 8)
     });
     let (start, mut least) = (Instant::now(), usize::MAX);

@@ -49,7 +49,7 @@ fn rows_of_the_panel_stay_where_they_are() {
         ("a fixed roulette", |app| app.settings_mut().roulette = Roulette::fixed(0.5)),
         ("no roulette", |app| app.settings_mut().roulette = Roulette::Off),
         ("no path reuse", |app| app.settings_mut().reuse = Reuse::Off),
-        ("paths from both ends", |app| app.settings_mut().estimator = Estimator::Bidirectional),
+        ("bidirectional paths", |app| app.settings_mut().estimator = Estimator::Bidirectional),
         ("an estimator by trial", |app| app.settings_mut().estimator = Estimator::Auto),
         ("a cap", |app| app.settings_mut().max_bounces = Some(3)),
         ("a lens", |app| app.camera_mut().lens = Some(Lens { radius: 0.1, focus: 3.0 })),
@@ -140,7 +140,7 @@ fn the_number_over_side_b_is_that_of_the_view_too() {
 fn dense() -> Window {
     let builder = Harness::builder().with_size(vec2(640.0, 400.0)).with_pixels_per_point(2.0).renderer(Blind);
     let mut window = builder.build_ui_state(drawing(Some(shipped("furnace")), |_| {}), Lazy(None));
-    wait(&mut window, "a picture", |app| app.shown_frame().is_some());
+    wait(&mut window, "an image", |app| app.shown_frame().is_some());
     window
 }
 
@@ -210,7 +210,7 @@ fn the_gallery_is_in_an_order_that_teaches_and_its_pictures_cover_their_cards() 
     let mut window = window("furnace");
     window.ctx.set_theme(egui::ThemePreference::Light);
     window.key_press(Key::F6);
-    wait(&mut window, "pictures", |app| app.dialogs.gallery.count() > 20);
+    wait(&mut window, "images", |app| app.dialogs.gallery.count() > 20);
     window.run_steps(3);
     let chapters = ["The box", "Noise", "Estimators", "Materials", "Geometry", "Limits"];
     let tops = chapters.map(|chapter| window.get_by_label(chapter).rect().top());
@@ -236,7 +236,7 @@ fn the_gallery_is_in_an_order_that_teaches_and_its_pictures_cover_their_cards() 
         label.is_some_and(|label| label.contains("Five-sphere"))
     });
     assert_eq!(boxes.count(), 1, "the built-in scene is there once");
-    // Each picture is as large as its card, so that no ground of another brightness shows beside it.
+    // Each image is as large as its card, so that no ground of another brightness shows beside it.
     let size = vec2(164.0, 112.0);
     let pictures = window.output().shapes.iter().filter(|clipped| {
         let is_picture = clipped.shape.texture_id() != egui::TextureId::default();
@@ -249,7 +249,7 @@ fn the_gallery_is_in_an_order_that_teaches_and_its_pictures_cover_their_cards() 
 fn a_scene_without_a_picture_says_so_in_its_card() {
     let mut window = window("furnace");
     window.key_press(Key::F6);
-    wait(&mut window, "all pictures", |app| app.dialogs.gallery.is_complete());
+    wait(&mut window, "all images", |app| app.dialogs.gallery.is_complete());
     window.run_steps(3);
     let says = |shape: &egui::Shape| matches!(shape, egui::Shape::Text(text) if text.galley.text() == "no image");
     assert!(window.output().shapes.iter().any(|clipped| says(&clipped.shape)));

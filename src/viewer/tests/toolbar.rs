@@ -72,7 +72,7 @@ fn buttons_of_the_toolbar_work_as_labelled() {
     click(&mut window, "1:1");
     click(&mut window, "Fit");
     assert_eq!(window.state().picture_view().zoom, None);
-    wait(&mut window, "a full picture", App::can_save);
+    wait(&mut window, "a full image", App::can_save);
     click(&mut window, "Save image…");
     assert!(window.query_by_label("Save image").is_some());
     click(&mut window, "EXR");

@@ -9,7 +9,7 @@ use noisefall_scene::{
 };
 
 /// How the light of lights differs behind [`Filling::Interface`].
-pub const INTERFACE: &str = "punctual lights shine through it on paths from the lights only, as with `bidirectional`";
+pub const INTERFACE: &str = "punctual lights shine through it on light paths only, as with `bidirectional`";
 
 /// How a surface holds a medium.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -28,9 +28,9 @@ pub struct Batch {
     pub(super) bounce: u32,
     /// Rays traced: path segments, shadow rays and visibility rays of path reuse.
     pub rays: u64,
-    /// Light that the paths from lights bring to any pixel, after a trace with such paths.
+    /// Light that the light paths bring to any pixel, after a trace with such paths.
     pub splats: Vec<Splat>,
-    /// Queues of paths from both ends, after the first trace with such paths.
+    /// Queues of bidirectional paths, after the first trace with such paths.
     pub(super) light_paths: Option<Box<LightPaths>>,
     /// What outlier reuse needs, after the first trace with it.
     pub(super) bright: Option<Box<OutlierBuffers>>,

@@ -67,7 +67,7 @@ pub(super) struct HitQueues {
     pub charts: Queue,
     /// Filled beside `details` in scenes where tilted normals darken light.
     pub normal_shadowing: Queue,
-    /// Filled beside `details` for paths from both ends, in scenes with bump or normal maps.
+    /// Filled beside `details` for bidirectional paths, in scenes with bump or normal maps.
     pub relief: Queue,
     /// Filled for types that have a diffuse transmittance.
     pub transmittances: Queue,

@@ -103,7 +103,7 @@ record! {
 }
 
 record! {
-    /// What bump and normal maps tilt, for viewers in any direction. Stored beside [`Detail`] for paths from both ends.
+    /// What bump and normal maps tilt, for viewers in any direction. Stored beside [`Detail`] for bidirectional paths.
     MappedNormals {
         /// The smooth normal, on the side the path arrived from.
         smooth: V,

@@ -53,7 +53,7 @@ pub enum PathStage {
 
 impl Observer for () {}
 
-/// Traces one sample of every pixel of a tile by paths from the camera; the result is [`Batch::radiance`]. Calls `interrupted` before every
+/// Traces one sample of every pixel of a tile by camera paths; the result is [`Batch::radiance`]. Calls `interrupted` before every
 /// bounce, and in the reuse stage.
 ///
 /// The estimate is the sum over bounces k of throughput × emitted radiance at the k-th surface: the rendering equation (Kajiya
@@ -78,7 +78,7 @@ impl Observer for Segments {
     }
 }
 
-/// Traces one sample of every pixel of a tile by paths from the camera, and counts the path segments of its blocks.
+/// Traces one sample of every pixel of a tile by camera paths, and counts the path segments of its blocks.
 pub fn trace_counting(
     level: SimdLevel,
     work: &Work,

@@ -190,9 +190,9 @@ impl<L: Lanes> Crossing<L> {
 /// How rays decide at surfaces that let light pass, and at blends.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Decisions {
-    /// By the random numbers of the path from the camera.
+    /// By the random numbers of the camera path.
     Random,
-    /// By those of the path from the light.
+    /// By those of the light path.
     RandomFromLight,
     /// By the number ½, for images without noise: paths meet surfaces that are more than half opaque, and the part of a blend with the
     /// larger weight.

@@ -153,7 +153,7 @@ impl<'a> Work<'a> {
         self.scene.shares(self.rays, self.settings)
     }
 
-    /// Number of paths from lights for every sample of a pixel.
+    /// Number of light paths for every sample of a pixel.
     pub(super) fn light_paths_of_image(&self) -> f32 {
         let [width, height] = self.rays.resolution;
         width as f32 * height as f32

@@ -235,7 +235,7 @@ mod tests {
             // A part of the brighter mean, which is 4.5.
             is(Some(1e6 * bias.rounding), 4.5);
         }
-        // A variance that is hardly more than rounding has that of rounding besides, of the brighter picture or block.
+        // A variance that is hardly more than rounding has that of rounding besides, of the brighter image or block.
         let bias = Bias::by_samples(&a, &b, [Some(&noise([2.0 * 9e-6f64.powi(2); 2], 1e6)), None], WIDTH);
         is(bias.z, -0.5 / 9e-6f64.hypot(4.5e-6));
         is(Some(bias.block_z[0]), 1.0 / (9e-6 * 2f64.sqrt()).hypot(3e-6));
@@ -263,7 +263,7 @@ mod tests {
         let repeats: Vec<&[[f32; 3]]> = repeats.iter().map(Vec::as_slice).collect();
         let bias = Bias::by_repeats(&repeats, &picture([2.0, 7.0]), None, WIDTH);
         assert_eq!(bias.evidence, Evidence::Repeats(4));
-        // Means of pictures are 4, 4.3, 4.3 and 4: 4.15, with the variance 0.03.
+        // Means of images are 4, 4.3, 4.3 and 4: 4.15, with the variance 0.03.
         assert!((bias.mean + 0.35).abs() < 1e-6);
         is(bias.standard_error, (0.03f64 / 4.0).sqrt());
         // −4.04 as Student's t with three degrees of freedom.

@@ -73,7 +73,7 @@ pub fn relative(squared: f64, radiance: f64, floor: f64) -> f64 {
 
 /// Compares two images of linear radiance pixel by pixel. They must have the same length.
 pub fn compare(picture: &[[f32; 3]], reference: &[[f32; 3]], floor: Floor) -> Comparison {
-    assert_eq!(picture.len(), reference.len(), "pictures of different sizes have no error");
+    assert_eq!(picture.len(), reference.len(), "images of different sizes have no error");
     let floor = floor.of_picture(reference);
     let (mut squared, mut rel_mse, mut bias) = (0.0, 0.0, 0.0);
     for (x, r) in picture.as_flattened().iter().zip(reference.as_flattened()) {

@@ -168,7 +168,7 @@ mod tests {
         let of_scene = noisefall_scene::scene::built_in().camera;
         let camera = Camera { resolution: [4, 2], fov: 90.0, ..of_scene };
         let [right, up, forward] = camera.axes();
-        // What is linear on the image plane has the mean of the centre. The picture is 2 wide and 1 high at a distance of 1.
+        // What is linear on the image plane has the mean of the centre. The image is 2 wide and 1 high at a distance of 1.
         for ([x, y], centre) in [([0, 0], [-0.75, 0.25]), ([3, 0], [0.75, 0.25]), ([2, 1], [0.25, -0.25])] {
             for (axis, exact) in [right, up].into_iter().zip(centre) {
                 let place = |d: DVec3| d.dot(axis) / d.dot(forward);

@@ -51,7 +51,7 @@ pub struct Picture {
     pub width: usize,
     /// The means, row by row from the top left.
     pub pixels: Vec<Mean>,
-    /// The samples of all pixels, image by image, if those of one image depend on each other: a path from a light may arrive in several
+    /// The samples of all pixels, image by image, if those of one image depend on each other: a light path may arrive in several
     /// pixels.
     images: Vec<Vec<f64>>,
 }
@@ -89,7 +89,7 @@ pub fn picture(scene: &Scene, settings: RenderSettings, measure: Measure, spp: u
     Picture::new(width as usize, pixels)
 }
 
-/// One sample of every pixel, row by row, with what the paths from lights of all of them bring.
+/// One sample of every pixel, row by row, with what the light paths of all of them bring.
 pub fn sample_image(
     scene: &Scene,
     rays: &CameraRays,

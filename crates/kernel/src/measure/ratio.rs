@@ -78,7 +78,7 @@ mod tests {
     use noisefall_base::math::{One, U};
     use noisefall_scene::sampling::hash::{hash, unit};
 
-    /// Pictures of 96 × 64 pixels of independent noise around 1, whose variance is 1/12 of the square of this width.
+    /// Images of 96 × 64 pixels of independent noise around 1, whose variance is 1/12 of the square of this width.
     fn noise(seed: u32, width: f32) -> Vec<[f32; 3]> {
         let uniform = |i: u32| unit(hash(U::<One>(seed * 100_003 + i))).0;
         (0..96 * 64).map(|i| [0, 1, 2].map(|c| 1.0 + width * (uniform(3 * i + c) - 0.5))).collect()

@@ -132,7 +132,7 @@ mod tests {
             assert_eq!(at(left - 1, top), [255; 3]);
             let below = (0..2 * LINE).flat_map(|y| (0..60).map(move |x| (left + x, top + 10 + MARGIN / 2 + y)));
             let ink = below.filter(|(x, y)| at(*x, *y)[0] < 128).count();
-            assert_eq!(ink > 20, number < 2, "{ink} dark pixels below picture {number}");
+            assert_eq!(ink > 20, number < 2, "{ink} dark pixels below image {number}");
         }
         assert!(check([4096, 4096], 2, 6).is_ok());
         assert!(check([4096, 4096], 2, 9).is_err_and(|error| error.contains("--size")));

@@ -27,7 +27,7 @@ fn figures_are_files_of_their_own_but_tables_are_not() {
     let drawn = plot("", Axis::linear("x"), Axis::linear("y"), &[curve("c", Style::Line, vec![(0.0, 1.0), (1.0, 2.0)])]);
     let file = drawn.svg().expect("a plot");
     assert!(file.starts_with("<svg") && file.contains("xmlns=\"http://www.w3.org/2000/svg\"") && file.contains("polyline"));
-    let picture = svg("<img width='172' height='9' alt='a' src='data:image/png;base64,AA=='>").expect("a picture");
+    let picture = svg("<img width='172' height='9' alt='a' src='data:image/png;base64,AA=='>").expect("an image");
     assert!(picture.starts_with("<svg xmlns=") && picture.contains("<image width=\"172\" height=\"9\""), "{picture}");
     assert!(picture.contains("href=\"data:image/png;base64,AA==\""), "{picture}");
     assert_eq!(svg("<table></table>"), None);

@@ -136,7 +136,7 @@ pub struct Converged<'a> {
     pub study_scene: &'a StudyScene,
     pub bench: Bench<'a>,
     pub folder: &'a Path,
-    /// All that a picture of the scene depends on besides settings.
+    /// All that an image of the scene depends on besides settings.
     pub fingerprint: u64,
     /// Samples per pixel of the longest render that is compared with it.
     pub spp: u32,

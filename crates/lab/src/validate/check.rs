@@ -14,7 +14,7 @@ use noisefall_scene::{
 
 pub const RED: Measure = |radiance| f64::from(radiance[0]);
 
-/// The estimators that find light where the camera sees a point. No path from a light arrives in so small a view.
+/// The estimators that find light where the camera sees a point. No light path arrives in so small a view.
 pub fn of_a_point() -> impl Iterator<Item = Estimator> {
     Estimator::ALL.into_iter().filter(|estimator| *estimator != Estimator::LightTracing)
 }

@@ -8,7 +8,7 @@ const FURNACE: usize = 0;
 const CAPS_AND_ROULETTE: usize = 2;
 const DIRECTIONS: usize = 3;
 const SPHERES: usize = 4;
-/// Those that planted faults concern.
+/// Those that mutants concern.
 const CONCERNED: [usize; 4] = [FURNACE, CAPS_AND_ROULETTE, DIRECTIONS, SPHERES];
 
 /// Those of these sections that fail.

@@ -19,7 +19,7 @@ pub struct Film {
     pub(super) is_piloted: bool,
     /// The region that gets all samples.
     pub(super) focus: Option<Region>,
-    /// What paths from lights bring to the pixels, if the estimator traces any.
+    /// What light paths bring to the pixels, if the estimator traces any.
     pub(super) splats: Option<SplatFilm>,
 }
 
@@ -109,13 +109,13 @@ impl Film {
         self.tiles.iter().map(|tile| tile.invalid).sum::<u64>() + self.splats.as_ref().map_or(0, SplatFilm::invalid)
     }
 
-    /// Starts to sum the light of paths from lights.
+    /// Starts to sum the light of light paths.
     pub(super) fn keep_splats(&mut self) {
         let resolution = self.resolution;
         self.splats.get_or_insert_with(|| SplatFilm::new(resolution));
     }
 
-    /// Tells the tiles what paths from lights have brought to their pixels: one path belongs to every sample of any pixel.
+    /// Tells the tiles what light paths have brought to their pixels: one path belongs to every sample of any pixel.
     pub(super) fn spread_splats(&mut self) {
         let paths = self.samples();
         if let Some(splats) = &self.splats {

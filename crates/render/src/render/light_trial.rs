@@ -1,4 +1,4 @@
-//! Decides whether paths from lights pay in a scene, by a trial of a small image with and without them.
+//! Decides whether light paths pay in a scene, by a trial of a small image with and without them.
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use rayon::prelude::*;
@@ -20,7 +20,7 @@ use noisefall_scene::{
 /// Width and height of the image, at most, and samples per pixel.
 const SIZE: u32 = 96;
 const SPP: u32 = 16;
-/// Time of a ray of paths from both ends, relative to one of `mis`.
+/// Time of a ray of bidirectional paths, relative to one of `mis`.
 const COST: f64 = 2.0;
 /// A seed that images are unlikely to have.
 const SEED: u32 = 0x2c1b_3c6d;

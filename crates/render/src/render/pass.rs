@@ -25,7 +25,7 @@ impl Threads {
     /// later as if nothing had happened.
     pub fn pass(&self, job: PassJob, film: &mut Film, spp: u32, interrupted: &(dyn Fn() -> bool + Sync)) -> PassCount {
         if spp > UNIFORM {
-            // A pilot that fails is given up: the samples of the picture will fail as well, and it is known which.
+            // A pilot that fails is given up: the samples of the image will fail as well, and it is known which.
             let spread = catch_unwind(AssertUnwindSafe(|| adaptive::spread(self, job, film, interrupted)));
             if matches!(spread, Ok(Err(Interrupted))) {
                 return PassCount::default();
@@ -47,7 +47,7 @@ impl Threads {
 
     /// Brings a film to `spp` samples per pixel, from doubling to doubling of the samples of its blocks.
     fn to_meeting(&self, job: PassJob, film: &mut Film, spp: u32, interrupted: &(dyn Fn() -> bool + Sync)) -> PassCount {
-        // All tiles meet where their samples have doubled, for how far they have moved is seen over the whole picture.
+        // All tiles meet where their samples have doubled, for how far they have moved is seen over the whole image.
         let mut count = PassCount::default();
         loop {
             if film.awaits_error_record {
@@ -97,7 +97,7 @@ impl Threads {
 /// The failure of a film whose pixels can take no more light.
 fn full(resolution: [u32; 2]) -> PassCount {
     let message =
-        format!("a pixel has light of {MOST_VALUES} batches of paths from lights, the most that its sums can take: stop earlier");
+        format!("a pixel has light of {MOST_VALUES} batches of light paths, the most that its sums can take: stop earlier");
     let failure = Failure { at: SampleId { pixel: [0, 0], sample: 0 }, replays: false, resolution, message };
     PassCount { failure: Some(failure), ..PassCount::default() }
 }

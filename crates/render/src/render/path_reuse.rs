@@ -35,7 +35,7 @@ const LEAST_GAIN: f64 = 1.3;
 const SEEDS: [u32; 2] = [0x7f4a_7c15, 0x2545_f491];
 
 /// The same settings, with [`Estimator::Auto`] and [`Reuse::Auto`] resolved. Where path reuse is possible, the decision depends on the scene
-/// alone and is made once, with the scene's own estimator, or with `mis` if that one has paths from lights: a change of sampler, estimator
+/// alone and is made once, with the scene's own estimator, or with `mis` if that one has light paths: a change of sampler, estimator
 /// or cap never turns path reuse suffixes or off.
 pub fn resolved(scene: &Scene, rays: &CameraRays, settings: &RenderSettings) -> RenderSettings {
     resolved_unless(scene, rays, settings, &|| false).unwrap_or(*settings)
@@ -81,7 +81,7 @@ struct ReuseTrial {
 /// Tries path suffixes first, and then outliers in addition to what is better. Suffixes that do not pay alone are tried again beside
 /// many replays: they leave fewer outliers, and take a smaller part of the time.
 fn best(scene: &Scene, interrupted: &(dyn Fn() -> bool + Sync)) -> Result<PathReuse, Interrupted> {
-    // With paths from lights nothing is shared, but another estimator may be chosen later.
+    // With light paths nothing is shared, but another estimator may be chosen later.
     let own = scene.settings.estimator;
     let estimator = if own.traces_light_paths() { Estimator::Mis } else { own };
     let settings = RenderSettings { estimator, ..Default::default() };

@@ -1,4 +1,4 @@
-//! The paths from both ends of a sample as text, with what each strategy finds.
+//! The bidirectional paths of a sample as text, with what each strategy finds.
 use super::path_words::{number, place, three};
 use noisefall_kernel::integrator::{BothEnds, PathPoint, StrategyTerm};
 use noisefall_scene::scene::Scene;

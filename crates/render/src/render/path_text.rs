@@ -46,7 +46,7 @@ pub fn latex(id: &PathId, replay: &Replay) -> String {
     let heading = heading(id, replay);
     let comments: String = heading.lines().map(|line| format!("% {line}\n")).collect();
     let shared = match (&replay.both_ends, replay.alone) {
-        (Some(_), _) => "% There are paths from lights, too: the sum is that of the path from the camera as MIS weights it.\n",
+        (Some(_), _) => "% There are light paths, too: the sum is that of the camera path as MIS weights it.\n",
         (None, Some(_)) => "% Pixels share light with their neighbours: the sum is that of this path alone.\n",
         (None, None) => "",
     };
@@ -56,9 +56,9 @@ pub fn latex(id: &PathId, replay: &Replay) -> String {
 fn heading(PathId { scene, camera, settings, pixel: [x, y], sample }: &PathId, replay: &Replay) -> String {
     let [width, height] = camera.resolution;
     let value = |setting: Setting| match setting.value(settings) {
-        // The sum is that of the path from the camera.
+        // The sum is that of the camera path.
         estimator if setting == RenderSettings::ESTIMATOR && scene.traces_light_paths(settings) => {
-            format!("mis ({estimator} traces paths from lights, too)")
+            format!("mis ({estimator} traces light paths, too)")
         }
         value => value,
     };

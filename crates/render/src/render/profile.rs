@@ -47,7 +47,7 @@ impl Threads {
 }
 
 /// The settings of a scene as a profile takes them: uniform, with what is chosen by trial decided. Also returns the estimator of a render:
-/// paths from lights are not profiled, but `mis` in their place, which has paths from the camera alone.
+/// light paths are not profiled, but `mis` in their place, which has camera paths alone.
 pub fn settings_of(scene: &Scene, camera: &Camera) -> (RenderSettings, Estimator) {
     let rays = scene.rays(camera);
     let settings = RenderSettings { adaptive: false, ..scene.settings };

@@ -76,9 +76,9 @@ pub(super) fn next_look(spp: u32) -> u32 {
 /// Role of a rendered image.
 #[derive(Clone, PartialEq)]
 pub enum RenderTask {
-    /// A picture.
+    /// A image.
     Picture(RenderRequest),
-    /// A picture with its [`super::Series`]; only full frames.
+    /// An image with its [`super::Series`]; only full frames.
     Series(RenderRequest),
 }
 
@@ -186,7 +186,7 @@ mod tests {
         let time = budget(None, Some(second), None);
         assert_eq!(time.target(1000, second - Duration::from_nanos(1), Some(0.0)), None);
         assert_eq!(time.target(1, second, None), Some(Target::Time));
-        assert_eq!(time.target(0, second, None), None, "there is no picture yet");
+        assert_eq!(time.target(0, second, None), None, "there is no image yet");
         // relMSE is the square of the noise.
         let noise = budget(None, None, Some(0.1));
         assert_eq!(noise.target(64, second, Some(0.0099)), Some(Target::Noise(0.1)));

@@ -109,9 +109,9 @@ impl Reference {
         Some(format!("the image has {:.3e} {more} radiance on average than [reference] says, {off}", bias.mean.abs()))
     }
 
-    /// The same where the mean of the picture is right and that of a block is not: of a picture that is turned, mirrored or of another view.
+    /// The same where the mean of the image is right and that of a block is not: of an image that is turned, mirrored or of another view.
     fn contradiction_of_block(&self, frame: &Frame, bias: &Bias) -> Option<String> {
-        /// Standard errors: those of a block are less sure than those of the picture.
+        /// Standard errors: those of a block are less sure than those of the image.
         const MOST: f64 = 10.0;
         /// Fraction of the mean of the image; a smaller deviation may be light that a block has not found yet.
         const LEAST_PART: f64 = 0.1;

@@ -43,7 +43,7 @@ pub trait SampledTile {
     /// Adds samples: see [`noisefall_kernel::integrator::Batch::radiance`]. Returns the first that is invalid.
     fn add(&mut self, level: SimdLevel, samples: &NextSamples, radiance: &[[f32; 4]]) -> Option<SampleId>;
 
-    /// Adds what the paths from lights of these samples bring to any pixel.
+    /// Adds what the light paths of these samples bring to any pixel.
     fn splat(&self, _splats: &[Splat]) {}
 }
 

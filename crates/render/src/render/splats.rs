@@ -1,4 +1,4 @@
-//! The light that paths from lights bring to the pixels, as exact sums: they do not depend on the order in which threads add it.
+//! The light that light paths bring to the pixels, as exact sums: they do not depend on the order in which threads add it.
 use std::sync::{
     Mutex, MutexGuard, PoisonError,
     atomic::{AtomicU64, Ordering},
@@ -15,7 +15,7 @@ use noisefall_scene::sampling::Filter;
 /// Sums of a pixel: of the channels, and of their squares.
 pub const PLANES: usize = 6;
 
-/// Sums over the batches of paths from lights.
+/// Sums over the batches of light paths.
 ///
 /// The light of a batch is added up for each pixel first. So its paths may be correlated, and the squares still tell the variance.
 pub struct SplatFilm {
@@ -94,7 +94,7 @@ impl SplatFilm {
         Some(Share { key: tile * TILE * TILE + pixel, light })
     }
 
-    /// The estimates of the pixels of a tile after `paths` paths from lights.
+    /// The estimates of the pixels of a tile after `paths` light paths.
     pub fn estimates(&self, tile: usize, paths: u64) -> Vec<SplatEstimate> {
         self.lock(tile).estimates(paths, self.batches())
     }

@@ -23,14 +23,14 @@ impl Target {
     }
 }
 
-/// "stopped at 5 spp", "time is up", "noise target 1 % reached".
+/// "stopped at 5 spp", "time is up", "error target 1 % reached".
 impl fmt::Display for Target {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Target::Samples(spp) => write!(f, "stopped at {spp} spp"),
             Target::Time => write!(f, "time is up"),
             // 100 times a fraction has digits that nobody typed.
-            Target::Noise(goal) => write!(f, "noise target {} % reached", (1e6 * goal).round() / 1e4),
+            Target::Noise(goal) => write!(f, "error target {} % reached", (1e6 * goal).round() / 1e4),
         }
     }
 }
@@ -42,7 +42,7 @@ mod tests {
     #[test]
     fn each_target_says_what_was_reached() {
         let said = [Target::Samples(5), Target::Time, Target::Noise(0.01), Target::Noise(0.0007)];
-        let text = ["stopped at 5 spp", "time is up", "noise target 1 % reached", "noise target 0.07 % reached"];
+        let text = ["stopped at 5 spp", "time is up", "error target 1 % reached", "error target 0.07 % reached"];
         assert_eq!(said.map(|target| target.to_string()), text);
         assert_eq!(said.map(|target| target.name()), ["samples", "time", "noise", "noise"]);
     }

@@ -30,7 +30,7 @@ pub struct Tile {
     pub(super) whole: Scatter,
     /// The series by number of bounces, if it is shown.
     pub(super) series: Option<TileSeries>,
-    /// What paths from lights have brought to the pixels; empty if there are none.
+    /// What light paths have brought to the pixels; empty if there are none.
     pub(super) splats: Vec<SplatEstimate>,
     /// Thresholds of outliers, once they are known.
     pub(super) thresholds: Option<Thresholds>,

@@ -1,6 +1,6 @@
 //! Radiance HDR: three mantissas of 8 bits with a common exponent, run-length encoded.
 //!
-//! G. Ward, "Real Pixels", Graphics Gems II, 1991, and the Radiance file format notes ("Picture File Format"). Mantissas are used
+//! G. Ward, "Real Pixels", Graphics Gems II, 1991, and the Radiance file format notes ("Image File Format"). Mantissas are used
 //! without the half step that Radiance itself adds: black is then 0, and other readers agree.
 //!
 //! The `image` crate reads this format too, but it does not apply the exposure and has no limit for the length of a header line.

@@ -126,7 +126,7 @@ noisefall_base::declare::words! {
     }
 }
 
-/// Why a file gave no picture.
+/// Why a file gave no image.
 #[derive(Debug, thiserror::Error)]
 #[error("{}: {problem}", quote::path(path))]
 pub struct PictureError {

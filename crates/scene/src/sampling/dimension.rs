@@ -13,7 +13,7 @@ impl Dimension {
     pub const TIME: Dimension = Dimension(4);
     const PER_BOUNCE: u32 = 16;
 
-    /// The first bounce of the path from a light. It counts like one of the path from the camera that no camera path reaches.
+    /// The first bounce of the light path. It counts like one of the camera path that no camera path reaches.
     pub const LIGHT_PATH: u32 = 1 << 20;
 
     /// The point of the disk or of the surface where light starts (two).

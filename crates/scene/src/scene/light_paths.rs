@@ -22,7 +22,7 @@ impl fmt::Display for EstimatorInForce {
 }
 
 impl Scene {
-    /// The rays with which paths from lights start, if the estimator traces any and the scene allows it.
+    /// The rays with which light paths start, if the estimator traces any and the scene allows it.
     pub fn light_rays(&self, settings: &RenderSettings) -> Option<&LightRays> {
         let traces = settings.estimator.traces_light_paths() && self.obstacle_of_settings(settings).is_none();
         if traces { self.rays_or_obstacle(settings.estimator).ok() } else { None }
@@ -33,7 +33,7 @@ impl Scene {
         self.light_rays(settings).is_some()
     }
 
-    /// The note that an estimator without its paths from lights works like `mis`; `None` if that is not so.
+    /// The note that an estimator without its light paths works like `mis`; `None` if that is not so.
     pub fn lacks_light_paths(&self, settings: &RenderSettings) -> Option<String> {
         if !settings.estimator.traces_light_paths() {
             return None;
@@ -68,7 +68,7 @@ impl Scene {
         self.warnings().iter().cloned().chain(of_settings.into_iter().flatten()).collect()
     }
 
-    /// Why an estimator with these settings has no paths from lights, whatever the lights.
+    /// Why an estimator with these settings has no light paths, whatever the lights.
     fn obstacle_of_settings(&self, settings: &RenderSettings) -> Option<Obstacle> {
         let may_be_long = settings.max_bounces.is_none_or(|cap| cap > MOST_BOUNCES);
         let RenderSettings { roulette, .. } = settings;

@@ -138,7 +138,7 @@ pub struct Scene {
     pub settings: RenderSettings,
     /// What it pays to share between pixels, once it has been tried.
     pub path_reuse_by_trial: OnceLock<PathReuse>,
-    /// The rays with which paths from lights start, or what keeps them from it: see [`Scene::light_rays`].
+    /// The rays with which light paths start, or what keeps them from it: see [`Scene::light_rays`].
     pub light_paths: OnceLock<Result<LightStarts, Obstacle>>,
     /// The estimator that [`Estimator::Auto`] stands for, once it has been tried.
     pub estimator_by_trial: OnceLock<Estimator>,

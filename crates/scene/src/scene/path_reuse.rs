@@ -33,7 +33,7 @@ impl Scene {
         all
     }
 
-    /// Whether pixels can reuse outliers: not with paths from lights, which bring light to any pixel.
+    /// Whether pixels can reuse outliers: not with light paths, which bring light to any pixel.
     fn can_share_bright(&self, settings: &RenderSettings) -> bool {
         !self.traces_light_paths(settings)
     }

@@ -41,7 +41,7 @@ struct LensRays {
     focus: f32,
 }
 
-/// Points that are joined with the camera.
+/// Points that are connected to the camera.
 pub struct CameraJoin<L: Lanes> {
     /// Vector from the point to the camera.
     pub way: V<L>,

@@ -15,7 +15,7 @@ pub struct Strategy {
 
 impl Strategy {
     /// The strategies that find light after this number of bounces, by the number of vertices from the light. A light that the camera sees is
-    /// found by paths from the camera alone.
+    /// found by camera paths alone.
     pub fn of_bounces(bounces: u32, weighted: bool) -> impl Iterator<Item = Strategy> {
         let most = if bounces == 0 { 0 } else { bounces + 1 };
         (0..=most).map(move |s| Strategy { s, t: bounces + 2 - s, weighted })

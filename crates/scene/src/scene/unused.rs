@@ -81,13 +81,13 @@ mod tests {
                 RenderSettings { adaptive: true, reuse: Reuse::Outliers, ..base },
                 "`adaptive` is not used: pixels have reused outliers",
             ),
-            (&open, RenderSettings { adaptive: true, ..light }, "`adaptive` is not used: paths from lights"),
+            (&open, RenderSettings { adaptive: true, ..light }, "`adaptive` is not used: light paths"),
             (
                 &open,
                 RenderSettings { adaptive: true, merging: true, ..light },
                 "`adaptive` is not used: pixels share merged vertices",
             ),
-            (&open, RenderSettings { reuse: Reuse::Suffixes, ..light }, "`reuse` is not used: paths from lights"),
+            (&open, RenderSettings { reuse: Reuse::Suffixes, ..light }, "`reuse` is not used: light paths"),
             (
                 &open,
                 RenderSettings { reuse: Reuse::Suffixes, max_bounces: Some(1), ..base },

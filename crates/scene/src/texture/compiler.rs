@@ -10,8 +10,8 @@ use noisefall_base::{
 /// Textures of textures may go this deep.
 const DEEPEST: usize = 64;
 /// Names of the texels of images in the report of a compile: those that the scene uses, and the others.
-pub const PICTURES: &str = "pictures";
-pub const UNUSED_PICTURES: &str = "unused pictures";
+pub const PICTURES: &str = "images";
+pub const UNUSED_PICTURES: &str = "unused images";
 /// Most lookups of other textures that one lookup may make. n nested products of a texture with itself would make 2ⁿ.
 pub(super) const MOST_LOOKUPS: u32 = 64;
 

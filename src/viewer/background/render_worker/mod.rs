@@ -206,7 +206,7 @@ mod tests {
         let other = other(&request, 5);
         worker.update(request.clone(), Some(other), 30.0);
         assert_eq!((worker.generation(), worker.second_generation()), (1, 2));
-        assert!(worker.is_awaited([1, 0], 30.0) && !worker.is_awaited([1, 2], 30.0), "the picture beside is awaited too");
+        assert!(worker.is_awaited([1, 0], 30.0) && !worker.is_awaited([1, 2], 30.0), "the image beside is awaited too");
         worker.update(request, None, 40.0);
         assert!(!worker.is_awaited([1, 0], 40.0), "but not when it is gone");
     }

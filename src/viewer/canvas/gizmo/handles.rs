@@ -151,7 +151,7 @@ mod tests {
 
     use super::{super::tests::oblique_camera as camera, *};
 
-    /// A picture at twice its size.
+    /// An image at twice its size.
     fn area() -> PictureArea {
         let rect = Rect::from_min_size(Pos2::new(50.0, 20.0), Vec2::new(600.0, 400.0));
         PictureArea { clip: rect, rect, resolution: Vec2::new(300.0, 200.0) }

@@ -56,7 +56,7 @@ pub struct Operation {
 }
 
 impl Operation {
-    /// An operation that begins with the pointer at a place of the picture.
+    /// An operation that begins with the pointer at a place of the image.
     pub fn new(mode: Mode, lock: Lock, pivot: DVec3, start: [f32; 2]) -> Operation {
         Operation { mode, lock, pivot, typed: String::new(), start, now: start, turned: 0.0 }
     }

@@ -12,7 +12,7 @@ use crate::viewer::canvas::projection::project;
 struct State {
     gizmo: Gizmo,
     outputs: Vec<GizmoOutput>,
-    /// The picture under the gizmo was dragged.
+    /// The image under the gizmo was dragged.
     panned: bool,
 }
 
@@ -20,7 +20,7 @@ type Canvas = Harness<'static, State>;
 
 const SIZE: Vec2 = vec2(600.0, 400.0);
 
-/// Along −z, a picture pixel a point.
+/// Along −z, an image pixel a point.
 fn camera() -> Camera {
     let (eye, look_at) = (DVec3::new(0.0, 0.0, 10.0), DVec3::ZERO);
     let projection = Projection::orthographic(6.0);

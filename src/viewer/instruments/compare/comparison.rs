@@ -4,7 +4,7 @@ use noisefall_scene::scene::RenderSettings;
 
 use crate::viewer::canvas::drawing::Split;
 
-/// Settings B, rendered beside those of the picture, which are A.
+/// Settings B, rendered beside those of the image, which are A.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Comparison {
     pub other: RenderSettings,

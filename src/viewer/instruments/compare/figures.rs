@@ -65,7 +65,7 @@ const HEADINGS: [(&str, &str); 8] = [
     ("settings", "Differences from the settings of the scene file, and what pixels share"),
     ("N", "Samples per pixel"),
     ("time", "Render time. The side that had less goes first, so both get the same"),
-    ("noise", "Estimated relative error: the root of relMSE, the mean of (x − r)²/(r² + 0.01 · mean r²)"),
+    ("estimated error", "The estimated relative error: the root of relMSE, the mean of (x − r)²/(r² + 0.01 · mean r²)"),
     ("true error", "Relative error against the reference, if there is one"),
     ("efficiency", "1/(relMSE · seconds). Twice the efficiency gives the same error in half the time"),
     ("converges to", "Whether the expected image is the solution of the light transport equation"),
@@ -81,7 +81,7 @@ struct Side {
     noise: Option<f64>,
     reference: Option<f64>,
     efficiency: Option<f64>,
-    /// Why it converges to another picture, or not at all.
+    /// Why it converges to another image, or not at all.
     trouble: Option<String>,
 }
 
@@ -134,7 +134,7 @@ fn failure_of(status: &Status) -> Option<String> {
     if let State::Failed(failure) = &status.state { Some(format!("failed: {}", failure.message)) } else { None }
 }
 
-/// Why efficiencies say nothing: noise alone does not see that one side converges to another picture.
+/// Why efficiencies say nothing: noise alone does not see that one side converges to another image.
 fn incomparable(sides: &[Side; 2]) -> Option<String> {
     let biased = sides.iter().find(|side| side.trouble.is_some() && side.reference.is_none())?;
     let letter = biased.letter;
@@ -165,7 +165,7 @@ fn efficiency_ratio(errors: LogRatio, sides: &[Side; 2], settings: [&RenderSetti
 fn verdict(ratio: Option<LogRatio>) -> (String, String) {
     const EXPLANATION: &str = "95 % confidence interval by the jackknife over blocks of 32 × 32 pixels.";
     let Some(ratio) = ratio else {
-        return ("No difference yet.".to_owned(), "The images have no noise, or are too small to tell.".to_owned());
+        return ("No difference yet.".to_owned(), "The images have no estimated error, or are too small to tell.".to_owned());
     };
     let (better, other) = if ratio.value > 0.0 { ("B", "A") } else { ("A", "B") };
     let [ratio, low, high] = LogRatio { value: ratio.value.abs(), ..ratio }.interval();

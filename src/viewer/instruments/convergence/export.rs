@@ -22,7 +22,7 @@ impl History {
             "hidden",
             "spp",
             "seconds",
-            "relative_noise",
+            "estimated_error",
             "relative_error",
             "bias_in_standard_errors",
             "relative_bias_of_cap",
@@ -74,10 +74,10 @@ impl History {
     fn label_of_errors(&self) -> &'static str {
         let has_floor = self.shown().any(|curve| self.bias_of_cap(curve).is_some());
         match (self.is_measured(), has_floor) {
-            (false, false) => "relative noise",
-            (false, true) => "relative noise (dashed: bias of the cap)",
-            (true, false) => "relative noise (points: error)",
-            (true, true) => "relative noise (points: error; dashed: bias of the cap)",
+            (false, false) => "estimated error",
+            (false, true) => "estimated error (dashed: bias of the cap)",
+            (true, false) => "estimated error (points: error)",
+            (true, true) => "estimated error (points: error; dashed: bias of the cap)",
         }
     }
 
@@ -135,7 +135,7 @@ mod tests {
         assert_eq!(
             lines,
             [
-                "name,settings,path_reuse,hidden,spp,seconds,relative_noise,relative_error,bias_in_standard_errors,relative_bias_of_cap,\
+                "name,settings,path_reuse,hidden,spp,seconds,estimated_error,relative_error,bias_in_standard_errors,relative_bias_of_cap,\
                  heavy_tail",
                 "\"MIS, Sobol (Owen), no path reuse\",\"MIS, Sobol (Owen), no path reuse\",off,false,1,0.5,,2.5e-1,,,false",
                 "\"MIS, Sobol (Owen), no path reuse\",\"MIS, Sobol (Owen), no path reuse\",off,false,16,2,1.25e-1,6.25e-2,-1.5e0,,false",
@@ -153,11 +153,11 @@ mod tests {
             format!("#{red:02X}{green:02X}{blue:02X}")
         });
         let all = history.svg();
-        assert!(all.contains(&first) && all.contains(&second) && all.contains("relative noise (points: error)"));
+        assert!(all.contains(&first) && all.contains(&second) && all.contains("estimated error (points: error)"));
         (history.curves[0].is_hidden, history.curves[1].given_name) = (true, Some("mine".to_owned()));
         let one = history.svg();
         assert!(!one.contains(&first) && one.contains(&second), "a hidden curve is not drawn, and colours stay");
-        assert!(one.contains("mine") && !one.contains("Independent, shared") && one.contains(">\nrelative noise\n"), "{one}");
+        assert!(one.contains("mine") && !one.contains("Independent, shared") && one.contains(">\nestimated error\n"), "{one}");
     }
 
     #[test]

@@ -18,7 +18,7 @@ pub enum Quantity {
     Bias,
 }
 
-/// The curves of one picture: the same scene and camera. Those of other cameras, and of the scene before an edit, are kept for a return.
+/// The curves of one image: the same scene and camera. Those of other cameras, and of the scene before an edit, are kept for a return.
 #[derive(Default)]
 pub struct History {
     pub curves: Vec<Curve>,
@@ -34,7 +34,7 @@ pub struct History {
     earlier: Vec<Earlier>,
 }
 
-/// The curves of another picture.
+/// The curves of another image.
 struct Earlier {
     /// Alive as long as an undo can return to it.
     scene: Weak<Scene>,
@@ -51,7 +51,7 @@ const MOST_EARLIER: usize = 24;
 const MOST_CURVES: usize = COLOURS.len();
 
 impl History {
-    /// Shows the curves of this picture: none, or those that were recorded before, with their errors against this reference.
+    /// Shows the curves of this image: none, or those that were recorded before, with their errors against this reference.
     pub fn look_at(&mut self, scene: &Arc<Scene>, camera: &Camera, reference: Option<&Arc<Reference>>) {
         match self.subject.take() {
             Some((old, at)) if old.has_same_image(scene) && at == *camera => {}
@@ -65,7 +65,7 @@ impl History {
         }
     }
 
-    /// Puts the curves of a picture away, and gets those of another one back.
+    /// Puts the curves of an image away, and gets those of another one back.
     fn change_picture(&mut self, (old, from): (&Arc<Scene>, Camera), (scene, to): (&Arc<Scene>, &Camera)) {
         let (curves, reference, lost_light) = (std::mem::take(&mut self.curves), self.reference.take(), self.lost_light.take());
         self.renaming = None;
@@ -112,10 +112,10 @@ impl History {
 
     /// The name of the vertical axis of errors.
     pub fn error_title(&self) -> &'static str {
-        if self.is_measured() { "relative noise and error" } else { "relative noise" }
+        if self.is_measured() { "error, estimated and measured" } else { "estimated error" }
     }
 
-    /// Takes note of the series of the current picture without a cap.
+    /// Takes note of the series of the current image without a cap.
     pub fn note_series(&mut self, frame: &Frame) {
         if self.lost_light.as_ref().is_none_or(|known| known.spp() < frame.spp) {
             self.lost_light = LostLight::of(frame).or(self.lost_light.take());

@@ -8,10 +8,10 @@ use super::{
 };
 use crate::viewer::widgets::{list::closing, style};
 
-const FIGURES: &str = "Samples per pixel, render time and relative noise. Against the reference: relative error, and bias of the mean in \
-                       standard errors. The slope is that of the logarithm of the noise, with its 95 % interval; independent samples have −0.5. \
-                       Heavy tails: the noise once fell more slowly than 1/√N, because rare outliers were found late. Noise and slope \
-                       are then too optimistic.";
+const FIGURES: &str = "Samples per pixel, render time and estimated error. Against the reference: error, and bias of the mean in standard errors. \
+                       The slope is that of the logarithm of the estimated error, with its 95 % interval; independent samples have −0.5. \
+                       Heavy tails: the estimated error once fell more slowly than 1/√N, because rare outliers were found late. It \
+                       and the slope are then too optimistic.";
 const CLICK: &str = "A click hides or shows the curve. Right click or double click: rename, remove.";
 /// The widest name, in points.
 const NAME: f32 = 236.0;
@@ -52,7 +52,7 @@ fn explanation(history: &History) -> String {
             let points = if history.is_measured() { " Points: error against the reference." } else { "" };
             let has_floor = history.shown().any(|curve| history.bias_of_cap(curve).is_some());
             let floor = if has_floor { " Long dashes: bias of the cap, which stays." } else { "" };
-            format!("Lines: noise.{points}{floor} Dashed: {root} through the current curve, the rate of independent samples.")
+            format!("Lines: estimated error.{points}{floor} Dashed: {root} through the current curve, the rate of independent samples.")
         }
         Quantity::Bias => "Dashed: 0 and ±2 σ. Unbiased means stay within ±2 σ in 95 % of cases.".to_owned(),
     }
@@ -134,7 +134,7 @@ fn figures(curve: &Curve, over: HorizontalAxis, bias_of_cap: Option<f64>) -> Str
     let percent = |x: f64| format!("{:.2} %", 100.0 * x);
     let at_least = if curve.noise_is_lower_bound() { "≥ " } else { "" };
     let noise = last.noise.map_or("–".to_owned(), |noise| format!("{at_least}{}", percent(noise)));
-    let mut text = format!("N {}, {:.1} s, noise {noise}", last.spp, last.seconds);
+    let mut text = format!("N {}, {:.1} s, estimated error {noise}", last.spp, last.seconds);
     if let Some(error) = last.true_error {
         text += &format!("\nerror {}", percent(error));
     }
@@ -186,7 +186,7 @@ mod tests {
             curve.moments = moments;
             figures(&curve, HorizontalAxis::Samples, None)
         };
-        assert_eq!(curve(-1.5), "N 16, 2.0 s, noise 12.50 %\nerror 6.25 %, bias -1.5 σ");
+        assert_eq!(curve(-1.5), "N 16, 2.0 s, estimated error 12.50 %\nerror 6.25 %, bias -1.5 σ");
         assert!(curve(40.0).ends_with(", bias beyond + 37 σ") && curve(-40.0).ends_with(", bias beyond - 37 σ"));
     }
 }

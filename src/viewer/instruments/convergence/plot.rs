@@ -49,17 +49,17 @@ fn figures_column(ui: &mut Ui, history: &mut History, latest: [Option<u64>; 2], 
     legend::show(ui, history, latest);
     if !has_reference {
         ui.add_space(4.0);
-        ui.weak("Noise does not show bias. Render or open a reference (panel Display) to see the true error and the bias.");
+        ui.weak("The estimated error does not include bias. Render or open a reference (panel Display) to see the error and the bias.");
     }
     file
 }
 
 fn axis_choice(ui: &mut Ui, history: &mut History) {
     ui.horizontal(|ui| {
-        let name = if history.is_measured() { "Error" } else { "Noise" };
+        let name = if history.is_measured() { "Error" } else { "Estimated error" };
         ui.selectable_value(&mut history.what, Quantity::Error, name).on_hover_text(
-            "Lines are the relative noise, the root of relMSE estimated from the samples, which does not show bias. Points are the relative \
-             error, measured against the reference. Long dashes are the bias of a cap.",
+            "Lines are the estimated error: the root of relMSE, estimated from the samples. It does not include bias. Points are the error \
+             against the reference. Long dashes are the bias of a cap.",
         );
         ui.selectable_value(&mut history.what, Quantity::Bias, "Bias").on_hover_text(
             "Mean of the image minus that of the reference, in standard errors. An unbiased estimate stays within ±2 in 95 % of cases.",

@@ -11,7 +11,7 @@ const PATH: Color32 = Color32::from_rgb(255, 214, 90);
 /// Within the ring of a vertex that the camera does not see.
 const HOLLOW: Color32 = Color32::from_black_alpha(90);
 const LIGHT: Color32 = Color32::from_rgb(86, 200, 255);
-/// The path from the light.
+/// The light path.
 const FROM_LIGHT: Color32 = Color32::from_rgb(255, 140, 60);
 
 /// Draws the inspected pixel and the vertices of its path. `size` is that of the scene.
@@ -68,7 +68,7 @@ pub fn draw(ui: &Ui, area: &PictureArea, inspector: &PathInspector, camera: &Cam
     }
 }
 
-/// Draws the path from the light, and its connections with the path from the camera.
+/// Draws the light path, and its connections with the camera path.
 fn draw_light_path(
     painter: &Painter,
     BothEnds { light, camera, strategies }: &BothEnds,

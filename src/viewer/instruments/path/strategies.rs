@@ -1,4 +1,4 @@
-//! The table of the strategies of paths from both ends: what each finds with s vertices from the light and t from the camera.
+//! The table of the strategies of bidirectional paths: what each finds with s vertices from the light and t from the camera.
 use egui::{Grid, RichText, Ui};
 use noisefall_kernel::integrator::{BothEnds, PathPoint, StrategyTerm};
 use noisefall_scene::scene::Object;
@@ -9,7 +9,7 @@ use crate::viewer::widgets::style::elided;
 /// Columns, and what they say.
 const COLUMNS: [(&str, &str); 6] = [
     ("s, t", "Number of vertices from the light and from the camera. The tooltip lists them."),
-    ("connected at", "The last vertices of both paths. With s = 0, the path from the camera hits the light itself."),
+    ("connected at", "The last vertices of both paths. With s = 0, the camera path hits the light itself."),
     (
         "p",
         "Pdf of the vertices per area, m⁻² each, and per steradian for light from far away. Delta directions and roulette count as 1.",

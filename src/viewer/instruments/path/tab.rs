@@ -16,7 +16,7 @@ const SAMPLES: f32 = 352.0;
 /// Below this width the path stands under the samples, and not beside them.
 const NARROW: f32 = 640.0;
 
-/// The picture that is inspected.
+/// The image that is inspected.
 pub struct Subject<'a> {
     /// Its request to the renderer.
     pub request: Option<&'a RenderRequest>,
@@ -97,7 +97,7 @@ fn path(
     inspector.channel = channel;
 }
 
-/// Shows the terms of a sample in a width: of its strategies if there are paths from lights, or else of its vertices.
+/// Shows the terms of a sample in a width: of its strategies if there are light paths, or else of its vertices.
 fn terms(ui: &mut Ui, replay: &Replay, objects: &[Object], channel: Channel, room: f32) {
     match &replay.both_ends {
         Some(both) => strategies::show(ui, both, replay.radiance, objects, channel),
@@ -142,11 +142,11 @@ fn sample_column(ui: &mut Ui, inspector: &mut PathInspector, request: Option<&Re
     let saves = request.is_some_and(|request| copying::show(ui, inspector, request));
     let traces_light_paths = request.is_some_and(|request| light_paths::are_traced(&request.scene, &request.settings));
     if traces_light_paths {
-        ui.weak("Samples lack the light that paths from lights bring to this pixel from others (t = 1).");
+        ui.weak("Samples lack the light that light paths bring to this pixel from others (t = 1).");
     }
     ui.weak("Overlay: the path in yellow, with rings at vertices that the camera does not see; light samples in blue, faint if occluded.");
     if traces_light_paths {
-        ui.weak("The path from the light is orange. Dashes connect both paths where nothing lies between.");
+        ui.weak("The light path is orange. Dashes connect both paths where nothing lies between.");
     }
     saves
 }

@@ -54,7 +54,7 @@ pub fn heading(ui: &mut Ui, sample: u32, replay: &Replay, channel: &mut Channel)
         Some(_) => ui.weak("L = Σ w C over the strategies with t ≥ 2."),
         // Nothing is shared, and yet the path alone is not the sample.
         None if replay.alone.is_some() && replay.shared.is_none() => ui.weak(
-            "Vertices are merged with those of other pixels' paths. The table is that of the path from the camera, weighted as by MIS.",
+            "Vertices are merged with those of other pixels' paths. The table is that of the camera path, weighted as by MIS.",
         ),
         None => ui.weak(format!("L = Σ β f cos θ L_e τ w / p. The path {}.", replay.end.name())),
     };

@@ -32,7 +32,7 @@ pub struct StatusBar<'a> {
     pub comparison: Option<ReferenceComparison>,
     /// Relative noise of the reference itself, if it is known.
     pub reference_noise: Option<f64>,
-    /// Why the picture cannot be compared with the reference of the scene.
+    /// Why the image cannot be compared with the reference of the scene.
     pub mismatch: Option<String>,
     pub pixel: Option<Pixel<'a>>,
     /// The view shows a filtered image.
@@ -154,12 +154,12 @@ impl StatusBar<'_> {
         let text = self.status.relative_noise().map_or_else(|| "–".to_owned(), percent);
         let bound = if self.status.error_is_lower_bound { "≥ " } else { "" };
         let tail = if self.status.error_is_lower_bound {
-            " Few pixels carry this error (≥): paths rarely find the light that causes it, and the true error may be several times larger."
+            " Few pixels carry this error (≥): paths rarely find the light that causes it, and the error may be several times larger."
         } else {
             ""
         };
-        ui.label(format!("noise {bound}{text}")).on_hover_text(format!(
-            "Estimated relative error: the root of relMSE, the mean of (x − r)²/(r² + 0.01 · mean r²) over pixels x with true radiance r. It is \
+        ui.label(format!("estimated error {bound}{text}")).on_hover_text(format!(
+            "The root of relMSE, the mean of (x − r)²/(r² + 0.01 · mean r²) over pixels x with true radiance r. It is \
              estimated from the change of the image as the sample count doubles. It is unavailable until enough samples have hit a light.{tail}",
         ));
     }
@@ -169,10 +169,10 @@ impl StatusBar<'_> {
             let doc = "Root of relMSE, the mean of (x − r)²/(r² + 0.01 · mean r²), against the reference r: that of the scene, or the one that you rendered or opened.";
             let own = self
                 .reference_noise
-                .map_or_else(String::new, |noise| format!(" The reference has a noise of {}.", percent(noise)));
-            ui.label(format!("true error {}", percent(rel_mse.sqrt()))).on_hover_text(format!("{doc}{own}"));
+                .map_or_else(String::new, |noise| format!(" The reference has an estimated error of {}.", percent(noise)));
+            ui.label(format!("error {}", percent(rel_mse.sqrt()))).on_hover_text(format!("{doc}{own}"));
         } else if let Some(mismatch) = &self.mismatch {
-            ui.label(RichText::new("true error unknown").color(ui.warning())).on_hover_text(with_quotation_marks(mismatch));
+            ui.label(RichText::new("error unknown").color(ui.warning())).on_hover_text(with_quotation_marks(mismatch));
         }
     }
 

@@ -27,7 +27,7 @@ pub const KNOWN: [&str; 24] = [
     "KHR_mesh_quantization",
     "KHR_meshopt_compression",
     "KHR_texture_transform",
-    // They hold no part of the picture.
+    // They hold no part of the image.
     "KHR_node_selectability",
     "KHR_xmp",
     "KHR_xmp_json_ld",

@@ -7,7 +7,7 @@ fn estimator(kind: &str) -> Option<(Estimator, bool)> {
     Some(match kind {
         "direct" | "direct_projective" | "path" | "ptracer" | "volpath" | "volpath_simple" | "volpathmis" | "prb"
         | "prb_basic" | "prbvolpath" | "prb_projective" => (Estimator::Mis, false),
-        // Paths from both ends, Metropolis's among them, and virtual lights.
+        // Bidirectional paths, Metropolis's among them, and virtual lights.
         "bdpt" | "mlt" | "pssmlt" | "erpt" | "vpl" => (Estimator::Bidirectional, false),
         // Density estimation.
         "photonmapper" | "ppm" | "sppm" | "vcm" | "upm" => (Estimator::Bidirectional, true),
@@ -51,7 +51,7 @@ impl Import {
         }
         self.description.render.settings.max_bounces = depth.map(|depth| depth.saturating_sub(1));
         let both_ends = estimator.connects();
-        // The volumetric ones do not count the passage through masks, and our paths from both ends cannot.
+        // The volumetric ones do not count the passage through masks, and our bidirectional paths cannot.
         let counts = depth.is_some() && !both_ends && !element.kind().contains("vol");
         self.description.render.settings.count_crossings = counts;
         self.description.render.settings.estimator = estimator;

@@ -165,7 +165,7 @@ impl<'t> Element<'t> {
         self.children().any(|child| child.attribute("name") == Some(name))
     }
 
-    /// Marks values that do not change the picture as read.
+    /// Marks values that do not change the image as read.
     pub fn ignore(self, names: &[&str]) {
         self.children().filter(|child| child.attribute("name").is_some_and(|name| names.contains(&name))).for_each(|child| {
             child.see();

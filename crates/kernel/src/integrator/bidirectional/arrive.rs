@@ -24,7 +24,7 @@ use noisefall_scene::{
     sampling::Dimension,
 };
 
-/// Paths from lights arrive.
+/// Light paths arrive.
 #[simd]
 pub(super) fn arrive_from_lights<L: Lanes, O: Observer<L>>(
     l: L,
@@ -59,7 +59,7 @@ pub(super) fn arrive_from_lights<L: Lanes, O: Observer<L>>(
     }
 }
 
-/// Paths from the camera arrive, or leave the scene. `last`: this is the last bounce, and nothing is reflected.
+/// Camera paths arrive, or leave the scene. `last`: this is the last bounce, and nothing is reflected.
 #[simd]
 #[allow(clippy::too_many_arguments)]
 pub(super) fn arrive_from_camera<L: Lanes, O: Observer<L>>(
@@ -127,7 +127,7 @@ pub(super) fn arrive_from_camera<L: Lanes, O: Observer<L>>(
     }
 }
 
-/// At its first surface, one camera path is compared with the paths from lights of all pixels.
+/// At its first surface, one camera path is compared with the light paths of all pixels.
 #[inline(always)]
 fn seen_first<L: Lanes>(l: L, work: &Work, path: &Path<L>, interaction: &SurfaceInteraction<L>, cos: F<L>) -> Partial<L> {
     let lens = work.stream(l, path.slot).two(Dimension::LENS);
@@ -135,7 +135,7 @@ fn seen_first<L: Lanes>(l: L, work: &Work, path: &Path<L>, interaction: &Surface
     Partial { v: work.light_paths_of_image() / (join.density * cos), c: l.f(0.0) }
 }
 
-/// What the weights of lights depend on that paths from the camera meet.
+/// What the weights of lights depend on that camera paths meet.
 struct HitWeigher<L: Lanes> {
     /// The camera sees the lights directly, and no other strategy finds that.
     first: bool,

@@ -1,4 +1,4 @@
-//! Shading of paths from the camera: samples lights, connects the vertices with those of paths from lights, and samples the next
+//! Shading of camera paths: samples lights, connects the vertices with those of light paths, and samples the next
 //! directions.
 use fearless_simd_macros::simd;
 
@@ -46,7 +46,7 @@ pub(super) fn shade_camera_paths<L: Lanes, O: Observer<L>>(
     next.clear();
     let connects = work.settings.estimator.connects();
     let only_caustics = work.settings.estimator.traces_only_caustics();
-    // What paths from lights bring to the first surface is found by them alone.
+    // What light paths bring to the first surface is found by them alone.
     let is_joined = !connects && !only_caustics && *bounce == 0;
     let others = match *bounce {
         _ if connects => CompetingStrategies::All,

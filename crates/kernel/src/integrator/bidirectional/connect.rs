@@ -1,4 +1,4 @@
-//! Connects the vertices of paths from the camera with those of the path from the light of the same sample.
+//! Connects the vertices of camera paths with those of the light path of the same sample.
 use fearless_simd_macros::simd;
 
 use super::{
@@ -24,7 +24,7 @@ use noisefall_scene::{material::Stage, scene::surface};
 /// for any number of lanes.
 const TOGETHER: usize = 32;
 
-/// A register of vertices of paths from the camera.
+/// A register of vertices of camera paths.
 pub(super) struct Connector<'a, 'w, L: Lanes> {
     pub work: &'a Work<'w>,
     pub stage: Stage,
@@ -37,7 +37,7 @@ pub(super) struct Connector<'a, 'w, L: Lanes> {
 }
 
 impl<L: Lanes> Connector<'_, '_, L> {
-    /// Queues the connections with all vertices of the paths from the lights.
+    /// Queues the connections with all vertices of the light paths.
     #[inline(always)]
     pub fn connect<O: Observer<L>>(
         &self,

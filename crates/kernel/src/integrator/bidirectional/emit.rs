@@ -1,4 +1,4 @@
-//! First stage of paths from lights: samples a light, a point and a direction for every slot.
+//! First stage of light paths: samples a light, a point and a direction for every slot.
 use fearless_simd_macros::simd;
 
 use super::observer::Observer;

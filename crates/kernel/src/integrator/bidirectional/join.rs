@@ -1,4 +1,4 @@
-//! Tests which vertices of paths from lights the camera sees.
+//! Tests which vertices of light paths the camera sees.
 use fearless_simd_macros::simd;
 
 use super::observer::Observer;

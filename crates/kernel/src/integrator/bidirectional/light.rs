@@ -1,4 +1,4 @@
-//! Shading of paths from lights: joins their vertices with the camera, keeps them for connections, and samples the next directions.
+//! Shading of light paths: joins their vertices with the camera, keeps them for connections, and samples the next directions.
 use fearless_simd_macros::simd;
 
 use super::{
@@ -45,7 +45,7 @@ pub(super) fn shade_light_paths<L: Lanes, O: Observer<L>>(
     next.clear();
     let (connects, only_caustics) = (work.settings.estimator.connects(), work.settings.estimator.traces_only_caustics());
     let merged = merged_paths(work);
-    // A merge is at a surface of the path from the camera, and does not count as one more.
+    // A merge is at a surface of the camera path, and does not count as one more.
     let is_kept = connects && (merged > 0.0 || *bounce + 2 <= work.settings.last_bounce());
     // Without a surface between, camera paths find the light by light samples.
     let is_joined = !only_caustics || *bounce > 0;

@@ -1,10 +1,10 @@
-//! Vertex merging: a path from the camera takes over the light of paths from lights that end nearby (I. Georgiev, J. Křivánek,
+//! Vertex merging: a camera path takes over the light of light paths that end nearby (I. Georgiev, J. Křivánek,
 //! T. Davidovič and P. Slusallek, "Light Transport Simulation with Vertex Connection and Merging", 2012).
 //!
 //! The light of N paths, those of all pixels of the tile, is averaged over a disk of radius r. It finds what no connection can, such as a
 //! caustic that is seen in a mirror. The image is blurred by r, which is a bias; r shrinks with the number of samples, and the bias with it.
 //!
-//! With η = N π r², a merge has η times the pdf per area of the last vertex that the path from the light has. So η joins the partial sums
+//! With η = N π r², a merge has η times the pdf per area of the last vertex that the light path has. So η joins the partial sums
 //! of all strategies wherever a vertex could have been merged, and those of a merge are divided by it ([`Partial::sum`],
 //! [`Partial::scatter`]; sections 4.2 and 4.3 of I. Georgiev, "Implementing Vertex Connection and Merging", 2012).
 //!
@@ -22,13 +22,13 @@ use crate::integrator::{
 };
 use noisefall_base::math::{Lanes, MAX_LANES, Pick};
 
-/// Makes the vertices of the paths from lights ready to be found.
+/// Makes the vertices of the light paths ready to be found.
 pub(super) fn prepare(work: &Work, state: &mut LightPaths) {
     state.grid.fill(state.vertices.positions(), radius(work));
 }
 
 impl<L: Lanes> Connector<'_, '_, L> {
-    /// Adds the light of all paths from lights that end nearby.
+    /// Adds the light of all light paths that end nearby.
     #[inline(always)]
     pub fn merge(&self, l: L, state: &mut LightPaths, radiance: &mut [[f32; 4]]) {
         let Connector { work, stage, hits, at, vertex, reflection, merged } = self;

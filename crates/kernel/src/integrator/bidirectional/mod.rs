@@ -1,15 +1,15 @@
-//! Paths from both ends: the estimators `caustics`, `light_tracing` and `bidirectional`.
+//! Bidirectional paths: the estimators `caustics`, `light_tracing` and `bidirectional`.
 //!
-//! A path from a light belongs to every sample of a pixel, beside its path from the camera. With y₀ at the light and z₀ at the camera, a
+//! A light path belongs to every sample of a pixel, beside its path from the camera. With y₀ at the light and z₀ at the camera, a
 //! strategy (s, t) takes s vertices from the light and t from the camera:
 //!
 //! | strategy | stage | finds light |
 //! |---|---|---|
-//! | s = 0 | `arrive.rs` | where the path from the camera meets a light |
+//! | s = 0 | `arrive.rs` | where the camera path meets a light |
 //! | s = 1 | `camera.rs`, `direct.rs` | by light samples |
-//! | t = 1 | `light.rs`, `join.rs` | where a vertex of the path from the light is joined with the camera, in any pixel |
+//! | t = 1 | `light.rs`, `join.rs` | where a vertex of the light path is connected to the camera, in any pixel |
 //! | s, t ≥ 2 | `connect.rs` | where two vertices are connected |
-//! | merging | `merge.rs` | where a vertex of a path from a light is near |
+//! | merging | `merge.rs` | where a vertex of a light path is near |
 //!
 //! `bidirectional` weights all of them by the balance heuristic (Veach 1997, section 10.2). The weights are computed from two numbers of
 //! each path, which follow it from vertex to vertex (D. van Antwerpen, "Recursive MIS Computation for Streaming BDPT on the GPU", 2011;

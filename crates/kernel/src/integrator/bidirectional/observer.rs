@@ -1,4 +1,4 @@
-//! Observers of paths from both ends, for replays.
+//! Observers of bidirectional paths, for replays.
 use super::scatter::Scattered;
 use crate::integrator::{interaction::SurfaceInteraction, surface::Arrival};
 use noisefall_base::math::{F, Lanes, M, U, V};
@@ -41,7 +41,7 @@ pub(in crate::integrator) trait Observer<L: Lanes> {
     ) {
     }
 
-    /// Paths from the camera leave the scene.
+    /// Camera paths leave the scene.
     fn left(&mut self, _miss: M<L>, _arrival: &Arrival<L>) {}
 
     /// Paths go on.
@@ -50,7 +50,7 @@ pub(in crate::integrator) trait Observer<L: Lanes> {
     /// Strategies find light. With t = 1, [`Observer::joined`] tells what is visible.
     fn found(&mut self, _lanes: M<L>, _term: &Term<L>) {}
 
-    /// These fractions of the light of vertices that were joined with the camera arrive at these places of the image.
+    /// These fractions of the light of vertices that were connected to the camera arrive at these places of the image.
     fn joined(&mut self, _fraction: F<L>, _place: [F<L>; 2]) {}
 }
 

@@ -32,7 +32,7 @@ pub(in crate::integrator) struct Scattered<L: Lanes> {
     pub o: V<L>,
     /// Unit.
     pub d: V<L>,
-    /// Factor of the throughput of a path from the camera, and of one from a light.
+    /// Factor of the throughput of a camera path, and of one from a light.
     pub weight: V<L>,
     pub adjoint_weight: V<L>,
     /// Pdf of the direction, and that of the direction back after it; meaningless if `delta`.

@@ -1,4 +1,4 @@
-//! The loops of the paths from both ends.
+//! The loops of the bidirectional paths.
 use fearless_simd_macros::simd;
 
 use super::{
@@ -18,7 +18,7 @@ use crate::integrator::{
 use noisefall_base::math::Lanes;
 use noisefall_scene::light::LightRays;
 
-/// Traces one sample of every pixel of a tile from both ends. The result is [`Batch::radiance`] and [`Batch::splats`].
+/// Traces one sample of every pixel of a tile from camera and light. The result is [`Batch::radiance`] and [`Batch::splats`].
 pub(in crate::integrator) fn trace_both_ends<L: Lanes, O: Observer<L>>(
     l: L,
     work: &Work,

@@ -1,4 +1,4 @@
-//! The data of paths from both ends, by slot, and the queues of their stages.
+//! The data of bidirectional paths, by slot, and the queues of their stages.
 use super::{
     grid::Grid,
     path_state::PathState,
@@ -9,11 +9,11 @@ use crate::integrator::{queue::Queue, queues::HitQueues, slots::SLOTS};
 use noisefall_base::math::{MAX_LANES, One};
 use noisefall_scene::material::Stage;
 
-/// The numbers and queues of paths from both ends. Allocated when the first batch of them is traced.
+/// The numbers and queues of bidirectional paths. Allocated when the first batch of them is traced.
 pub struct LightPaths {
     pub light_subpath: PathState,
     pub camera_subpath: PathState,
-    /// Flux of the paths from the lights where they start, and the reciprocal of the light density there.
+    /// Flux of the light paths where they start, and the reciprocal of the light density there.
     pub fluxes: Vec<[f32; 4]>,
     /// Their lights, and the places there: primitives and triangles.
     pub sources: Vec<[f32; 4]>,

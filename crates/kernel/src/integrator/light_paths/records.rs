@@ -1,4 +1,4 @@
-//! The records of paths from both ends.
+//! The records of bidirectional paths.
 use crate::integrator::queue::record;
 
 record! {
@@ -21,7 +21,7 @@ record! {
 }
 
 record! {
-    /// A vertex of a path from a light that is joined with the camera, if nothing lies between.
+    /// A vertex of a light path that is connected to the camera, if nothing lies between.
     CameraRay {
         o: V,
         d: V,
@@ -35,7 +35,7 @@ record! {
 }
 
 record! {
-    /// A vertex of a path from the camera that is connected with one of a path from a light.
+    /// A vertex of a camera path that is connected with one of a light path.
     Connection {
         o: V,
         /// Unit direction to the vertex of the light.

@@ -1,7 +1,7 @@
 //! Light that arrives in any pixel.
 use noisefall_scene::sampling::Filter;
 
-/// Light that a path from a light brings to the image. The mean over all paths of its filtered sums is the image.
+/// Light that a light path brings to the image. The mean over all paths of its filtered sums is the image.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Splat {
     /// Where it arrives, in pixels from the upper left corner; maybe outside of the image.

@@ -1,4 +1,4 @@
-//! The vertices of a batch's paths from lights, for connections.
+//! The vertices of a batch's light paths, for connections.
 use super::{
     partial::Partial,
     path_state::{PathVertex, inside},

@@ -1,4 +1,4 @@
-//! Replays the paths from both ends of a sample, and what each strategy (s, t) finds.
+//! Replays the bidirectional paths of a sample, and what each strategy (s, t) finds.
 use serde::Serialize;
 
 use crate::integrator::{
@@ -56,7 +56,7 @@ pub struct StrategyTerm {
     pub contribution: [f32; 3],
 }
 
-/// Replays the paths from both ends of a batch of one pixel; `None` if there are no paths from lights. Merges take over light of other
+/// Replays the bidirectional paths of a batch of one pixel; `None` if there are no light paths. Merges take over light of other
 /// pixels: with them only the batch is traced.
 pub(super) fn both_ends(work: &Work, batch: &mut Batch) -> Option<BothEnds> {
     let rays = work.scene.light_rays(work.settings)?;

@@ -36,20 +36,20 @@ use noisefall_scene::scene::{CameraRays, Estimator, RenderSettings, Reuse, Scene
 pub struct Replay {
     /// The sample's estimate of the pixel's radiance.
     pub radiance: [f32; 3],
-    /// The estimate by this path alone, if pixels reuse paths; with paths from lights, as `mis` weights it.
+    /// The estimate by this path alone, if pixels reuse paths; with light paths, as `mis` weights it.
     pub alone: Option<[f32; 3]>,
     /// The paths that pixels share in this sample, if they do.
     pub shared: Option<SharedLight>,
-    /// The paths from both ends, if there are paths from lights and nothing is merged.
+    /// The bidirectional paths, if there are light paths and nothing is merged.
     pub both_ends: Option<BothEnds>,
-    /// Vertices of the path from the camera in order. The contributions of their emission and of their light samples add up to the
+    /// Vertices of the camera path in order. The contributions of their emission and of their light samples add up to the
     /// radiance, or to `alone` if there is one.
     pub vertices: Vec<Vertex>,
     /// Reason of the end of the path.
     pub end: End,
 }
 
-/// Replays sample number `sample` of a pixel. With paths from lights, the radiance lacks what other samples bring to the pixel.
+/// Replays sample number `sample` of a pixel. With light paths, the radiance lacks what other samples bring to the pixel.
 pub fn replay(scene: &Scene, rays: &CameraRays, settings: &RenderSettings, pixel: [u32; 2], sample: u32) -> Replay {
     if scene.traces_light_paths(settings) {
         let from_camera = RenderSettings { estimator: Estimator::Mis, reuse: Reuse::Off, ..*settings };

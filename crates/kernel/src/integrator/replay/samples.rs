@@ -12,7 +12,7 @@ use crate::integrator::{
 use noisefall_base::math::SimdLevel;
 use noisefall_scene::scene::{CameraRays, RenderSettings, Scene};
 
-/// The radiance of these samples of a pixel, bit for bit as in the renderer; with paths from lights, without what other samples bring
+/// The radiance of these samples of a pixel, bit for bit as in the renderer; with light paths, without what other samples bring
 /// to the pixel. `None` if interrupted.
 ///
 /// A batch takes one sample in each of its blocks, so that registers are full; where pixels share it takes one sample.

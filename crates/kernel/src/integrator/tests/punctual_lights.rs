@@ -147,7 +147,7 @@ fn an_emitter_behind_a_light_is_not_taken_for_it() {
     assert!(mean(&hidden, Estimator::Light, Reuse::Off, 400)[0].0 < 1e-5);
 }
 
-/// Mean radiance of the picture by channel, with its standard error, over independent samples.
+/// Mean radiance of the image by channel, with its standard error, over independent samples.
 fn mean(scene: &Scene, estimator: Estimator, reuse: Reuse, samples: u32) -> [(f64, f64); 3] {
     let settings = RenderSettings { estimator, reuse, sampler: Sampler::Independent, ..RenderSettings::default() };
     let rays = scene.rays(&scene.camera);

@@ -252,7 +252,7 @@ fn by_counted_work(scene: &Scene, camera: &Camera, threads: &Threads, settings: 
     let bench = Bench { scene, camera, threads, stop: &|| false };
     let picture = |round| {
         let (seeded, mut film) = (RenderSettings { seed: settings.seed + round, ..settings }, bench.film());
-        let (_, count) = bench.pass(&seeded, &mut film, SPP).expect("a picture");
+        let (_, count) = bench.pass(&seeded, &mut film, SPP).expect("an image");
         RoundPicture { round, seconds: count.rays as f64, radiance: bench.frame(&film).radiance }
     };
     Series { settings, pictures: (0..rounds).map(picture).collect() }

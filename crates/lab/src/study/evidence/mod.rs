@@ -119,9 +119,9 @@ pub fn collect(
         })?;
         findings.extend(found.into_iter().map(|findings| (topic.setting, findings)));
     }
-    observe("pictures", 1.0 - FOR_PICTURES);
+    observe("images", 1.0 - FOR_PICTURES);
     let pictures = pictures(bench, spp, plan.display)?;
-    observe("pictures", 1.0);
+    observe("images", 1.0);
     Ok(Chapter::new(&Exhibits { study_scene, findings: &findings, pictures, spp, repeats: REPEATS, machine }))
 }
 

@@ -95,7 +95,7 @@ fn a_bias_has_standard_errors_and_is_bounded_if_the_variance_is_finite() {
     });
 }
 
-/// `light` is the best, `mis` has heavy tails, and the error of `path` is still near that of a black picture.
+/// `light` is the best, `mis` has heavy tails, and the error of `path` is still near that of a black image.
 fn estimators() -> Findings {
     let with = |estimator, runs: [Run; 2]| outcome(RenderSettings { estimator, ..RenderSettings::default() }, &runs);
     let heavy = || {

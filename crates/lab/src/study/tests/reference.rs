@@ -20,13 +20,7 @@ const SIZE: [u32; 2] = [32, 8];
 fn study_scene(known: Option<KnownReference>, is_declared: bool) -> StudyScene {
     let scene = parse("scene.toml", include_str!("../../../../../scenes/furnace.toml").to_owned()).expect("a scene");
     let camera = noisefall_scene::scene::Camera { resolution: SIZE, ..scene.camera };
-    StudyScene {
-        path: "scene.toml".into(),
-        scene,
-        camera,
-        known: known.map(|known| (known, "a picture".to_owned())),
-        is_declared,
-    }
+    StudyScene { path: "scene.toml".into(), scene, camera, known: known.map(|known| (known, "an image".to_owned())), is_declared }
 }
 
 /// An image of radiance 2 with this variance and this estimate of relMSE.
@@ -100,7 +94,7 @@ fn a_converged_render_knows_its_own_error_and_is_kept() {
     let files: Vec<_> = std::fs::read_dir(folder.path()).expect("a folder").map(|entry| entry.expect("a file").path()).collect();
     assert_eq!(files.len(), 2);
     let halves: Vec<Vec<[f32; 3]>> =
-        files.iter().map(|file| noisefall_render::render::image_file::read(file).expect("a picture").radiance).collect();
+        files.iter().map(|file| noisefall_render::render::image_file::read(file).expect("an image").radiance).collect();
     for (i, radiance) in found.radiance.iter().enumerate() {
         assert!((0..3).all(|c| (radiance[c] - 0.5 * (halves[0][i][c] + halves[1][i][c])).abs() < 1e-6));
     }

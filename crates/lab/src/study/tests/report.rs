@@ -61,7 +61,7 @@ fn lines_of_a_run_say_all_that_it_depends_on() {
     };
     let floor = Floor::Absolute(0.5);
     let reference = Reference {
-        name: "a picture".to_owned(),
+        name: "an image".to_owned(),
         radiance: vec![[1.0; 3]; 200],
         rel_mse: 0.01,
         variance_of_mean: 0.0,
@@ -95,7 +95,7 @@ fn lines_of_a_run_say_all_that_it_depends_on() {
     assert_eq!((row.paths_per_second, row.reference_rel_mse, row.invalid_samples), (20.0 * 10.0 * 8.0 / 4.0, 0.01, 3));
     assert_eq!(
         [&row.biased, &row.reference, &row.simd, &row.cpu, &row.version, &row.commit, &row.key],
-        ["cap at 2", "a picture", "AVX2", "a processor", "1.2.3", "abc", "k"]
+        ["cap at 2", "an image", "AVX2", "a processor", "1.2.3", "abc", "k"]
     );
 }
 

@@ -78,7 +78,7 @@ pub fn section(validation: &Validation) -> Section {
         title: "Default settings",
         claim: "The default settings, all together and one by one, give the exact means.",
         derivation: &[
-            "The defaults are MIS, Sobol points, BSDF directions, roulette by throughput from the fourth bounce on, and path reuse or reused outliers if a trial shows a gain; adaptive sampling is optional. These rows render like the program itself, in passes over a film and after the same decisions. The estimators with paths from lights have rows, too. Path reuse and adaptive sampling have rows where the program applies them: paths are not reused at glass, for example, and uniform noise leaves nothing to adapt to.",
+            "The defaults are MIS, Sobol points, BSDF directions, roulette by throughput from the fourth bounce on, and path reuse or reused outliers if a trial shows a gain; adaptive sampling is optional. These rows render like the program itself, in passes over a film and after the same decisions. The estimators with light paths have rows, too. Path reuse and adaptive sampling have rows where the program applies them: paths are not reused at glass, for example, and uniform noise leaves nothing to adapt to.",
             "The radiance of a wall of the textured integrating sphere is L_e + ρ H, with H from the section on that room. The ground under a light that is partly below the horizon has (ρ/π) E. The wall of the closed sphere has 0.5, and a clear ball of glass in a uniform field of 1 has 1. On Lambert’s ball the lit pixels are summed.",
             "These samples are not independent of each other, so their variance does not give the standard error. The image is rendered with several seeds. The means are independent, and their spread gives the standard error (Student’s t).",
         ],
@@ -100,7 +100,7 @@ impl KnownScene {
         KnownScene { name, exact: vec![Some(exact); (width * height) as usize], scene }
     }
 
-    /// Whether an estimator traces paths from lights, and finds light in the view.
+    /// Whether an estimator traces light paths, and finds light in the view.
     fn suits(&self, estimator: Estimator) -> bool {
         let sees_a_point = self.scene.camera.fov < 0.1;
         estimator.traces_light_paths() && (!sees_a_point || of_a_point().any(|suited| suited == estimator))

@@ -10,7 +10,7 @@ use crate::validate::{
 use noisefall_kernel::measure::picture;
 use noisefall_scene::scene::Estimator;
 
-/// Pixels along the picture's sides.
+/// Pixels along the image's sides.
 const SIDE: u32 = 32;
 /// The variance of a number of samples from which on it is nearly normal.
 const ENOUGH: f64 = 50.0;
@@ -54,7 +54,7 @@ fn filters(validation: &Validation) -> Vec<Statement> {
 /// The plane of the edge in front of the plane in focus, and behind it.
 fn lenses(validation: &Validation) -> Vec<Statement> {
     const RADIUS: f64 = 0.05;
-    /// Half of the picture's width, over the distance.
+    /// Half of the image's width, over the distance.
     const HALF: f64 = 0.2;
     const EDGE: f64 = 0.0041;
     const POINTS: u32 = 256;

@@ -139,7 +139,7 @@ fn render(
     Some(outcome)
 }
 
-/// Renders the scene with paths from lights, too. Only means are known, and that of an image is a single value, as its pixels depend on
+/// Renders the scene with light paths, too. Only means are known, and that of an image is a single value, as its pixels depend on
 /// each other.
 fn render_both_ends(
     scene: &Scene,

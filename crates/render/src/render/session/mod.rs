@@ -117,7 +117,7 @@ impl Session {
         if session.count.failure.is_none() {
             session.film.keep_series();
         }
-        // The picture that it is the series of is there to look at.
+        // The image that it is the series of is there to look at.
         session.last_frame = Some(Instant::now());
         session
     }

@@ -17,7 +17,7 @@ const LONGEST_INTERVAL: Duration = Duration::from_millis(500);
 impl Session {
     pub(super) fn interval(&self, publish: Publish) -> Duration {
         match publish {
-            // Many pictures in one are not copied so often.
+            // Many images in one are not copied so often.
             Publish::Live if self.film.has_series() => LONGEST_INTERVAL,
             Publish::Live => (self.elapsed / 20).clamp(SHORTEST_INTERVAL, LONGEST_INTERVAL),
             Publish::Sparse => LONGEST_INTERVAL,
@@ -27,7 +27,7 @@ impl Session {
     /// Whether the samples that no frame shows yet should be shown now.
     pub fn frame_due(&self, publish: Publish, at_rest: bool) -> bool {
         let waited = self.last_frame.is_none_or(|last| last.elapsed() >= self.interval(publish));
-        // The full picture is shown once it has no holes; until then the last coarse one stays.
+        // The full image is shown once it has no holes; until then the last coarse one stays.
         let complete = self.coarse.is_some() || self.film.spp() > 0;
         self.stale && complete && (at_rest || waited || self.coarse.is_some())
     }

@@ -34,7 +34,7 @@ fn the_first_picture_is_as_coarse_as_its_time_allows_and_each_next_one_twice_as_
     let mut sizes = Vec::new();
     while session.is_coarse() {
         session.advance(&threads(), &to(1), Publish::Live, NEVER);
-        assert!(session.frame_due(Publish::Live, false), "a coarse picture is shown at once");
+        assert!(session.frame_due(Publish::Live, false), "a coarse image is shown at once");
         let frame = session.frame();
         assert_eq!((frame.full_resolution, frame.generation, frame.spp), ([1000, 900], 4, 1));
         sizes.push([frame.width, frame.height]);
@@ -138,7 +138,7 @@ fn a_region_comes_first_once_every_pixel_has_a_sample_and_until_it_is_done() {
     assert_eq!(session.focus(&budget(Some(5), None)), None, "it has its samples");
     assert_eq!(session.focus(&budget(Some(6), None)), Some(region));
     let far = Budget { region: Some(Region::between([500, 500], [600, 600])), ..to(6) };
-    assert_eq!(session.focus(&far), None, "it is not in the picture");
+    assert_eq!(session.focus(&far), None, "it is not in the image");
     // Noise is not believed too early, and that of another region says nothing.
     session.region_estimate = Some((region, 0.0));
     assert_eq!(session.focus(&budget(None, Some(0.1))), Some(region));

@@ -48,7 +48,7 @@ pub struct SampleFilm {
     tiles: Vec<RangeTile>,
     samples: Range<u32>,
     count: PassCount,
-    /// What paths from lights bring to the pixels, if the estimator traces any.
+    /// What light paths bring to the pixels, if the estimator traces any.
     splats: Option<SplatFilm>,
     _memory: [Option<Reservation>; 2],
 }

@@ -8,7 +8,7 @@
 //! | 17 each | exact sums of the pixels: red, green, blue, and their squares, each row by row |
 //! | 17 each | exact sums of the blocks: (r + g + b)², over samples and pixels |
 //! | 17 each | exact sums of the sample's sum over pixels and channels, and of its square |
-//! | 4 each | of paths from lights, if there are any, the number of values in the sums of each pixel |
+//! | 4 each | of light paths, if there are any, the number of values in the sums of each pixel |
 //! | 17 each | exact sums of what they bring to each pixel: red, green, blue, and their squares |
 //!
 //! A list of sums is the multiples of the units of their bins, those of the bins below, and the bins: 8, 8 and 1 bytes each.

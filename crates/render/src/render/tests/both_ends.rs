@@ -1,4 +1,4 @@
-//! Paths from both ends: every strategy alone, and all of them together.
+//! Bidirectional paths: every strategy alone, and all of them together.
 use crate::render::{
     film::Film,
     frame::Frame,
@@ -125,7 +125,7 @@ fn every_strategy_alone_finds_the_light_of_its_number_of_reflections() {
             };
             let [light_samples, variance] = alone(1);
             assert!(light_samples > 0.0 && variance > 0.0);
-            // A path from a light does not leave a smooth surface in directions from which the smooth normal cannot be seen, and where the
+            // A light path does not leave a smooth surface in directions from which the smooth normal cannot be seen, and where the
             // normal is that of the surface.
             let most = if shape == SMOOTH_CUBE { 2 } else { reflections + 1 };
             for s in (0..=most).filter(|s| *s != 1) {
@@ -255,7 +255,7 @@ fn light_that_starts_in_glass_is_attenuated() {
     assert_alike(&scene, [[1, 3], [2, 2]], 8000);
 }
 
-/// Rough glass that emits samples only punctual lights, and paths from lights start there, too. Paths start neither where light passes
+/// Rough glass that emits samples only punctual lights, and light paths start there, too. Paths start neither where light passes
 /// through the light, nor where no point is sampled, nor where the medium may change.
 #[test]
 fn lights_of_every_kind_shine_as_with_mis() {

@@ -170,7 +170,7 @@ fn a_picture_has_no_figure_before_light_is_found_and_a_black_one_gets_it_late() 
     assert!(frame(&film).noise.is_some_and(|noise| noise.variance_of_mean() == 0.0 && noise.effective_samples == f64::INFINITY));
 }
 
-/// Means over tiles of many pictures scatter as each picture says that they do. Returns the moments, over these pictures, of the variance
+/// Means over tiles of many images scatter as each image says that they do. Returns the moments, over these images, of the variance
 /// of the mean relative to what it would be if pixels were independent.
 fn assert_scatter(scene: &Scene, settings: &RenderSettings, spp: u32, what: &str) -> Moments {
     const SEEDS: u32 = 32;
@@ -190,7 +190,7 @@ fn assert_scatter(scene: &Scene, settings: &RenderSettings, spp: u32, what: &str
         let sum: f64 = noise.variance.iter().map(|rgb| rgb.iter().map(|v| f64::from(*v).sqrt()).sum::<f64>().powi(2) / 9.0).sum();
         correlation.push(noise.variance_of_mean() / (sum / f64::from(SIDE.pow(4))));
     }
-    // Tiles share no paths but those that light sends to other pixels. Each ratio is F of 31 degrees and those of all pictures.
+    // Tiles share no paths but those that light sends to other pixels. Each ratio is F of 31 degrees and those of all images.
     let bound = 4.0 * (2.0 / 16.0 * (1.0 / f64::from(SEEDS - 1) + 1.0 / (f64::from(SEEDS) * degrees))).sqrt();
     let ratios: Vec<f64> = means.into_iter().zip(&said).map(|(means, said)| Moments::of(means).variance / said).collect();
     let mean = ratios.iter().sum::<f64>() / 16.0;
@@ -253,7 +253,7 @@ fn path_reuse_is_decided_once_for_a_scene() {
                     let settings =
                         RenderSettings { estimator, sampler, max_bounces, reuse: Reuse::Auto, ..RenderSettings::default() };
                     let resolved = resolved(&scene, &rays, &settings);
-                    // Paths from lights are shared by all pixels already.
+                    // Light paths are shared by all pixels already.
                     let decision = if scene.traces_light_paths(&resolved) { Reuse::Off } else { decision };
                     assert_eq!(resolved.reuse, decision, "{name}: {settings:?}");
                 }

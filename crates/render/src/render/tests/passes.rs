@@ -140,7 +140,7 @@ fn pixels_of_a_frame_are_those_of_the_film() {
     }
     let frame = frame(&film);
     for (x, y) in (0..SIZE[1]).flat_map(|y| (0..SIZE[0]).map(move |x| (x, y))) {
-        let i = frame.index_at([x, y]).expect("it lies in the picture");
+        let i = frame.index_at([x, y]).expect("it lies in the image");
         let [a, b] = [0, 1].map(|number| sample(x, y, number));
         assert_eq!(frame.radiance[i], [0, 1, 2].map(|c| 0.5 * (a[c] + b[c])), "{x}, {y}");
         // The standard error of the mean of two is half their difference; those of channels add up.

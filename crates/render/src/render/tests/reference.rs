@@ -55,7 +55,7 @@ fn a_frame_is_held_against_a_radiance_or_a_picture_of_its_size() {
 #[test]
 fn nothing_is_held_against_a_denoised_image() {
     let frame = frame([0.01, 0.03]);
-    let Reference::Picture(picture, _) = picture(1.0, None) else { panic!("it is a picture") };
+    let Reference::Picture(picture, _) = picture(1.0, None) else { panic!("it is an image") };
     let reference = Reference::Picture(picture, Arc::new(Provenance { is_denoised: true, ..Provenance::default() }));
     assert!(reference.compare(&frame).is_none() && reference.bias(&frame).is_none() && reference.block_errors(&frame).is_none());
     assert_eq!(reference.contradiction(&frame), None);

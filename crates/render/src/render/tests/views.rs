@@ -185,7 +185,7 @@ fn numbers_have_the_colours_of_their_scale() {
     assert_eq!((scale.map, scale.ends, scale.log), (ColourMap::Diverging, [-4.0, 4.0], false));
     let table = ColourMap::Diverging.table();
     assert_eq!([pixels[0], pixels[1], pixels[3], pixels[7]], [table[0], table[128], table[255], GREY]);
-    // That of another picture takes the place of its own.
+    // That of another image takes the place of its own.
     let given = Scale { ends: [0.0, 2.0], ..scale };
     let (legend, _) = draw(look, &Sources { reference: Some(&truth), scale: Some(given), ..sources(&frame, &[]) }, &mut pixels)
         .expect("scores");
@@ -276,7 +276,7 @@ fn colours_are_those_of_the_maps_and_even_between() {
     assert_eq!([table[0], table[51], table[255]], [[0, 34, 78, 255], [r, g, b, 255], [254, 232, 56, 255]]);
 }
 
-/// The terms of every pixel, in tiles that do not fill the picture, add up to the picture and to those before.
+/// The terms of every pixel, in tiles that do not fill the image, add up to the image and to those before.
 #[test]
 fn a_series_is_the_picture_by_numbers_of_bounces() {
     let scene = built_in();
@@ -297,7 +297,7 @@ fn a_series_is_the_picture_by_numbers_of_bounces() {
         assert!(found.len() == 75 * 40 && !found.as_flattened().iter().zip(exact.as_flattened()).any(far), "{what}");
     };
     let frame = |film: &Film| Frame::of_film(film, 0, resolution, resolution).radiance;
-    near(&series.up_to(series.terms.len() - 1), &frame(&whole), "all terms are the picture");
+    near(&series.up_to(series.terms.len() - 1), &frame(&whole), "all terms are the image");
     for cap in [0, 1, 3] {
         near(&series.up_to(cap), &frame(&film(Some(cap as u32))), "what a cap lets pass");
     }

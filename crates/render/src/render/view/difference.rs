@@ -61,7 +61,7 @@ fn difference(sources: &Sources) -> Option<Vec<f32>> {
     let floor = Floor::DEFAULT.of_picture(&other);
     let relative = |(a, b): (&[f32; 3], &[f32; 3])| {
         let (a, b) = (f64::from(luminance(*a)), f64::from(luminance(*b)));
-        // Two black pixels of a black picture do not differ.
+        // Two black pixels of a black image do not differ.
         if a == b { 0.0 } else { ((a - b) / (b * b + floor).sqrt()) as f32 }
     };
     (other.len() == radiance.len()).then(|| radiance.iter().zip(other.iter()).map(relative).collect())

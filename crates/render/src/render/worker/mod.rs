@@ -129,7 +129,7 @@ impl Worker {
         let running = |session: &Session| session.state(&self.budget) == State::Running;
         let sides = self.sessions.iter().enumerate().filter_map(|(side, session)| Some((side, session.as_ref()?)));
         let running = sides.filter(|(_, session)| running(session));
-        // The first look at a picture goes before the second sample of another one.
+        // The first look at an image goes before the second sample of another one.
         let time = |side: usize, session: &Session| session.elapsed().saturating_sub(self.leads[side]);
         running.min_by_key(|(side, session)| (!session.is_coarse(), time(*side, session))).map(|(side, _)| side)
     }

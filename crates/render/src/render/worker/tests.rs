@@ -92,7 +92,7 @@ fn the_first_look_at_a_picture_goes_before_more_samples_of_another() {
     assert_eq!(worker.next(), Some(0));
 }
 
-/// The task of a small picture with this seed.
+/// The task of a small image with this seed.
 fn seeded(scene: &Arc<Scene>, seed: u32) -> RenderTask {
     let request = request(scene, 32);
     RenderTask::Picture(RenderRequest { settings: RenderSettings { seed, ..request.settings }, ..request })

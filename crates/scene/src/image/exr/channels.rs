@@ -1,9 +1,9 @@
-//! The channels of an OpenEXR file that make the picture.
+//! The channels of an OpenEXR file that make the image.
 //!
 //! "Technical Introduction to OpenEXR", 2013, "Channel Names": names of channels in layers are `layer.R`. Of several sets the first of
 //! these counts, and then one without layer, one in a layer that is named as the whole image, and one in any other layer.
 //!
-//! | channels | picture |
+//! | channels | image |
 //! |---|---|
 //! | `R G B`, or `R G` | colour |
 //! | `Y`, luminance | grey |
@@ -27,7 +27,7 @@ pub enum Channels {
 /// Names of layers that hold the whole image, after the last point.
 const WHOLE: [&str; 6] = ["combined", "beauty", "rgba", "rgb", "color", "colour"];
 
-/// The channels of the picture. An error is a sentence about the file that names its channels.
+/// The channels of the image. An error is a sentence about the file that names its channels.
 pub fn choose(headers: &[Header]) -> Result<Channels, String> {
     let is_whole = |channel: &ChannelDescription| channel.sampling == Vec2(1, 1);
     let readable = headers.iter().filter(|header| header.channels.list.iter().all(is_whole));
@@ -42,7 +42,7 @@ pub fn choose(headers: &[Header]) -> Result<Channels, String> {
         names.take(MOST).collect::<Vec<_>>().join(", ")
     };
     Err(if all().all(is_whole) {
-        format!("none of its channels {} is a picture: expected R, G and B, or Y, or a single one", list(&|_| true))
+        format!("none of its channels {} is an image: expected R, G and B, or Y, or a single one", list(&|_| true))
     } else {
         let coarse = list(&|channel| !is_whole(channel));
         format!("its channels {coarse} have fewer samples than the image has pixels; save it as R, G and B")
@@ -71,7 +71,7 @@ fn layers(header: &Header) -> Vec<Layer<'_>> {
 }
 
 impl Layer<'_> {
-    /// The sets of channels that make a picture, with their ranks; the least is the best.
+    /// The sets of channels that make an image, with their ranks; the least is the best.
     fn sets(&self) -> Vec<((u8, u8), Channels)> {
         let find = |short: &str| self.names.iter().find(|name| name.eq_ignore_ascii_case(short)).map(|name| self.full(name));
         let opacity = || find("A").unwrap_or_else(|| self.full("A"));

@@ -48,7 +48,7 @@ fn the_channels_that_make_a_picture_are_found() {
 #[test]
 fn opacity_is_that_of_the_layer() {
     let opacities = |names: &[&str]| -> Vec<f32> {
-        let picture: Picture<Opacity> = decode(&mut Cursor::new(file(names, false)), Encoding::Linear).expect("it is a picture");
+        let picture: Picture<Opacity> = decode(&mut Cursor::new(file(names, false)), Encoding::Linear).expect("it is an image");
         picture.radiance.iter().map(|Opacity(x)| *x).collect()
     };
     assert_eq!(opacities(&["A", "Y"]), [0.5, 1.0]);

@@ -31,18 +31,18 @@ const HEADER: &str = "#?RADIANCE\n# by hand\nFORMAT=32-bit_rle_rgbe\n";
 #[test]
 fn a_plain_hdr_has_its_mantissas_times_powers_of_two() {
     let bytes = hdr(&format!("{HEADER}EXPOSURE=2\n\n-Y 2 +X 1\n"), &[128, 64, 0, 129, 7, 7, 7, 0]);
-    let picture = read(&bytes).expect("it is a picture");
+    let picture = read(&bytes).expect("it is an image");
     assert_eq!((picture.width, picture.height), (1, 2));
     assert_eq!(picture.radiance, [[0.5, 0.25, 0.0], [0.0; 3]]);
     // Spaces around values do not count, factors are multiplied, and may be small.
     let bytes = hdr("#?RADIANCE\nFORMAT= 32-bit_rle_rgbe \nEXPOSURE=0.5\nEXPOSURE= 0.25 \n\n-Y 1 +X 1\n", &[128, 64, 0, 129]);
-    assert_eq!(read(&bytes).expect("it is a picture").radiance, [[8.0, 4.0, 0.0]]);
+    assert_eq!(read(&bytes).expect("it is an image").radiance, [[8.0, 4.0, 0.0]]);
 }
 
 #[test]
 fn old_runs_repeat_a_pixel() {
     let pixels = [128, 128, 128, 129, 1, 1, 1, 2, 64, 64, 64, 129, 1, 1, 1, 3, 1, 1, 1, 1];
-    let picture = read(&hdr(&format!("{HEADER}\n-Y 1 +X 263\n"), &pixels)).expect("it is a picture");
+    let picture = read(&hdr(&format!("{HEADER}\n-Y 1 +X 263\n"), &pixels)).expect("it is an image");
     let greys: Vec<f32> = picture.radiance.iter().map(|pixel| pixel[0]).collect();
     assert_eq!(greys, [vec![1.0; 3], vec![0.5; 260]].concat());
 }
@@ -50,7 +50,7 @@ fn old_runs_repeat_a_pixel() {
 #[test]
 fn new_runs_fill_channel_by_channel() {
     let row = [&[2, 2, 0, 8][..], &[136, 128], &[4, 0, 64, 128, 192, 132, 32], &[136, 0], &[136, 129]].concat();
-    let picture = read(&hdr(&format!("{HEADER}\n-Y 2 +X 8\n"), &row.repeat(2))).expect("it is a picture");
+    let picture = read(&hdr(&format!("{HEADER}\n-Y 2 +X 8\n"), &row.repeat(2))).expect("it is an image");
     let greens = [0.0, 0.5, 1.0, 1.5, 0.25, 0.25, 0.25, 0.25].repeat(2);
     assert_eq!(picture.radiance, greens.into_iter().map(|green| [1.0, green, 0.0]).collect::<Vec<_>>());
 }
@@ -69,7 +69,7 @@ fn hdrs_are_upright_whatever_the_order_of_their_pixels() {
         ("-X 3 +Y 2", [6, 3, 5, 2, 4, 1]),
     ] {
         let pixels: Vec<u8> = order.iter().flat_map(|grey| [2 * grey, 2 * grey, 2 * grey, 135]).collect();
-        let picture = read(&hdr(&format!("{HEADER}\n{size}\n"), &pixels)).expect("it is a picture");
+        let picture = read(&hdr(&format!("{HEADER}\n{size}\n"), &pixels)).expect("it is an image");
         let greys: Vec<f32> = picture.radiance.iter().map(|pixel| pixel[0]).collect();
         assert_eq!((picture.width, picture.height, greys), (3, 2, vec![1.0, 2.0, 3.0, 4.0, 5.0, 6.0]), "{size}");
     }
@@ -103,21 +103,21 @@ fn broken_hdrs_are_refused() {
 #[test]
 fn pngs_of_any_depth_and_channels_are_read() {
     use png::{BitDepth, ColorType};
-    let radiance = |bytes: &[u8]| read(bytes).expect("it is a picture").radiance;
+    let radiance = |bytes: &[u8]| read(bytes).expect("it is an image").radiance;
     assert_eq!(radiance(&png(1, 1, ColorType::Rgba, BitDepth::Eight, &[255, 0, 51, 7])), [[1.0, 0.0, 0.2]]);
     assert_eq!(radiance(&png(1, 1, ColorType::GrayscaleAlpha, BitDepth::Eight, &[51, 0])), [[0.2; 3]]);
     assert_eq!(radiance(&png(2, 1, ColorType::Grayscale, BitDepth::One, &[0b0100_0000])), [[0.0; 3], [1.0; 3]]);
     assert_eq!(radiance(&png(1, 1, ColorType::Rgb, BitDepth::Sixteen, &[0, 1, 255, 255, 0, 0])), [[1.0 / 65535.0, 1.0, 0.0]]);
     let grey: Result<Picture, ImageFormatError> =
         decode(&mut Cursor::new(png(1, 1, ColorType::Grayscale, BitDepth::Eight, &[188])), Encoding::Srgb);
-    assert!((grey.expect("it is a picture").radiance[0][1] - 0.502_886).abs() < 1e-6);
+    assert!((grey.expect("it is an image").radiance[0][1] - 0.502_886).abs() < 1e-6);
 }
 
 #[test]
 fn opacity_is_linear_and_1_without_a_channel() {
     use png::{BitDepth, ColorType};
     let opacities = |bytes: &[u8]| -> Vec<f32> {
-        let picture: Picture<Opacity> = decode(&mut Cursor::new(bytes), Encoding::Srgb).expect("it is a picture");
+        let picture: Picture<Opacity> = decode(&mut Cursor::new(bytes), Encoding::Srgb).expect("it is an image");
         picture.radiance.iter().map(|Opacity(x)| *x).collect()
     };
     assert_eq!(opacities(&png(2, 1, ColorType::Rgba, BitDepth::Eight, &[255, 0, 51, 51, 1, 2, 3, 255])), [0.2, 1.0]);
@@ -133,7 +133,7 @@ fn the_opacity_of_an_exr_is_read_as_grey_within_its_range() {
     let path = folder.path().join("a.exr");
     let opacity = [0.25, 7.0, -1.0, f32::NAN];
     ::exr::prelude::write_rgba_file(&path, 4, 1, |x, _| (0.5f32, 0.5f32, 0.5f32, opacity[x])).expect("it is written");
-    let texels = read_opacity_of(&Resources::new("").file(&path.display().to_string())).expect("it is a picture");
+    let texels = read_opacity_of(&Resources::new("").file(&path.display().to_string())).expect("it is an image");
     let greys = [0.25, 1.0, 0.0, 0.0].map(|x: f32| [x, x, x, 0.0]);
     assert_eq!((texels.width, texels.height, texels.radiance), (4, 1, greys.to_vec()));
     assert_eq!(super::read_light(&path, Encoding::Srgb).expect("it is light").radiance[3], [0.5, 0.5, 0.5, 0.0]);
@@ -164,7 +164,7 @@ const IN_PASSES: [u8; 75] = [
 
 #[test]
 fn pngs_in_passes_are_read() {
-    let greys: Vec<f32> = read(&IN_PASSES).expect("it is a picture").radiance.iter().map(|pixel| pixel[1] * 255.0).collect();
+    let greys: Vec<f32> = read(&IN_PASSES).expect("it is an image").radiance.iter().map(|pixel| pixel[1] * 255.0).collect();
     let expected = [10.0, 20.0, 30.0, 40.0, 50.0, 60.0];
     assert!(greys.len() == 6 && greys.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-4), "{greys:?}");
     assert!(matches!(read(&IN_PASSES[..IN_PASSES.len() - 30]), Err(ImageFormatError::Unreadable(_))));
@@ -186,15 +186,15 @@ fn formats_without_loss_are_read_as_they_were_written() {
     WebPEncoder::new_lossless(&mut webp).write_image(&COLOURS, 4, 2, Rgb8).expect("a WebP");
     let linear = colours();
     for bytes in [&tga, &webp] {
-        let picture = read(bytes).expect("it is a picture");
+        let picture = read(bytes).expect("it is an image");
         assert_eq!((picture.width, picture.height, &picture.radiance), (4, 2, &linear));
-        let curved: Picture = decode(&mut Cursor::new(bytes), Encoding::Srgb).expect("it is a picture");
+        let curved: Picture = decode(&mut Cursor::new(bytes), Encoding::Srgb).expect("it is an image");
         assert!((curved.radiance[2][0] - 0.132_868).abs() < 1e-6, "{:?}", curved.radiance[2]);
         assert!(matches!(read(&bytes[..bytes.len() / 2]), Err(ImageFormatError::Unreadable(_))), "the file is cut");
     }
     // Bottom-up TGAs begin with the last row.
     tga[17] ^= 1 << 5;
-    assert_eq!(read(&tga).expect("it is a picture").radiance, [&linear[4..], &linear[..4]].concat());
+    assert_eq!(read(&tga).expect("it is an image").radiance, [&linear[4..], &linear[..4]].concat());
 }
 
 #[test]
@@ -211,7 +211,7 @@ fn jpegs_are_read() {
     let colour = encoded(&[204, 102, 51].repeat(256), Rgb8);
     let grey = encoded(&[102; 256], L8);
     for (bytes, expected) in [(&colour, [0.8, 0.4, 0.2]), (&grey, [0.4; 3])] {
-        let picture = read(bytes).expect("it is a picture");
+        let picture = read(bytes).expect("it is an image");
         assert_eq!((picture.width, picture.height, picture.radiance.len()), (16, 16, 256));
         // The colour transform rounds to whole codes.
         let is_near = |pixel: &[f32; 3]| (0..3).all(|i| (pixel[i] - expected[i]).abs() <= 2.0 / 255.0);
@@ -243,7 +243,7 @@ fn other_files_are_not_taken_for_a_tga() {
 #[test]
 fn texels_are_the_same_colours_and_nothing_else() {
     let bytes = hdr(&format!("{HEADER}\n-Y 1 +X 2\n"), &[128, 64, 0, 129, 7, 7, 7, 0]);
-    let texels: Picture<[f32; 4]> = decode(&mut Cursor::new(bytes), Encoding::Linear).expect("it is a picture");
+    let texels: Picture<[f32; 4]> = decode(&mut Cursor::new(bytes), Encoding::Linear).expect("it is an image");
     assert_eq!(texels.radiance, [[1.0, 0.5, 0.0, 0.0], [0.0; 4]]);
     let picture = Picture { width: 2, height: 1, radiance: vec![[1.0, 0.5, 0.0], [0.0; 3]] };
     let copied = Texels::from(&picture);
@@ -275,7 +275,7 @@ fn a_bmp_has_its_rows_from_the_bottom() {
     // Blue, green, red, and a byte that fills the row.
     let rows = [0, 0, 255, 0, 255, 0, 0, 0];
     let bytes = [header(62), shape, rest, rows.to_vec()].concat();
-    assert_eq!(read(&bytes).expect("it is a picture").radiance, [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0]]);
+    assert_eq!(read(&bytes).expect("it is an image").radiance, [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0]]);
     assert!((0..bytes.len() - 1).all(|end| read(&bytes[..end]).is_err()));
 }
 

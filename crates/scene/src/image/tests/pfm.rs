@@ -15,14 +15,14 @@ fn rows_run_upwards_in_either_order_of_bytes() {
         ("PF 2\n2 -1e0 ", f32::to_le_bytes),
         ("PF\r\n2 2\r\n-1\r\n", f32::to_le_bytes),
     ] {
-        let picture = read(&pfm(header, &numbers, bytes)).expect("it is a picture");
+        let picture = read(&pfm(header, &numbers, bytes)).expect("it is an image");
         assert_eq!((picture.width, picture.height, &picture.radiance[..]), (2, 2, &expected[..]), "{header}");
     }
 }
 
 #[test]
 fn one_channel_is_grey_and_the_factor_counts() {
-    let picture = read(&pfm("Pf\n1 3\n-0.5\n", &[1.0, 2.0, 40.0], f32::to_le_bytes)).expect("it is a picture");
+    let picture = read(&pfm("Pf\n1 3\n-0.5\n", &[1.0, 2.0, 40.0], f32::to_le_bytes)).expect("it is an image");
     assert_eq!(picture.radiance, [[20.0; 3], [1.0; 3], [0.5; 3]]);
 }
 

@@ -69,7 +69,7 @@ impl<L: Lanes> Beam<L> {
         (vector(self.row.origin), !self.row.w.above(0.0))
     }
 
-    /// The axis of the cap of directions that contains all light, and its height: 2 is the sphere. Pictures lie in the hemisphere
+    /// The axis of the cap of directions that contains all light, and its height: 2 is the sphere. Images lie in the hemisphere
     /// around the normal of their plane.
     #[inline(always)]
     fn cap(&self, l: L) -> (V<L>, F<L>) {
@@ -111,13 +111,13 @@ impl<L: Lanes> Beam<L> {
         self.row.shape.bits()
     }
 
-    /// Lanes that cast the picture of this number: 0 is white.
+    /// Lanes that cast the image of this number: 0 is white.
     #[inline(always)]
     pub fn casts(&self, picture: u32) -> M<L> {
         self.word().is(PICTURE + picture)
     }
 
-    /// The fraction of the power in the unit direction `d` away from the light, without the image of a picture.
+    /// The fraction of the power in the unit direction `d` away from the light, without the image of a image.
     #[inline(always)]
     pub fn strength(&self, l: L, d: V<L>) -> F<L> {
         let word = self.word();
@@ -131,7 +131,7 @@ impl<L: Lanes> Beam<L> {
         even.pick(l.f(1.0), is_cone.pick(self.cone(l, d), picture))
     }
 
-    /// The rise of a flat picture's intensity away from its axis, 1/cos³; 1 for other pictures.
+    /// The rise of a flat image's intensity away from its axis, 1/cos³; 1 for other images.
     #[inline(always)]
     fn rise(&self, l: L, d: V<L>) -> F<L> {
         let PunctualRow { z, length, .. } = self.row;
@@ -139,7 +139,7 @@ impl<L: Lanes> Beam<L> {
         length.above(0.0).pick(slant * slant * slant, l.f(1.0))
     }
 
-    /// The falloff of a picture's cone; 1 without one.
+    /// The falloff of an image's cone; 1 without one.
     #[inline(always)]
     fn dimming(&self, l: L, d: V<L>) -> F<L> {
         let PunctualRow { edge, factor, z, .. } = self.row;
@@ -161,7 +161,7 @@ impl<L: Lanes> Beam<L> {
         t * (a + t * (b + t * c))
     }
 
-    /// Where the direction `d` is in the picture: u to the right and v down, and whether both are in [0, 1].
+    /// Where the direction `d` is in the image: u to the right and v down, and whether both are in [0, 1].
     #[inline(always)]
     pub fn picture_place(&self, l: L, d: V<L>) -> (F<L>, F<L>, M<L>) {
         let PunctualRow { axis_or_x, falloff_or_y, z, .. } = self.row;

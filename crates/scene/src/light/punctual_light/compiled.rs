@@ -39,9 +39,9 @@ enum Shape {
     Picture(Picture),
 }
 
-/// A picture that a light casts.
+/// An image that a light casts.
 pub struct Picture {
-    /// Linear forms: `x` and `y` of a direction over `z` are its coordinates, from −1 to 1 in the picture, and `z` is positive in front
+    /// Linear forms: `x` and `y` of a direction over `z` are its coordinates, from −1 to 1 in the image, and `z` is positive in front
     /// of the light.
     pub axes: [DVec3; 3],
     /// Whether the intensity rises by 1/cos³ of the angle to the axis, so that a screen is lit evenly.
@@ -81,7 +81,7 @@ impl PunctualLight {
         PunctualLight { source: PunctualOrigin::At(position), power: single(intensity), shape }
     }
 
-    /// A light that casts a picture.
+    /// A light that casts a image.
     pub fn projector(position: DVec3, intensity: [f64; 3], picture: Picture) -> PunctualLight {
         PunctualLight { source: PunctualOrigin::At(position), power: single(intensity), shape: Shape::Picture(picture) }
     }
@@ -131,7 +131,7 @@ impl PunctualLight {
         }
     }
 
-    /// The luminance of the power; of a picture, of its mean.
+    /// The luminance of the power; of an image, of its mean.
     pub(in crate::light) fn light(&self) -> f32 {
         luminance(self.power) * self.image().map_or(1.0, |image| luminance(image.mean()))
     }

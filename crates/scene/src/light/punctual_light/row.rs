@@ -9,10 +9,10 @@ pub const EVEN: u32 = 0;
 pub const BY_COSINE: u32 = 1;
 /// A cone whose falloff depends on the angle.
 pub const BY_ANGLE: u32 = 2;
-/// The first picture. It is white; images follow.
+/// The first image. It is white; images follow.
 pub const PICTURE: u32 = 3;
 
-/// The numbers of a light, or of a light in each lane. A light is a cone or a picture, so they share places.
+/// The numbers of a light, or of a light in each lane. A light is a cone or an image, so they share places.
 #[derive(Clone, Copy)]
 pub struct PunctualRow<T> {
     /// Position; of directional lights the unit direction towards them.
@@ -23,17 +23,17 @@ pub struct PunctualRow<T> {
     pub power: [T; 3],
     /// Bits of the shape: [`EVEN`], [`BY_COSINE`], [`BY_ANGLE`], or [`PICTURE`] plus the number of the image.
     pub shape: T,
-    /// Axis of a cone; x form of a picture.
+    /// Axis of a cone; x form of a image.
     pub axis_or_x: [T; 3],
     /// Edge of the cone: its cosine, or its angle as negative turns.
     pub edge: T,
-    /// Falloff of a cone: coefficients of t, t² and t³; y form of a picture.
+    /// Falloff of a cone: coefficients of t, t² and t³; y form of a image.
     pub falloff_or_y: [T; 3],
-    /// The factor that makes t; 0 for a picture without a cone.
+    /// The factor that makes t; 0 for an image without a cone.
     pub factor: T,
-    /// The z form of a picture: its axis.
+    /// The z form of an image: its axis.
     pub z: [T; 3],
-    /// Length of the z form of a flat picture; 0 for others.
+    /// Length of the z form of a flat image; 0 for others.
     pub length: T,
 }
 

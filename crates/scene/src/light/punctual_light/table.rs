@@ -60,7 +60,7 @@ impl PunctualLights {
         }
     }
 
-    /// The luminance of the power of a light; of a picture, of its mean.
+    /// The luminance of the power of a light; of an image, of its mean.
     pub fn power(&self, punctual_light: usize) -> f32 {
         self.powers[punctual_light]
     }

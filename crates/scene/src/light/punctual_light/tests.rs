@@ -127,7 +127,7 @@ fn a_projector_without_an_image_casts_a_square_of_its_angle() {
         if (inside - half).abs() < 1e-4 {
             continue;
         }
-        // On the screen z = −1, the irradiance times the cosine 1/|p| is 3 everywhere if the picture is flat.
+        // On the screen z = −1, the irradiance times the cosine 1/|p| is 3 everywhere if the image is flat.
         for (punctual_lights, exact) in [(&round, 3.0 / p.length_squared()), (&flat, 3.0 * p.length())] {
             let exact = if inside < half { exact } else { 0.0 };
             assert!((light(punctual_lights, p).1[0] - exact).abs() < 1e-4, "{p}");

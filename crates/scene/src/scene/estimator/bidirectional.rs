@@ -2,14 +2,14 @@
 use super::Weighting;
 use noisefall_base::declare::Word;
 
-/// Paths from the camera and from lights are joined at all of their vertices.
+/// Camera paths and from lights are joined at all of their vertices.
 pub(super) struct Bidirectional;
 
 impl Weighting for Bidirectional {
     const WORD: Word = Word {
         name: "bidirectional",
         title: "Bidirectional",
-        doc: "Joins paths from the camera with paths from lights in all ways (s, t), weighted by the balance heuristic. Good for caustics and hidden lights.",
+        doc: "Joins camera paths with light paths in all ways (s, t), weighted by the balance heuristic. Good for caustics and hidden lights.",
     };
     const STRATEGIES: &'static str =
         "(s, t): s vertices from a light joined with t from the camera, in all ways; balance heuristic";

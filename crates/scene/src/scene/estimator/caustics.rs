@@ -2,8 +2,8 @@
 use super::Weighting;
 use noisefall_base::declare::Word;
 
-/// Paths from lights go through mirrors and clear glass to the first other surface, and are joined with the camera there. All other light
-/// comes from paths from the camera.
+/// Light paths go through mirrors and clear glass to the first other surface, and are connected to the camera there. All other light
+/// comes from camera paths.
 pub(super) struct Caustics;
 
 impl Weighting for Caustics {
@@ -13,7 +13,7 @@ impl Weighting for Caustics {
         doc: "MIS, plus light tracing for the caustics of mirrors and clear glass. Cheaper than Bidirectional.",
     };
     const STRATEGIES: &'static str =
-        "those of `mis`, and light paths through mirrors and clear glass, joined with the camera; balance heuristic";
+        "those of `mis`, and light paths through mirrors and clear glass, connected to the camera; balance heuristic";
     const COMPARES: bool = true;
     const TRACES_LIGHT_PATHS: bool = true;
     const ONLY_CAUSTICS: bool = true;

@@ -55,7 +55,7 @@ impl Estimator {
         in_estimator!(self, E => E::CONNECTS)
     }
 
-    /// Whether paths from lights end at the first surface that scatters light in more than one direction.
+    /// Whether light paths end at the first surface that scatters light in more than one direction.
     pub fn traces_only_caustics(self) -> bool {
         in_estimator!(self, E => E::ONLY_CAUSTICS)
     }

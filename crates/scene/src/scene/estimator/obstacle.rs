@@ -4,16 +4,16 @@ use noisefall_base::declare::{Word, Words};
 use super::Estimator;
 
 noisefall_base::declare::words! {
-    /// A property of a scene or of settings in which some estimators trace no paths from lights.
+    /// A property of a scene or of settings in which some estimators trace no light paths.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub enum Obstacle {
         LongPaths: "long_paths", "so little roulette and no low bounce cap", "There would be too many connections between paths.";
-        CountedCrossings: "counted_crossings", "crossed surfaces that count as bounces", "A path from a light does not know how many surfaces a connection crosses.";
+        CountedCrossings: "counted_crossings", "crossed surfaces that count as bounces", "A light path does not know how many surfaces a connection crosses.";
         OneSided: "one_sided", "materials that let light pass differently from their two sides", "A path is not the same in reverse.";
         HiddenMedium: "hidden_medium", "tinted glass with opacity or in a blend", "Light enters the glass without its medium, and a path is not the same in reverse.";
         OpenMedium: "open_medium", "tinted glass that is open, or that overlaps with other glass", "A path is not the same in reverse. 512 walks test that.";
         NoStart: "no_start", "no light at which paths can start, or too many of them", "There is nothing to trace.";
-        ShadingNormals: "shading_normals", "smooth meshes, bump or normal maps", "From some sides, their normals are not those that a path from the light sees.";
+        ShadingNormals: "shading_normals", "smooth meshes, bump or normal maps", "From some sides, their normals are not those that a light path sees.";
         Isosurface: "isosurface", "isosurfaces that emit light", "No points of them are sampled.";
         ClearLight: "clear_lamp", "lights that let light pass", "A path would start within the surface.";
         FarWithinMedium: "far_within_medium", "light from far away within a medium", "It has no distance over which the medium attenuates it.";

@@ -88,7 +88,7 @@ impl RenderSettings {
         self.merging && self.estimator.connects()
     }
 
-    /// Why the expected picture differs from the solution of the equation; `None` when it does not.
+    /// Why the expected image differs from the solution of the equation; `None` when it does not.
     pub fn bias(&self) -> Option<String> {
         let part = self.strategy.map(|Strategy { s, t, .. }| format!("strategy ({s}, {t}) alone"));
         let cap = part.or_else(|| self.max_bounces.map(|cap| format!("cap at {cap}")));

@@ -62,7 +62,7 @@ pub fn spot(import: &mut Import, element: Element) -> Result<(), SceneError> {
     add(import, element, Spot { position, target, intensity, angle, inner, falloff: Falloff::Linear })
 }
 
-/// A spot with a picture is a projector with a cone. The picture is a square, with its first row at −y.
+/// A spot with an image is a projector with a cone. The image is a square, with its first row at −y.
 fn of_picture(map: &DAffine3, image: Image, intensity: [f64; 3], [inner, angle]: [f64; 2]) -> Projector {
     let [position, target, up] = axes(map);
     let scale = intensity.into_iter().fold(0.0, f64::max);

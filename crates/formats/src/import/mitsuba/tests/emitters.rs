@@ -84,7 +84,7 @@ fn shapes_emit_from_their_front() {
         <spectrum name=\"radiance\" value=\"400:0, 500:8, 600:15.6, 700:18.4\"/></emitter></shape>",
     );
     let Some(EmissionSource::Radiance(light)) = spectrum.emission.map(|emission| emission.source) else { panic!("not constant") };
-    // The colour of this light in Mitsuba's own picture of it, `arealight`.
+    // The colour of this light in Mitsuba's own image of it, `arealight`.
     let [r, g, b] = light.radiance;
     assert!((r / g / 1.908 - 1.0).abs() < 0.003 && (b / g / 0.2553 - 1.0).abs() < 0.003, "{:?}", light.radiance);
     let textured = object(

@@ -67,7 +67,7 @@ fn has_heavy_tail(images: &[f64]) -> bool {
     squares.clone().fold(0.0, f64::max) > MOST_OF_ONE * squares.sum::<f64>()
 }
 
-/// The settings with which the estimators have the same expectation. Paths from lights alone find light of punctual lights, and in
+/// The settings with which the estimators have the same expectation. Light paths alone find light of punctual lights, and in
 /// practice that of the sun of a sky, behind mirrors and clear glass. So with these only light that is reflected once is compared, unless
 /// all surfaces are diffuse.
 fn comparable(scene: &Scene, settings: RenderSettings) -> RenderSettings {

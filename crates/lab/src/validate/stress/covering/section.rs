@@ -33,7 +33,7 @@ pub fn section(strength: Strength, message: &(dyn Fn(&str) + Sync)) -> (Section,
              undone, and the scene, its text and its image are as before. Its text reads as the scene, with the same image.",
             "Two estimators agree on the mean of the image. A deviation is looked at again with four times as many images, up to twice; \
              the last look alone fails a scene, beyond 5.5 standard errors: by chance once in 10⁷ scenes. Light that is reflected once is compared where \
-             only paths from lights find more: punctual lights or a sky, seen through mirrors or clear glass. If one image has more than a tenth \
+             only light paths find more: punctual lights or a sky, seen through mirrors or clear glass. If one image has more than a tenth \
              of the variance at the last look, the error of the mean is not known, and the scene does not fail.",
         ],
         source: "D. Cohen, S. Dalal, M. Fredman, G. Patton, “The AETG System: An Approach to Testing Based on Combinatorial Design”, IEEE \

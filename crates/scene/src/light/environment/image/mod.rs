@@ -160,7 +160,7 @@ pub struct EnvironmentImage {
 /// The texels of an [`ImageBackground`] and the tables that sample them. They do not depend on its rotation.
 pub struct SkyTables {
     picture: ImageTexture,
-    /// Where the image begins in v, and how much of it there is, in heights of the picture: see [`rows_of`].
+    /// Where the image begins in v, and how much of it there is, in heights of the image: see [`rows_of`].
     rows_of_picture: [f32; 2],
     /// Numbers of cells, powers of two.
     columns: u32,
@@ -172,7 +172,7 @@ pub struct SkyTables {
 }
 
 impl SkyTables {
-    /// Builds the tables. `picture` holds radiances ([`crate::image::read_light`]), which are multiplied by `scale`. For `pole_rows`, see
+    /// Builds the tables. `image` holds radiances ([`crate::image::read_light`]), which are multiplied by `scale`. For `pole_rows`, see
     /// [`Image::pole_rows`].
     pub fn new(mut picture: Texels, scale: f32, pole_rows: bool) -> SkyTables {
         for pixel in &mut picture.radiance {
@@ -283,7 +283,7 @@ impl EnvironmentImage {
     }
 }
 
-/// Where an image of all directions begins in the height of its picture, and how much of that it takes.
+/// Where an image of all directions begins in the height of its image, and how much of that it takes.
 fn rows_of(picture: &Texels, pole_rows: bool) -> [f64; 2] {
     let row = 1.0 / f64::from(picture.height);
     if pole_rows { [0.5 * row, 1.0 - row] } else { [0.0, 1.0] }

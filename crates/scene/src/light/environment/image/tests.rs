@@ -16,7 +16,7 @@ fn picture(width: u32, height: u32, radiance: impl FnMut(u32) -> [f32; 3]) -> Te
     (&Picture { width, height, radiance: (0..width * height).map(radiance).collect() }).into()
 }
 
-/// A picture turned by degrees and multiplied by a factor.
+/// An image turned by degrees and multiplied by a factor.
 fn environment(picture: Texels, rotate: f64, scale: f32) -> EnvironmentImage {
     EnvironmentImage::new(SkyTables::new(picture, scale, false).into(), rotate)
 }
@@ -44,7 +44,7 @@ fn unit(random: &mut SmallRng) -> F<One> {
 
 /// The pdf integrated over bins of equal polar angle and azimuth, exactly: it is constant in every step of the sum, because 24
 /// steps of a bin are 1/480 and 1/960 of the sphere's angles, [`ROTATE`] is a whole number of them, and so is a cell when the
-/// picture is small.
+/// image is small.
 fn bin_probabilities(sky: &EnvironmentImage, rows: usize, columns: usize) -> Vec<f64> {
     const STEPS: usize = 24;
     let (theta_step, phi_step) = (PI / (rows * STEPS) as f64, TAU / (columns * STEPS) as f64);
@@ -103,7 +103,7 @@ fn the_pdf_integrates_to_one() {
         for column in 0..64 {
             let share = TAU / 64.0 * ((PI * f64::from(row) / 32.0).cos() - (PI * f64::from(row + 1) / 32.0).cos());
             let (theta, phi) = (PI * (f64::from(row) + 0.5) / 32.0, TAU * (f64::from(column) + 0.5) / 64.0);
-            // The picture's cells are turned against the axes of φ.
+            // The image's cells are turned against the axes of φ.
             let d = direction(theta, phi - ROTATE.to_radians());
             whole += f64::from(sky.pdf(One, d).0) * share;
         }
@@ -130,7 +130,7 @@ fn directions_with_light_have_a_density() {
 fn the_middle_column_faces_minus_z_and_rotation_is_counter_clockwise_from_above() {
     let marked = |column: u32| picture(8, 4, move |i| if i / 8 == 0 { [9.0; 3] } else { [f32::from(i % 8 == column); 3] });
     let at = |sky: &EnvironmentImage, [x, y, z]: [f32; 3]| sky.radiance(One, V { x: F(x), y: F(y), z: F(z) }).x.0;
-    // The middle of the picture is the edge between columns 3 and 4.
+    // The middle of the image is the edge between columns 3 and 4.
     let sky = environment(marked(4), 22.5, 1.0);
     assert!((at(&sky, [0.0, 0.0, -1.0]) - 1.0).abs() < 1e-5);
     assert_eq!((at(&sky, [0.0, 1.0, 0.0]), at(&sky, [0.0, -1.0, 0.0])), (9.0, 1.0));
