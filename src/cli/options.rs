@@ -257,7 +257,7 @@ mod tests {
         assert_eq!(["path", "light", "mis"].map(word::<Estimator>), [Estimator::Path, Estimator::Light, Estimator::Mis].map(Ok));
         let kinds = [Directions::Uniform, Directions::Cosine, Directions::Bsdf];
         assert_eq!(["uniform", "cosine", "bsdf"].map(word::<Directions>), kinds.map(Ok));
-        assert_eq!(["auto", "on", "off"].map(word::<Reuse>), [Reuse::Auto, Reuse::Suffixes, Reuse::Off].map(Ok));
+        assert_eq!(["auto", "suffixes", "off"].map(word::<Reuse>), [Reuse::Auto, Reuse::Suffixes, Reuse::Off].map(Ok));
         assert_eq!(["png", "EXR"].map(format), [Format::Png, Format::Exr].map(Ok));
         let samplers = [Sampler::Independent, Sampler::Stratified, Sampler::Sobol, Sampler::BlueNoise];
         assert_eq!(["independent", "stratified", "sobol", "bluenoise"].map(word::<Sampler>), samplers.map(Ok));

@@ -106,7 +106,9 @@ impl SplitImage<'_> {
         } else {
             "at most "
         };
-        frame.rel_mse_estimate.map_or_else(String::new, |rel_mse| format!(", estimated error {bound}{:.2} %", 100.0 * rel_mse.sqrt()))
+        frame
+            .rel_mse_estimate
+            .map_or_else(String::new, |rel_mse| format!(", estimated error {bound}{:.2} %", 100.0 * rel_mse.sqrt()))
     }
 
     fn figures(&self, frame: Option<&Frame>, bias: Option<&str>) -> Value {

@@ -59,7 +59,7 @@ fn a_reference_of_another_size_or_kind_is_reported() {
     let render = |to: &str, from: &str, size: &str| shell.run(&["render", from, "-o", to, "--spp", "2", "--size", size]);
     assert!(render("true.exr", &scene("furnace"), "16x9").status.success());
     let same = render("out.exr", "scene.toml", "16x9");
-    assert!(text(&same.stdout).contains("true error") && !text(&same.stderr).contains("true image"));
+    assert!(text(&same.stdout).contains("error") && !text(&same.stderr).contains("true image"));
     let other = render("out.exr", "scene.toml", "16x10");
     assert!(text(&other.stderr).contains("the true image is 16 × 9 and this one 16 × 10"), "{}", text(&other.stderr));
     assert!(render("out.png", "scene.toml", "16x9").status.success());
@@ -93,10 +93,10 @@ fn options_without_effect_are_named() {
     for (options, note) in [
         (
             &["-o", "a.png", "--adaptive", "on", "--reuse", "on"][..],
-            "warning: `adaptive` is not used: pixels have reused suffixes",
+            "warning: `adaptive` is not used: path reuse is on (reused suffixes)",
         ),
-        (&["-o", "a.png", "--adaptive", "on", "--estimator", "bidirectional"], "warning: `adaptive` is not used: light paths"),
-        (&["-o", "a.png", "--reuse", "both", "--estimator", "light_tracing"], "warning: `reuse` is not used: light paths"),
+        (&["-o", "a.png", "--adaptive", "on", "--estimator", "bidirectional"], "warning: `adaptive` is not used: light paths reach"),
+        (&["-o", "a.png", "--reuse", "both", "--estimator", "light_tracing"], "warning: `reuse` is not used: all pixels share the light paths"),
         (
             &["-o", "a.png", "--merging", "on", "--estimator", "mis"],
             "warning: `merging` is not used: it belongs to the estimator",

@@ -3,7 +3,7 @@ use noisefall_scene::scene::{Estimator, Obstacle};
 
 use super::command_line::{Shell, scene, text};
 
-const PAGE: &str = include_str!("../../docs/architecture.md");
+const PAGE: &str = include_str!("../../docs/light-transport.md");
 
 #[test]
 fn the_table_in_the_documentation_is_up_to_date() {

@@ -1,4 +1,4 @@
-//! The noise estimate against the true error, on every shipped scene and in random rooms from 4 to 1024 samples per pixel; and
+//! The noise estimate against the error, on every shipped scene and in random rooms from 4 to 1024 samples per pixel; and
 //! the bias from stopping at a noise target.
 use std::path::Path;
 
@@ -20,7 +20,7 @@ use crate::{picture::scene, statistics::Moments};
 
 const SPP: u32 = 128;
 const SEEDS: u32 = 6;
-/// Largest factor between the estimate, a root of relMSE, and the true error.
+/// Largest factor between the estimate, a root of relMSE, and the error.
 const FACTOR: f64 = 1.25;
 /// Scenes with a larger factor. Most of the error of the plates is in few pixels at the edges of very bright lights. All error of
 /// the ball is at its outline, and that of moving objects at their edges, where errors fall faster than the estimate assumes. Caustics that

@@ -90,7 +90,7 @@ impl Done<'_> {
             false if self.is_denoised => String::new(),
             false => noise_text(self.status),
         };
-        let error = self.error.as_ref().map(|(error, _)| format!(", true error {:.2} %", 100.0 * error.rel_mse.sqrt()));
+        let error = self.error.as_ref().map(|(error, _)| format!(", error {:.2} %", 100.0 * error.rel_mse.sqrt()));
         let error = error.unwrap_or_default();
         let bias = self.bias().map_or_else(|| "unbiased".to_owned(), |why| format!("biased: {why}"));
         let end = match &self.status.state {

@@ -89,7 +89,7 @@ fn every_figure_stands_under_its_name() {
     let adaptive = RenderSettings { adaptive: true, roulette: Roulette::fixed(0.5), ..RenderSettings::default() };
     let line = said(&other, &frame(1.0), adaptive).json;
     let keys = ["path_reuse", "adapts", "adaptive", "roulette", "roulette_start", "max_bounces", "biased"];
-    let values = [json!(false), json!(true), json!("on"), json!("0.5"), Value::Null, Value::Null, Value::Null];
+    let values = [json!("off"), json!(true), json!("on"), json!("0.5"), Value::Null, Value::Null, Value::Null];
     assert_eq!(keys.map(|key| line[key].clone()), values);
     assert_eq!(line["stopped_by"], "interruption");
 }
@@ -100,14 +100,14 @@ fn the_line_states_the_samples_and_why_the_render_stopped() {
     let million = Status { samples: 1_000_000, ..status(State::Done(Target::Samples(2))) };
     assert_eq!(
         line(&million, &frame(1.0)),
-        "out.png: 2.5 spp on average (2 to 3) in 0.50 s (2.0 M samples/s), estimated error 3.00 %, true error 2.00 %, \
+        "out.png: 2.5 spp on average (2 to 3) in 0.50 s (2.0 M samples/s), estimated error 3.00 %, error 2.00 %, \
          biased: 6 paths cut; stopped at 2 spp"
     );
     let whole = Status { cut_paths: 0, rel_mse_estimate: None, ..status(State::Paused) };
     let even = Frame { counts: Vec::new(), ..frame(0.0) };
     assert_eq!(
         line(&whole, &even),
-        "out.png: 2 spp in 0.50 s (0.0 M samples/s), no light found, true error 2.00 %, unbiased; interrupted"
+        "out.png: 2 spp in 0.50 s (0.0 M samples/s), no light found, error 2.00 %, unbiased; interrupted"
     );
 }
 
@@ -122,7 +122,7 @@ fn notes_report_problems_and_nothing_else() {
     assert_eq!(notes(&Status { cut_paths: 0, ..status(State::Paused) }, &frame(1.0)).len(), 1);
     let heavy = Status { cut_paths: 0, error_is_lower_bound: true, ..status(State::Paused) };
     assert!(notes(&heavy, &frame(1.0))[1].starts_with("warning: few pixels carry the estimated error"));
-    assert_eq!(noise_text(&heavy), ", noise ≥ 3.00 %");
+    assert_eq!(noise_text(&heavy), ", estimated error ≥ 3.00 %");
 }
 
 #[test]
@@ -142,7 +142,7 @@ fn a_denoised_image_is_biased_and_its_noise_is_unknown() {
     {
         let Said { json, line, .. } = line(cut_paths, max_bounces);
         assert_eq!((&json["biased"], &json["rel_mse_estimate"]), (&json!(bias), &Value::Null));
-        assert!(line.contains(&format!(", true error 2.00 %, biased: {bias}; stopped at 2 spp")), "{line}");
+        assert!(line.contains(&format!(", error 2.00 %, biased: {bias}; stopped at 2 spp")), "{line}");
         assert!(!line.contains(", noise"), "{line}");
     }
 }

@@ -101,8 +101,10 @@ impl App {
         if let Some(mismatch) = given.reference.mismatch(self.session.camera.resolution) {
             self.tell(format!("{name}: {mismatch}. Set the resolution to that of the reference."), true);
         } else {
-            let noise =
-                given.reference.relative_noise().map_or_else(String::new, |noise| format!(" (estimated error {:.2} %)", 100.0 * noise));
+            let noise = given
+                .reference
+                .relative_noise()
+                .map_or_else(String::new, |noise| format!(" (estimated error {:.2} %)", 100.0 * noise));
             self.tell(format!("The image is now compared with {name}{noise}"), false);
         }
         self.session.given_reference = Some(given);

@@ -42,7 +42,7 @@ pub struct ReferenceRow<'a> {
 
 /// Shows the row of the display panel about the reference.
 pub fn row(ui: &mut Ui, reference: ReferenceRow<'_>) -> Option<ReferenceCommand> {
-    let doc = "Image that the render must converge to. It gives the true error, the bias and the z-scores.";
+    let doc = "Image that the render must converge to. It gives the error, the bias and the z-scores.";
     let mut command = None;
     controls(ui, "reference", |ui| row_with_note(ui, "Reference", doc, |ui, label| command = show(ui, reference, label)));
     command
@@ -86,10 +86,13 @@ fn show_source(ui: &mut Ui, source: &ReferenceSource) -> bool {
             elided(ui, 96.0, *name);
             let (text, doc) = match (is_in_force, noise) {
                 (false, _) => ("elsewhere".to_owned(), "It is of another camera or scene than the image."),
-                (true, Some(noise)) => {
-                    (format!("estimated error {:.2} %", 100.0 * noise), "The error of the reference itself. Errors near it are partly its own.")
+                (true, Some(noise)) => (
+                    format!("estimated error {:.2} %", 100.0 * noise),
+                    "The error of the reference itself. Errors near it are partly its own.",
+                ),
+                (true, None) => {
+                    ("estimated error unknown".to_owned(), "The file does not state its error and is assumed to be exact.")
                 }
-                (true, None) => ("estimated error unknown".to_owned(), "The file does not state its error and is assumed to be exact."),
             };
             ui.weak(text).on_hover_text(doc);
             return ui.small_button("Remove").on_hover_text("Returns to the reference of the scene, if it has one.").clicked();

@@ -104,7 +104,7 @@ fn not_adaptive(settings: &RenderSettings, findings: &Findings<'_>) -> Option<&'
     let light_paths = in_force.map_or(settings.estimator, |in_force| in_force.estimator).traces_light_paths();
     let why = match status.path_reuse {
         PathReuse::Off => light_paths.then_some("light paths"),
-        shared => Some(shared.name()),
+        shared => Some(shared.words()),
     };
     why.filter(|_| settings.adaptive && status.spp > 0)
 }

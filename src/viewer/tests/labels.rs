@@ -72,7 +72,7 @@ fn the_line_at_the_bottom_has_every_figure_in_its_unit() {
     app.results.comparison = Some(ReferenceComparison { rel_mse: 0.0025, bias: None });
     (app.results.shown, app.window.hovered) = (Some(frame()), Some([1, 0]));
     let texts = said(&mut app, App::status_bar);
-    assert_says(&texts, &["7 / 64 spp, 12 in the region", "2.5 M samples/s", "2.0 s", "noise 4.00 %", "true error 5.00 %"]);
+    assert_says(&texts, &["7 / 64 spp, 12 in the region", "2.5 M samples/s", "2.0 s", "estimated error 4.00 %", "error 5.00 %"]);
     assert_says(&texts, &["(1, 0)  RGB 0.100 0.200 0.300  Y 0.186 ± 0.050 W·sr⁻¹·m⁻²"]);
 }
 

@@ -114,7 +114,7 @@ fn figures_of_the_line_below_end_in_the_window() {
 
 #[test]
 fn every_figure_of_the_line_below_has_room_at_scale_2_on_a_common_screen() {
-    const LONGEST: [&str; 5] = ["Done", "Bidirectional", "1024 / 4096 spp", "true error 5.00 %", "biased: cap at 3"];
+    const LONGEST: [&str; 5] = ["Done", "Bidirectional", "1024 / 4096 spp", "error 5.00 %", "biased: cap at 3"];
     let size = vec2(960.0, 540.0);
     let mut app = labels::app();
     while app.loader().is_busy() {

@@ -45,7 +45,7 @@ fn path_reuse_stays_as_it_is_while_other_settings_change_and_every_curve_names_i
     assert_eq!(names.iter().filter(|name| name.contains("no path reuse")).count(), 1, "{names:?}");
     let table = window.state().curves().csv().expect("it is written");
     let table = String::from_utf8(table).expect("it is text");
-    assert!(table.starts_with("name,settings,path_reuse,") && table.contains(",on,") && table.contains(",off,"), "{table}");
+    assert!(table.starts_with("name,settings,path_reuse,") && table.contains(",suffixes,") && table.contains(",off,"), "{table}");
 }
 
 #[test]

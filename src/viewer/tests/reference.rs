@@ -18,10 +18,10 @@ fn says(window: &Window, text: &str) -> bool {
     window.query_all_by_label_contains(text).count() > 0
 }
 
-/// Whether the line below states the true error.
+/// Whether the line below states the error.
 fn states_error(window: &Window) -> bool {
     let mut labels = window.get_all_by_role(Role::Label);
-    labels.any(|label| label.accesskit_node().value().is_some_and(|text| text.starts_with("true error ")))
+    labels.any(|label| label.accesskit_node().value().is_some_and(|text| text.starts_with("error ")))
 }
 
 #[test]
@@ -59,7 +59,7 @@ fn a_given_reference_holds_for_the_camera_that_it_was_dropped_at() {
     let reference = std::sync::Arc::new(noisefall_render::render::reference::Reference::Constant(frame.radiance[0]));
     window.state_mut().session.given_reference =
         Some(GivenReference { name: "mine.exr".to_owned(), reference, camera, scene: None });
-    wait(&mut window, "the true error", |app| app.measured_error().is_some());
+    wait(&mut window, "the error", |app| app.measured_error().is_some());
     window.run_steps(2);
     assert!(says(&window, "mine.exr") && says(&window, "estimated error unknown"));
     *window.state_mut().camera_mut() = Camera { eye: camera.eye + DVec3::X * 0.1, ..camera };

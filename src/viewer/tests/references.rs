@@ -27,7 +27,7 @@ fn a_reference_is_rendered_beside_the_image_and_is_for_the_scene_as_it_was() {
     window.run_steps(2);
     let given = window.state().session.given_reference.as_ref().expect("it is there");
     assert!(given.reference.relative_noise().is_some_and(|noise| noise <= 0.2), "{:?}", given.reference.relative_noise());
-    assert!(said(&window, "noise ") && said(&window, "true error"));
+    assert!(said(&window, "estimated error ") && said(&window, "error"));
     assert!(window.state().worker().generation() >= generation);
     // A cap of one bounce is wrong by much more than the noise of the reference.
     wait(&mut window, "a precise image", |app| app.status().spp >= 64);

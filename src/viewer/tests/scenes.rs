@@ -59,11 +59,11 @@ fn a_true_picture_of_another_size_is_told() {
     let path = folder.path().join("scene.toml");
     std::fs::write(&path, format!("{}[reference]\nimage = \"true.exr\"\n", &text[..reference])).expect("it is written");
     let mut window = opened(path);
-    wait(&mut window, "the true error", |app| app.measured_error().is_some());
+    wait(&mut window, "the error", |app| app.measured_error().is_some());
     window.state_mut().camera_mut().resolution = [40, 32];
     wait(&mut window, "another size", |app| app.shown_frame().as_ref().is_some_and(|frame| frame.width == 40));
     window.run_steps(2);
-    assert!(window.query_by_label("true error unknown").is_some());
+    assert!(window.query_by_label("error unknown").is_some());
 }
 
 #[test]

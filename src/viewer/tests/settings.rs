@@ -150,7 +150,7 @@ fn a_reached_target_is_named_and_a_higher_one_goes_on() {
     never_restarts(&mut window, |w| w.state_mut().budget_mut().max_spp = None);
     wait(&mut window, "the noise target", |app| app.status().state == State::Done(Target::Noise(0.5)));
     window.run_steps(1);
-    assert!(window.query_by_label("Noise target 50 % reached").is_some());
+    assert!(window.query_by_label("Error target 50 % reached").is_some());
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! Whether an estimate of the error rests on so few samples that the true error may be much larger.
+//! Whether an estimate of the error rests on so few samples that the error may be much larger.
 //!
 //! Where a few samples carry most of the variance, as in caustics that paths rarely find, most of the images have not found the light that
 //! makes the error, and a pixel that has found some is bright: its error relative to itself says little. Two figures together show this.

@@ -56,10 +56,10 @@ impl Reference {
     /// The reason why images of this resolution cannot be compared with the reference, if they cannot.
     pub fn mismatch(&self, [width, height]: [u32; 2]) -> Option<String> {
         match self {
-            _ if self.is_denoised() => Some(format!("{DENOISED}, so the true error is not known")),
+            _ if self.is_denoised() => Some(format!("{DENOISED}, so the error is not known")),
             Reference::Picture(p, _) if [p.width, p.height] != [width, height] => {
                 let size = format!("{} × {}", p.width, p.height);
-                Some(format!("the true image is {size} and this one {width} × {height}, so the true error is not known"))
+                Some(format!("the true image is {size} and this one {width} × {height}, so the error is not known"))
             }
             _ => None,
         }

@@ -1,7 +1,7 @@
 //! Render files (`.nf`): renders that are kept, to be continued or joined.
 //!
 //! A file is a magic number, a version, and sections, each with a tag, a length and a checksum. The first section is the
-//! [`Header`], JSON that says of what image the rest is; the others are binary. `docs/render-files.md` has the layout.
+//! [`Header`], JSON that says of what image the rest is; the others are binary. `docs/compatibility.md` has the layout.
 mod encode;
 mod error;
 mod fields;

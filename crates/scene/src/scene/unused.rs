@@ -74,27 +74,35 @@ mod tests {
             (
                 &open,
                 RenderSettings { adaptive: true, reuse: Reuse::Suffixes, ..base },
-                "`adaptive` is not used: pixels have reused suffixes",
+                "`adaptive` is not used: path reuse is on (reused suffixes)",
             ),
             (
                 &open,
                 RenderSettings { adaptive: true, reuse: Reuse::Outliers, ..base },
-                "`adaptive` is not used: pixels have reused outliers",
+                "`adaptive` is not used: path reuse is on (reused outliers)",
             ),
-            (&open, RenderSettings { adaptive: true, ..light }, "`adaptive` is not used: light paths"),
+            (&open, RenderSettings { adaptive: true, ..light }, "`adaptive` is not used: light paths reach"),
             (
                 &open,
                 RenderSettings { adaptive: true, merging: true, ..light },
-                "`adaptive` is not used: pixels share merged vertices",
+                "`adaptive` is not used: light-path vertices are merged",
             ),
-            (&open, RenderSettings { reuse: Reuse::Suffixes, ..light }, "`reuse` is not used: light paths"),
+            (&open, RenderSettings { reuse: Reuse::Suffixes, ..light }, "`reuse` is not used: all pixels share the light paths"),
             (
                 &open,
                 RenderSettings { reuse: Reuse::Suffixes, max_bounces: Some(1), ..base },
-                "`reuse` is not used: pixels share nothing",
+                "`reuse` is not used: this scene and these settings do not allow",
             ),
-            (&sheer, RenderSettings { reuse: Reuse::Suffixes, ..base }, "`reuse` is not used: pixels share nothing"),
-            (&sheer, RenderSettings { reuse: Reuse::Both, ..base }, "`reuse` is not used: pixels have reused outliers, because"),
+            (
+                &sheer,
+                RenderSettings { reuse: Reuse::Suffixes, ..base },
+                "`reuse` is not used: this scene and these settings do not allow",
+            ),
+            (
+                &sheer,
+                RenderSettings { reuse: Reuse::Both, ..base },
+                "`reuse` is not used: this scene and these settings allow only reused outliers",
+            ),
             (
                 &open,
                 RenderSettings { merging: true, ..base },

@@ -4,7 +4,7 @@ use super::*;
 #[test]
 fn a_scene_is_called_by_its_title_or_else_by_its_file() {
     assert_eq!(name("A title", Path::new("some/tiny_lamp.toml")), "A title");
-    assert_eq!(name("", Path::new("some/tiny_lamp.toml")), "tiny light");
+    assert_eq!(name("", Path::new("some/tiny_lamp.toml")), "tiny lamp");
 }
 
 #[test]

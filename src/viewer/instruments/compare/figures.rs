@@ -66,7 +66,7 @@ const HEADINGS: [(&str, &str); 8] = [
     ("N", "Samples per pixel"),
     ("time", "Render time. The side that had less goes first, so both get the same"),
     ("estimated error", "The estimated relative error: the root of relMSE, the mean of (x − r)²/(r² + 0.01 · mean r²)"),
-    ("true error", "Relative error against the reference, if there is one"),
+    ("error", "Relative error against the reference, if there is one"),
     ("efficiency", "1/(relMSE · seconds). Twice the efficiency gives the same error in half the time"),
     ("converges to", "Whether the expected image is the solution of the light transport equation"),
 ];

@@ -139,8 +139,8 @@ mod tests {
                  heavy_tail",
                 "\"MIS, Sobol (Owen), no path reuse\",\"MIS, Sobol (Owen), no path reuse\",off,false,1,0.5,,2.5e-1,,,false",
                 "\"MIS, Sobol (Owen), no path reuse\",\"MIS, Sobol (Owen), no path reuse\",off,false,16,2,1.25e-1,6.25e-2,-1.5e0,,false",
-                "mine,\"Independent, reused suffixes\",on,true,4,0.75,5e-1,,,,false",
-                "mine,\"Independent, reused suffixes\",on,true,64,12,7.8125e-3,,2.25e0,,false",
+                "mine,\"Independent, reused suffixes\",suffixes,true,4,0.75,5e-1,,,,false",
+                "mine,\"Independent, reused suffixes\",suffixes,true,64,12,7.8125e-3,,2.25e0,,false",
             ]
         );
     }
@@ -161,7 +161,7 @@ mod tests {
     }
 
     #[test]
-    fn the_bias_of_a_cap_is_a_floor_and_the_curve_is_called_noise() {
+    fn the_bias_of_a_cap_is_a_floor_and_the_curve_is_called_estimated_error() {
         let scene = Arc::new(built_in());
         let capped = RenderSettings { max_bounces: Some(1), ..scene.settings };
         let mut history = History::default();
@@ -183,7 +183,7 @@ mod tests {
         history.note_series(&Frame { spp: 64, series: Some(series), ..Frame::default() });
         assert!(!history.needs_series() && history.bias_of_cap(&history.curves[0]) == Some(0.25));
         let drawing = history.svg();
-        assert!(drawing.contains("dashed: bias of the cap") && !drawing.contains("error"), "{drawing}");
+        assert!(drawing.contains("dashed: bias of the cap") && !drawing.contains("points: error"), "{drawing}");
         assert!(drawing.contains("cap of 1 bounce"));
         let table = String::from_utf8(history.csv().expect("it is written")).expect("it is text");
         assert!(table.lines().skip(1).all(|line| line.ends_with(",2.5e-1,false")), "{table}");

@@ -52,7 +52,9 @@ fn explanation(history: &History) -> String {
             let points = if history.is_measured() { " Points: error against the reference." } else { "" };
             let has_floor = history.shown().any(|curve| history.bias_of_cap(curve).is_some());
             let floor = if has_floor { " Long dashes: bias of the cap, which stays." } else { "" };
-            format!("Lines: estimated error.{points}{floor} Dashed: {root} through the current curve, the rate of independent samples.")
+            format!(
+                "Lines: estimated error.{points}{floor} Dashed: {root} through the current curve, the rate of independent samples."
+            )
         }
         Quantity::Bias => "Dashed: 0 and ±2 σ. Unbiased means stay within ±2 σ in 95 % of cases.".to_owned(),
     }

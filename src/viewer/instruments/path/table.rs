@@ -288,8 +288,8 @@ mod tests {
             let light = vertex().light.map(|light| SampledLight { object: None, outcome, ..light });
             written(&of(vec![Vertex { light, emission: None, ..vertex() }]))[COLUMNS.len() + 1].clone()
         };
-        assert_eq!(cells(LightOutcome::Seen), "background, seen");
-        assert_eq!(cells(LightOutcome::Void), "background, not tested");
+        assert_eq!(cells(LightOutcome::Seen), "environment, seen");
+        assert_eq!(cells(LightOutcome::Void), "environment, not tested");
         let light = vertex().light.map(|light| SampledLight { object: None, punctual_light: Some("spot".to_owned()), ..light });
         let of_punctual = written(&of(vec![Vertex { light, emission: None, ..vertex() }]));
         assert_eq!(of_punctual[COLUMNS.len() + 1], "spot, hidden");

@@ -105,7 +105,7 @@ fn a_converged_render_knows_its_own_error_and_is_kept() {
     let of_mean = noises.map(|noise| noise.variance_of_mean()).sum::<f64>() / 4.0;
     let is_known = |variance: f64| (variance / of_mean - 1.0).abs() < 1e-6;
     assert!(is_known(found.variance_of_mean), "{} {of_mean}", found.variance_of_mean);
-    // It is also about the true error, over 256 pixels of noise.
+    // It is also about the error, over 256 pixels of noise.
     let truth = compare(&found.radiance, &[[2.0; 3]; 256], Floor::DEFAULT).rel_mse;
     assert!((0.6..1.6).contains(&(found.rel_mse / truth)), "{} {truth}", found.rel_mse);
     assert_ne!(settings(&study_scene).seed, study_scene.scene.settings.seed);

@@ -224,7 +224,7 @@ fn means_over_blocks_scatter_as_their_variance_says() {
     assert_scatter(&plates, &adaptive, 8, "samples spread by noise");
 }
 
-/// Measurements have shown where it pays: `docs/architecture.md`, "Path reuse".
+/// Measurements have shown where it pays: `docs/light-transport.md`, "Path reuse".
 #[test]
 fn paths_are_shared_where_that_pays() {
     let shares = |name: &str| {

@@ -2,7 +2,7 @@
 //!
 //! The cost of a node is its area, and that of a leaf its area times [`LEAF_COST`], because the area is proportional to the
 //! probability of a hit. The cheapest forest of up to k trees under a branch follows from those under its two sides: C(k) = min
-//! over i of C_left(i) + C_right(k − i), or one tree, a node over the cheapest eight. (Dynamic programming after H. Ylitalo et
+//! over i of C_left(i) + C_right(k − i), or one tree, a node over the cheapest eight. (Dynamic programming after H. Ylitie et
 //! al., "Efficient incoherent ray traversal on GPUs through compressed wide BVHs", HPG 2017.) The usual method, splitting the
 //! largest children until there are eight, leaves half of the slots empty, mostly at the bottom, where most nodes are.
 use super::{LEAF, Node, WIDTH, bins::Aabb, item::NONE};
