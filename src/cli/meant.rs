@@ -11,7 +11,7 @@ const SYNONYMS: [(&[&str], &[&str]); 11] = [
     (&["resolution", "width", "height", "res"], &["size"]),
     (&["integrator", "method"], &["estimator", "estimators"]),
     (&["russian-roulette", "rr"], &["roulette"]),
-    (&["share", "path_reuse"], &["reuse"]),
+    (&["share", "sharing"], &["reuse"]),
     (&["timeout", "seconds", "budget"], &["time", "seconds"]),
     (&["out", "file"], &["output"]),
     (&["tonemap", "tone-map"], &["tone"]),

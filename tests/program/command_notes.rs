@@ -95,8 +95,14 @@ fn options_without_effect_are_named() {
             &["-o", "a.png", "--adaptive", "on", "--reuse", "on"][..],
             "warning: `adaptive` is not used: path reuse is on (reused suffixes)",
         ),
-        (&["-o", "a.png", "--adaptive", "on", "--estimator", "bidirectional"], "warning: `adaptive` is not used: light paths reach"),
-        (&["-o", "a.png", "--reuse", "both", "--estimator", "light_tracing"], "warning: `reuse` is not used: all pixels share the light paths"),
+        (
+            &["-o", "a.png", "--adaptive", "on", "--estimator", "bidirectional"],
+            "warning: `adaptive` is not used: light paths reach",
+        ),
+        (
+            &["-o", "a.png", "--reuse", "both", "--estimator", "light_tracing"],
+            "warning: `reuse` is not used: all pixels share the light paths",
+        ),
         (
             &["-o", "a.png", "--merging", "on", "--estimator", "mis"],
             "warning: `merging` is not used: it belongs to the estimator",

@@ -169,7 +169,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_given_back_counts_again() {
+    fn released_memory_can_be_reserved_again() {
         static BUDGET: Account = Account::new(1000);
         let first = BUDGET.reserve("apples", 600).expect("there is room");
         let error = BUDGET.reserve("pears", 500).expect_err("400 are left");
@@ -203,7 +203,7 @@ mod tests {
     }
 
     #[test]
-    fn the_machine_says_what_it_has() {
+    fn the_memory_of_the_machine_is_read() {
         assert_eq!(total("MemFree: 3 kB\nMemTotal:       24576 kB\n"), Some(24_576 * 1024));
         assert_eq!((total("MemTotal: many"), total("")), (None, None));
         assert!(half_of_the_machine() > 100_000_000);

@@ -19,7 +19,7 @@ pub enum Stage {
 impl Stage {
     const ALL: [Stage; 3] = [Stage::Files, Stage::Meshes, Stage::Trees];
 
-    /// What happens, as the beginning of a line.
+    /// Returns the name of the stage, as the beginning of a line.
     pub fn name(self) -> &'static str {
         match self {
             Stage::Files => "Reading files",

@@ -70,7 +70,7 @@ impl Update<'_> {
         }
     }
 
-    /// The same for a table on one line, or for a name in its place.
+    /// Updates the value that holds a table on one line, or its name.
     pub fn table_value(&self, value: &mut Value, was: &Table, now: &Table) {
         if was.is_identical(now) {
             return;

@@ -33,7 +33,7 @@ pub struct Walk<'p> {
     target: &'p [Step],
     /// Number of steps of the target that lead to the current table: all of them within the target, `None` off the path.
     matched: Option<usize>,
-    /// The same for the enclosing tables, with the lengths of their paths.
+    /// Those numbers for the enclosing tables, with the lengths of their paths.
     outer: Vec<(Option<usize>, usize)>,
     /// The path of the current table; not kept off the path.
     path: Path,

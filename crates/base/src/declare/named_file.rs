@@ -88,7 +88,7 @@ mod tests {
     }
 
     #[test]
-    fn what_has_been_read_is_taken_once_unless_the_file_has_changed() {
+    fn a_loaded_file_is_taken_once_unless_it_has_changed() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("a");
         fs::write(&path, "disk").expect("it is written");

@@ -42,37 +42,37 @@ impl Parameter {
         Parameter { key, doc, symbol: "", unit: "", is_required: false, aliases: "", title: "", advice: "", meaning: None }
     }
 
-    /// The same, but a scene file must give it.
+    /// Makes the parameter required in scene files.
     pub const fn required(self) -> Parameter {
         Parameter { is_required: true, ..self }
     }
 
-    /// The same with a symbol.
+    /// Sets the symbol.
     pub const fn symbol(self, symbol: &'static str) -> Parameter {
         Parameter { symbol, ..self }
     }
 
-    /// The same with a unit.
+    /// Sets the unit.
     pub const fn unit(self, unit: &'static str) -> Parameter {
         Parameter { unit, ..self }
     }
 
-    /// The same with aliases, separated by spaces.
+    /// Sets the aliases, separated by spaces.
     pub const fn aliases(self, aliases: &'static str) -> Parameter {
         Parameter { aliases, ..self }
     }
 
-    /// The same with a title.
+    /// Sets the title.
     pub const fn title(self, title: &'static str) -> Parameter {
         Parameter { title, ..self }
     }
 
-    /// The same with advice.
+    /// Sets the advice.
     pub const fn advice(self, advice: &'static str) -> Parameter {
         Parameter { advice, ..self }
     }
 
-    /// The same with a meaning.
+    /// Sets the meaning.
     pub const fn means(self, meaning: Meaning) -> Parameter {
         Parameter { meaning: Some(meaning), ..self }
     }
@@ -165,7 +165,7 @@ impl Range {
         Range { least, most, scale: SliderScale::Log, expected: "" }
     }
 
-    /// The same with what messages expect.
+    /// Sets the expectation that messages state.
     pub const fn expected(self, expected: &'static str) -> Range {
         Range { expected, ..self }
     }

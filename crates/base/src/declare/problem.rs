@@ -8,11 +8,11 @@ use crate::{progress::Cancelled, quote};
 pub struct Problem {
     /// Its path, relative to the kind that reports it until the enclosing tables have [prefixed](Problem::within) theirs.
     pub path: Path,
-    /// What is wrong.
+    /// Description of the problem.
     pub message: String,
     /// The expected value.
     pub label: String,
-    /// What to do; may be empty.
+    /// Advice; may be empty.
     pub help: String,
     /// Byte range within the text at `path`, if only a part of that text is wrong.
     pub part: Option<std::ops::Range<usize>>,
@@ -49,13 +49,13 @@ impl Problem {
         Problem::at(at, format!("there is no {kind} `{name}`"), label).help(help)
     }
 
-    /// The same problem with advice.
+    /// Adds advice to the problem.
     #[must_use]
     pub fn help(self, help: impl Into<String>) -> Problem {
         Problem { help: help.into(), ..self }
     }
 
-    /// The same problem with its path relative to an enclosing table.
+    /// Makes the path relative to an enclosing table.
     #[must_use]
     pub fn within(self, outer: &Path) -> Problem {
         Problem { path: outer.join(&self.path), ..self }

@@ -42,7 +42,7 @@ impl Resources {
         Resources::after(folder, Memo::default())
     }
 
-    /// The same, but reuses the slow parts of the compile `before`.
+    /// Creates resources that reuse the slow parts of the compile `before`.
     pub fn after(folder: impl Into<PathBuf>, before: Memo) -> Resources {
         Resources {
             folder: folder.into(),
@@ -55,12 +55,12 @@ impl Resources {
         }
     }
 
-    /// The same, but looks for files in memory first.
+    /// Looks for files in memory first.
     pub fn with_assets(self, assets: Assets) -> Resources {
         Resources { assets, ..self }
     }
 
-    /// The same, but reports its progress, and can be cancelled.
+    /// Reports to `progress`, which can also cancel the compile.
     pub fn with_progress(self, progress: Progress) -> Resources {
         Resources { progress, ..self }
     }
@@ -173,7 +173,7 @@ mod tests {
         assert!(Arc::ptr_eq(&a, &three(&second, "a")) && !Arc::ptr_eq(&a, &three(&second, "b")));
         let left = second.into_leftovers();
         assert_eq!((left.report[0].made, left.report[0].reused), (1, 1));
-        // What a compile does not use is gone for the next one.
+        // Parts that a compile does not use are gone for the next one.
         let third = Resources::after("", Resources::after("", left.memo).into_leftovers().memo);
         assert!(!Arc::ptr_eq(&a, &three(&third, "a")));
     }

@@ -55,7 +55,7 @@ pub enum Family {
 /// A colour, linear Rec. 709, or a number; or a texture in its place.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Textured<T = [f64; 3]> {
-    /// The same everywhere.
+    /// A constant value.
     Constant(T),
     /// The name of a texture.
     Texture(String),

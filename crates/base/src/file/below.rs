@@ -35,7 +35,7 @@ pub fn replace_below(folder: &Path, inner: &str, bytes: &[u8]) -> Result<(), Wri
             _ => {}
         }
     }
-    // What was made meanwhile counts, too.
+    // Links and files that were made meanwhile count, too.
     check_below(folder, inner)?;
     OutputFile::without_links(&path)?.replace(|to| to.write_all(bytes))
 }

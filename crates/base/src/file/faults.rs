@@ -49,7 +49,7 @@ impl Disk {
         Disk { bytes: bytes.into(), syncs: syncs.into(), renames: renames.into() }
     }
 
-    /// What is left of each.
+    /// Returns the bytes, syncs and renames that are left.
     fn left(&self) -> [usize; 3] {
         [&self.bytes, &self.syncs, &self.renames].map(|left| left.load(Ordering::Relaxed))
     }

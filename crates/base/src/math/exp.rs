@@ -41,7 +41,7 @@ mod tests {
     use crate::math::One;
 
     #[test]
-    fn powers_of_two_are_what_they_should_be() {
+    fn powers_of_two_are_accurate() {
         let error = |i: i32| {
             let x = -f64::from(i) / 1000.0;
             (f64::from(exp2_of_negative(F::<One>(x as f32)).0) / f64::from(x as f32).exp2() - 1.0).abs()

@@ -47,9 +47,9 @@ pub trait Lanes: ExtractToken + Copy + Send + Sync + 'static {
     /// Number of lanes.
     const N: usize;
 
-    /// The same number in all lanes.
+    /// Fills all lanes with a number.
     fn f(self, x: f32) -> F<Self>;
-    /// The same whole number in all lanes.
+    /// Fills all lanes with a whole number.
     fn u(self, x: u32) -> U<Self>;
     /// The mask whose first `n` lanes are set (all of them when `n` exceeds `N`).
     fn first(self, n: usize) -> M<Self>;
@@ -66,9 +66,9 @@ pub trait Lanes: ExtractToken + Copy + Send + Sync + 'static {
     fn store(x: Self::Real, to: &mut [f32]);
     /// Writes all lanes to the start of a slice.
     fn store_int(x: Self::Int, to: &mut [u32]);
-    /// The same number in all lanes.
+    /// Fills all lanes with a number.
     fn splat(like: Self::Real, x: f32) -> Self::Real;
-    /// The same whole number in all lanes.
+    /// Fills all lanes with a whole number.
     fn splat_int(like: Self::Int, x: u32) -> Self::Int;
 
     /// a + b.

@@ -153,7 +153,7 @@ impl<L: Lanes> F<L> {
     pub fn below(self, b: f32) -> M<L> {
         M(L::lt(self.0, L::splat(self.0, b)))
     }
-    /// The same number in all lanes.
+    /// Fills all lanes with a number.
     #[inline(always)]
     pub fn splat(self, x: f32) -> Self {
         F(L::splat(self.0, x))

@@ -69,7 +69,7 @@ impl<L: Lanes> Neg for V<L> {
 }
 
 impl<L: Lanes> V<L> {
-    /// The same vector in all lanes.
+    /// Fills all lanes with a vector.
     #[inline(always)]
     pub fn splat(l: L, a: [f32; 3]) -> Self {
         V { x: l.f(a[0]), y: l.f(a[1]), z: l.f(a[2]) }

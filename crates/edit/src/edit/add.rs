@@ -18,7 +18,7 @@ const RADIANCE: f64 = 20.0;
 /// The irradiance of those without surface below them, W/m²: white surfaces are white there and not beyond.
 const IRRADIANCE: f64 = 4.0;
 
-/// What lights an image of this exposure as well as `brightness` one of exposure 0. It has few digits.
+/// Scales a brightness for exposure 0 to an image of this exposure, and rounds it to two digits.
 fn brightness(brightness: f64, exposure: f64) -> f64 {
     let wanted = brightness * (-exposure).exp2();
     format!("{wanted:.1e}").parse().unwrap_or(wanted)

@@ -38,7 +38,7 @@ impl Content {
         check(&mut self.description, &Path::default())
     }
 
-    /// What is at a path.
+    /// Returns the tree of values at a path.
     pub fn tree(&mut self, path: &Path) -> Option<Tree> {
         Tree::at(&mut self.description, path)
     }

@@ -25,7 +25,7 @@ pub fn colour(material: &MaterialDescription) -> Option<Path> {
     found.map(|found| found.path)
 }
 
-/// What a material had before a change of kind that would lose it because the new kind has another key for it, and the new paths.
+/// Returns the values that a material would lose by a change of type since the new type has other keys for them, and the new paths.
 pub fn kept_by_kind(material: &MaterialDescription, kind: &str) -> Vec<(Path, OwnedValue)> {
     let mut changed = material.clone();
     choose(&mut changed, &Path::default(), Material::WHAT, kind);

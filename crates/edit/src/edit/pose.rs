@@ -31,7 +31,7 @@ impl Document {
         })
     }
 
-    /// The same for a punctual light. Its intensity stays.
+    /// The edit that transforms a punctual light in world space. Its intensity stays.
     pub fn transformed_light(&self, punctual_light: usize, change: &Transform, pivot: DVec3) -> Option<Edit> {
         let at = Path::of("lights").item(punctual_light);
         let described = self.description().punctual_lights.get(punctual_light)?;

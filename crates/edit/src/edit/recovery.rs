@@ -104,7 +104,7 @@ impl Recovery {
             }
             (None, None) => Document::untitled(&self.text)?,
         };
-        // What is in the file now tells later whether it was changed outside.
+        // The present content of the file tells later whether it was changed outside.
         let on_disk = self.path.as_ref().and_then(|path| scene::read_text(path).ok());
         document.differs_from(on_disk.unwrap_or_default());
         Ok(document)

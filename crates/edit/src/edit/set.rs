@@ -2,7 +2,7 @@
 use super::walk::{Walk, follows_walk};
 use noisefall_base::declare::{Declare, OwnedValue, Parameter, Parameters, Path, Value};
 
-/// What was at the path before a value was set.
+/// State of a path before a value was set.
 pub enum PreviousValue {
     /// The value.
     Present(OwnedValue),

@@ -28,7 +28,7 @@ impl Edit {
             Edit::Rename { path, to } => renaming(&scene.part_name(path), to),
             Edit::Move { path, .. } => format!("move of {}", place(scene, path)),
             Edit::All(edits) => {
-                let main = edits.iter().find(|edit| !edit.adds_what_others_need()).or(edits.first());
+                let main = edits.iter().find(|edit| !edit.adds_a_dependency()).or(edits.first());
                 main.map_or_else(|| "edit".to_owned(), |edit| edit.title(scene))
             }
             Edit::Reload(_) => "reload of the file".to_owned(),
@@ -36,7 +36,7 @@ impl Edit {
     }
 
     /// Whether the edit adds a material or a texture. Among others, it serves them.
-    fn adds_what_others_need(&self) -> bool {
+    fn adds_a_dependency(&self) -> bool {
         let Edit::Insert { path, .. } = self else { return false };
         matches!(&path.0[..], [Step::Key(map), Step::Key(_)] if map == "materials" || map == "textures")
     }
@@ -77,7 +77,7 @@ fn part(scene: &SceneDescription, path: &Path) -> String {
     if has_name { name } else { format!("the {name}") }
 }
 
-/// What happens to a part, or to something of it.
+/// Describes a change of a part, or of one of its parameters.
 fn around(scene: &SceneDescription, path: &Path, what: &str, preposition: &str) -> String {
     let (part, parameter) = (part(scene, path), parameter_name(path));
     if parameter.is_empty() { format!("{what} of {part}") } else { format!("{what} of {parameter} {preposition} {part}") }

@@ -61,11 +61,11 @@ pub struct Prepared {
     /// The scene file.
     content: Vec<u8>,
     files: files::ExportedFiles,
-    /// What the format cannot say exactly.
+    /// Remarks on parts that the format cannot express exactly.
     pub remarks: Remarks,
 }
 
-/// What an export wrote.
+/// Files that an export wrote.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Exported {
     /// The folder of the meshes and textures, if there are any.
@@ -87,7 +87,7 @@ pub enum ExportError {
     Invalid {
         /// Its name in the scene.
         place: String,
-        /// What is wrong.
+        /// The problem.
         reason: String,
     },
     /// A file that the scene names.

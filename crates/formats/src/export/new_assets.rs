@@ -15,7 +15,7 @@ pub struct NewAssets {
 }
 
 impl NewAssets {
-    /// Those of the scene.
+    /// Starts with the files of the scene.
     pub fn new(assets: &Assets) -> NewAssets {
         NewAssets { assets: assets.clone(), names: Names::default(), named: Vec::new() }
     }

@@ -1,12 +1,12 @@
 //! Remarks about what is being translated.
 use crate::import::Remarks;
 
-/// What the other format cannot say exactly, by place.
+/// Remarks on parts that the other format cannot express exactly, by place.
 #[derive(Default)]
 pub struct Notes {
     /// The remarks so far.
     pub remarks: Remarks,
-    /// What is being translated, such as `materials.gold`.
+    /// The part that is being translated, such as `materials.gold`.
     place: String,
 }
 
@@ -16,7 +16,7 @@ impl Notes {
         self.remarks.add(self.place.clone(), found, used, effect);
     }
 
-    /// What is being translated.
+    /// Returns the part that is being translated.
     pub fn place(&self) -> &str {
         &self.place
     }

@@ -11,7 +11,7 @@ use crate::import::{ImportOptions, Imported, read};
 use noisefall_base::declare::{Assets, check};
 use noisefall_scene::scene::{describe, description::SceneDescription};
 
-/// What is written for a scene, read again, and the remarks about the writing.
+/// A scene that was written and read again, with the remarks about the writing.
 pub struct RoundTrip {
     pub imported: Imported,
     pub remarks: Vec<String>,

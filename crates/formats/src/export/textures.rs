@@ -13,7 +13,7 @@ use noisefall_scene::{
 
 /// Pixels of a side of an image of a texture.
 pub const SIDE: u32 = 1024;
-/// What an image of a texture is, and what it changes.
+/// Remark on an image of a texture: its size, and what it changes.
 pub const BAKED: [&str; 2] =
     ["an image of 1024 × 1024 pixels", "edges are interpolated between pixels, and it repeats outside the unit square"];
 /// Textures within textures, as far as their kinds are looked at.

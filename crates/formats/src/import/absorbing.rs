@@ -14,7 +14,7 @@ pub const INTERFACE: &str = "punctual lights shine through it on light paths onl
 /// How a surface holds a medium.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Filling {
-    /// As the scene says.
+    /// Exactly as in the scene.
     Exact,
     /// Behind an interface of index 1, through which light samples do not pass.
     Interface,
@@ -142,7 +142,7 @@ mod tests {
     }
 
     #[test]
-    fn what_lets_no_light_in_stays_and_other_surfaces_are_refused() {
+    fn surfaces_that_let_no_light_in_stay_and_others_are_refused() {
         let white = Lambertian { albedo: Textured::grey(0.5) };
         assert!(matches!(filled(white), (Material::Lambertian(_), Filling::Exact)));
         let leaf = DiffuseTransmission { reflectance: Textured::grey(0.2), transmittance: Textured::grey(0.2) };

@@ -1,5 +1,5 @@
-//! What a scene may make of its files: bytes that are unpacked, and triangles that come from rules rather than from lists. A small file can
-//! ask for any amount of either, and does so a thousand times.
+//! Limits of a scene: bytes that it may unpack, and triangles that it may make from rules rather than from lists. A small file can
+//! ask for any amount of either, and do so a thousand times.
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// Bytes that any scene may unpack, and those per byte of its packed files.

@@ -56,7 +56,7 @@ pub fn complete(to: &mut Imported, folder: &Folder, sizes: &Sizes, place: &str) 
     };
     let power: f64 = to.description.objects.iter().zip(luminances).zip(&sizes.areas).filter_map(power).sum();
     let [x, y, z] = (sizes.bounds[1] - sizes.bounds[0]).to_array();
-    // What falls on the box around the scene, as a stand-in for the surfaces in it.
+    // The box around the scene stands in for the surfaces that the light falls on.
     let lit = power / (2.0 * (x * y + y * z + z * x)) / (PI * studio::RADIANCE);
     if power == 0.0 {
         studio::light(to, place, "no light", "the light differs from the original");

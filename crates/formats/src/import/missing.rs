@@ -71,7 +71,7 @@ impl Missing {
         }
     }
 
-    /// What was read, unless a file was missing: then the error that names them all. Others may only follow from that.
+    /// Returns the result of reading, or else an error that names all missing files. Other errors may only follow from them.
     pub fn finish<T>(&self, read: Result<T, SceneError>) -> Result<T, SceneError> {
         SceneError::of_all(self.state().errors.clone()).map_or(read, Err)
     }

@@ -49,7 +49,7 @@ pub struct Imported {
     /// Meshes and images that exist in memory only: [`noisefall_scene::model::Model`] by paths such as `meshes/chair.ply`, and encoded image
     /// files, as `Vec<u8>`, by paths such as `textures/wood.png`.
     pub assets: Assets,
-    /// What was not imported exactly.
+    /// Remarks on parts that were not imported exactly.
     pub remarks: Remarks,
 }
 

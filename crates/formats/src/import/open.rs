@@ -9,7 +9,7 @@ use noisefall_writer::{new_text, renamed};
 pub struct Opened {
     /// The scene. Its text is in the format of Noisefall, whatever the format of the file.
     pub scene: Scene,
-    /// What was not imported exactly. Scenes of Noisefall have no remarks.
+    /// Remarks on parts that were not imported exactly. Scenes of Noisefall have none.
     pub remarks: Remarks,
     /// The description of the scene of another program; absent for others, whose text has it.
     pub description: Option<Arc<SceneDescription>>,

@@ -18,16 +18,16 @@ use noisefall_base::{progress::Progress, quote};
 /// likes.
 #[derive(Clone, Debug)]
 pub struct Folder {
-    /// As the user typed it.
+    /// The path as the user typed it.
     typed: PathBuf,
-    /// The same without links.
+    /// The path without links.
     root: PathBuf,
     allow_outside: bool,
     /// The files that were found, as [`Folder::described`]. Clones share it.
     found: Arc<Mutex<BTreeSet<String>>>,
     /// The files that were not found, and that the scene needs.
     pub missing: Missing,
-    /// What the scene may make of its files.
+    /// Limits of what the scene may make of its files.
     pub budget: Budget,
     /// The progress of the reader.
     pub progress: Progress,
@@ -62,7 +62,7 @@ impl Folder {
         self.resolve(&spelling::on_disk(&self.root, named)?).ok()
     }
 
-    /// The same for a path that a file in `folder` names, such as a material library.
+    /// The file at a path that a file in `folder` names, such as a material library.
     pub fn resolve_beside(&self, folder: &Path, named: &str) -> Result<PathBuf, Unresolved> {
         let shown = quote::path(Path::new(named));
         let path = Path::new(named);

@@ -1,4 +1,4 @@
-//! What a scene may read without the permission of the user. All paths are those without links.
+//! Files that a scene may read without the permission of the user. All paths are free of links.
 use std::path::{Component, Path, PathBuf};
 
 /// Steps upwards to a folder that scenes share, as many as Mitsuba's own scenes take.

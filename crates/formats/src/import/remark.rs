@@ -5,10 +5,10 @@
 pub struct Remark {
     /// Where it stands: `scene.xml:12:5`, or `scene.gltf: material "Wood"`.
     pub place: String,
-    /// What stands there: "`<bsdf type=\"hair\">`".
+    /// The original: "`<bsdf type=\"hair\">`".
     pub found: String,
-    /// What was used instead: "grey plastic".
+    /// The replacement: "grey plastic".
     pub used: String,
-    /// What that changes in the image: "the strands look like plastic".
+    /// The effect on the image: "the strands look like plastic".
     pub effect: String,
 }

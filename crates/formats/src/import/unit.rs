@@ -42,7 +42,7 @@ pub struct Limiter<'a> {
     pub assets: &'a mut Assets,
     /// The folder of the scene.
     pub root: &'a Path,
-    /// Those of the textures.
+    /// Names of the textures.
     pub names: &'a mut Names,
 }
 

@@ -32,7 +32,7 @@ pub struct Batch {
     pub splats: Vec<Splat>,
     /// Queues of bidirectional paths, after the first trace with such paths.
     pub(super) light_paths: Option<Box<LightPaths>>,
-    /// What outlier reuse needs, after the first trace with it.
+    /// Buffers of outlier reuse, after the first trace with it.
     pub(super) bright: Option<Box<OutlierBuffers>>,
     /// Paths cut at [`noisefall_scene::scene::RenderSettings::last_bounce`] in the absence of a cap.
     pub cut_paths: u64,

@@ -8,7 +8,7 @@ use noisefall_scene::sampling::Dimension;
 
 /// The random numbers of a reflection.
 pub(super) struct ReflectionCoordinates<L: Lanes> {
-    /// Those of the light sample are still to be read from it.
+    /// The numbers of the light sample are still to be read from it.
     pub stream: Stream<L>,
     /// Selects the next direction.
     pub direction: (F<L>, F<L>),

@@ -43,7 +43,7 @@ mod tests {
     }
 
     #[test]
-    fn a_tilted_normal_shadows_what_grazes_the_surface() {
+    fn a_tilted_normal_shadows_grazing_light() {
         let shadowing = |tilt: f32| {
             let alpha_squared = (tan_squared(One, direction(tilt).z) * 0.125).min(One.f(1.0));
             NormalShadowing { n: direction(0.0), alpha_squared }

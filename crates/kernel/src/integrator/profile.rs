@@ -12,7 +12,7 @@ use super::{
 use noisefall_base::math::{One, SimdLevel, in_lanes};
 use noisefall_scene::geometry::Visits;
 
-/// What a stage took.
+/// Cost of a stage.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct StageCost {
     /// Time, summed over threads.

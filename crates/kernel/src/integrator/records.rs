@@ -93,7 +93,7 @@ record! {
 }
 
 record! {
-    /// What tilted shading normals darken. Stored beside [`Detail`] in scenes with surfaces whose normals do.
+    /// Shadowing by tilted shading normals. Stored beside [`Detail`] in scenes with surfaces that have it.
     NormalShadowing {
         /// The normal before it was tilted, unit, on the side the path arrived from.
         n: V,
@@ -103,7 +103,7 @@ record! {
 }
 
 record! {
-    /// What bump and normal maps tilt, for viewers in any direction. Stored beside [`Detail`] for bidirectional paths.
+    /// Normals of bump and normal maps, for viewers in any direction. Stored beside [`Detail`] for bidirectional paths.
     MappedNormals {
         /// The smooth normal, on the side the path arrived from.
         smooth: V,

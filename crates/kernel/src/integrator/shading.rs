@@ -112,7 +112,7 @@ impl<'a, L: Lanes, K: Shade> Shading<'a, L, K> {
         let mut sample = bsdf.sample(vertex.wo, coordinates.direction, coordinates.lobe);
         let mut d = vertex.frame.world_from_local(sample.wi);
         if K::DETAILED {
-            // What mirrors and refracts a direction keeps the error of its length: a step of Newton's method to 1, or else it
+            // Reflection and refraction keep the error of a direction's length. A step of Newton's method reduces it, or else it
             // adds up from bounce to bounce until a ray no longer knows on which side of its surface it starts.
             d = d * (1.5 - d.length_squared() * 0.5);
         }
@@ -289,7 +289,7 @@ impl<L: Lanes> ShadingVertex<L> {
     #[inline(always)]
     pub fn leave<K: Shade>(&self, hit: &Hit<L>, d: V<L>, z: F<L>) -> (V<L>, M<L>) {
         if !K::DETAILED {
-            // What lies below has no weight.
+            // Directions below the surface have no weight.
             return (hit.p, self.local.front);
         }
         let consistent = (hit.n.dot(d) * z).above(0.0);

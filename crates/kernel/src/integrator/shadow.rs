@@ -49,7 +49,7 @@ fn test<L: Lanes, const PASSAGES: bool, const MISSES: bool>(l: L, work: &Work, b
     shadows.clear();
 }
 
-/// What becomes of light samples.
+/// Light samples after their shadow rays.
 pub(super) struct Arriving<L: Lanes> {
     /// Lanes whose light is visible.
     pub seen: M<L>,

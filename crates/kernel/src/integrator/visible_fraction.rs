@@ -56,7 +56,7 @@ pub(super) fn visible_fraction<L: Lanes>(
     (live & segment.is_open(&nearest)).pick(l.f(1.0), l.f(0.0))
 }
 
-/// The same where light passes through surfaces, the first of which is `nearest`.
+/// The fraction of light that arrives through surfaces, the first of which is `nearest`.
 #[simd]
 fn fraction_through_surfaces<L: Lanes>(
     l: L,

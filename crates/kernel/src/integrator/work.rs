@@ -130,7 +130,7 @@ impl<'a> Work<'a> {
         Stream::new(sampler, seed, pixel, l.u(self.sample))
     }
 
-    /// The same sample of all pixels of the tile in which this work begins.
+    /// Returns the work of this sample for all pixels of the tile in which it begins.
     pub(super) fn whole_tile(self) -> Self {
         let origin = self.origin.map(|x| x / TILE * TILE);
         let size = [0, 1].map(|axis| TILE.min(self.rays.resolution[axis] - origin[axis]));
@@ -174,7 +174,7 @@ impl<'a> Work<'a> {
         self.sampled_time(l, slot)
     }
 
-    /// The same if something moves.
+    /// The times of the samples of slots if something moves.
     #[simd]
     fn sampled_time<L: Lanes>(&self, l: L, slot: U<L>) -> F<L> {
         self.rays.time(l, self.stream(l, slot).one(Dimension::TIME))

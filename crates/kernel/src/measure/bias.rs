@@ -227,7 +227,7 @@ mod tests {
     }
 
     #[test]
-    fn what_does_not_vary_is_exact() {
+    fn a_bias_without_variance_is_exact() {
         let (a, b) = (picture([3.0, 5.0]), picture([2.0, 7.0]));
         for variance in [0.0, (3e-7f64 * 4.0).powi(2)] {
             let bias = Bias::by_samples(&a, &b, [Some(&noise([variance; 2], 1e6)), None], WIDTH);
@@ -252,13 +252,13 @@ mod tests {
             Bias::by_samples(&a, &a, [Some(first), second], WIDTH).has_heavy_tails
         };
         assert!(heavy(&noise([0.1; 2], 299.0), None) && !heavy(&noise([0.1; 2], 301.0), None));
-        // What adds little to the variance does not matter.
+        // Samples that add little to the variance do not matter.
         assert!(!heavy(&noise([1e-4; 2], 5.0), Some(&noise([0.1; 2], 1e5))));
         assert!(heavy(&noise([0.1; 2], 5.0), Some(&noise([0.1; 2], 1e5))));
     }
 
     #[test]
-    fn repeats_give_what_the_textbook_does() {
+    fn repeats_agree_with_the_textbook() {
         let repeats = [[3.0, 5.0], [3.2, 5.4], [3.7, 4.9], [2.9, 5.1]].map(picture);
         let repeats: Vec<&[[f32; 3]]> = repeats.iter().map(Vec::as_slice).collect();
         let bias = Bias::by_repeats(&repeats, &picture([2.0, 7.0]), None, WIDTH);

@@ -8,7 +8,7 @@ use serde::Serialize;
 pub enum Floor {
     /// This fraction of the reference's mean squared radiance: relMSE does not depend on the unit of radiance.
     Relative(f64),
-    /// The same number for every image, as in some other programs.
+    /// A number for all images, as in some other programs.
     Absolute(f64),
 }
 

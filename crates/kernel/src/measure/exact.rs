@@ -32,7 +32,7 @@ pub fn furnace_variance(le: f64, albedo: f64, weight_square: f64) -> f64 {
     mean_square - mean * mean
 }
 
-/// The same with at most `cap` bounces: Xₙ = L_e + ρ w Xₙ₋₁ with X₀ = L_e, so that
+/// Variance of one sample of that furnace with at most `cap` bounces: Xₙ = L_e + ρ w Xₙ₋₁ with X₀ = L_e, so that
 /// E Xₙ² = L_e² + 2 L_e ρ E Xₙ₋₁ + ρ² E w² E Xₙ₋₁².
 pub fn furnace_capped_variance(le: f64, albedo: f64, weight_square: f64, cap: u32) -> f64 {
     let step = |mean_square: f64, n: u32| {
@@ -168,7 +168,7 @@ mod tests {
         let of_scene = noisefall_scene::scene::built_in().camera;
         let camera = Camera { resolution: [4, 2], fov: 90.0, ..of_scene };
         let [right, up, forward] = camera.axes();
-        // What is linear on the image plane has the mean of the centre. The image is 2 wide and 1 high at a distance of 1.
+        // A linear function of the image plane has the mean of the centre. The image is 2 wide and 1 high at a distance of 1.
         for ([x, y], centre) in [([0, 0], [-0.75, 0.25]), ([3, 0], [0.75, 0.25]), ([2, 1], [0.25, -0.25])] {
             for (axis, exact) in [right, up].into_iter().zip(centre) {
                 let place = |d: DVec3| d.dot(axis) / d.dot(forward);
@@ -235,7 +235,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_below_the_ground_does_not_light_it() {
+    fn light_below_the_ground_does_not_reach_it() {
         let wall = |bottom: f64| [(-1.0, bottom), (1.0, bottom), (1.0, 2.0), (-1.0, 2.0)].map(|(x, y)| DVec3::new(x, y, 1.5));
         let [whole, upper] = [-3.0, 0.0].map(|bottom| polygon_irradiance(2.0, &wall(bottom)));
         assert!((whole / upper - 1.0).abs() < 1e-12 && upper > 0.1, "{whole} {upper}");

@@ -119,7 +119,7 @@ mod tests {
     }
 
     #[test]
-    fn what_has_no_noise_or_one_block_has_no_ratio() {
+    fn images_without_noise_or_with_one_block_have_no_ratio() {
         let (none, some) = (errors(&vec![[1.0; 3]; 96 * 64]), errors(&noise(1, 0.5)));
         assert!(LogRatio::jackknife(&none, &some).is_none() && LogRatio::jackknife(&some, &none).is_none());
         let small = BlockErrors::rel_mse(&noise(1, 0.5)[..64], &[[1.0; 3]; 64], 8, 0.01);

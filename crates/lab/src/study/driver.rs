@@ -17,7 +17,7 @@ use noisefall_scene::scene::RenderSettings;
 
 /// A study of some scenes in a folder.
 pub struct Study<'a> {
-    /// What to measure.
+    /// The measurements to make.
     pub plan: &'a Plan,
     /// The folder that keeps measurements.
     pub folder: &'a Path,

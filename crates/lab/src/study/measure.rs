@@ -54,7 +54,7 @@ pub struct Run {
     pub invalid_samples: u64,
     /// Why the estimate is biased; empty if it is not.
     pub bias: String,
-    /// What pixels shared, as the settings and the scene decided.
+    /// Path reuse, as the settings and the scene decided.
     pub path_reuse: PathReuse,
     /// Whether sampling was adaptive.
     pub adapts: bool,

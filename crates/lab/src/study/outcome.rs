@@ -60,7 +60,7 @@ pub struct Outcome {
     /// own error.
     /// E (x − μ)² = V x + (E x − μ)², so for an unbiased estimate this is the variance of a pixel.
     pub variances: Vec<Vec<(f64, f64)>>,
-    /// What pixels shared.
+    /// Path reuse between pixels.
     pub path_reuse: PathReuse,
     /// Whether sampling was adaptive.
     pub adapts: bool,

@@ -69,7 +69,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn cells_cover_the_sphere_and_hold_what_is_integrated_over_them() {
+    fn cells_cover_the_sphere_and_hold_the_integrals_over_them() {
         for width in [0.05, 0.5, 2.0] {
             let cells = Cells::around(DVec3::new(0.6, 0.0, 0.8), width, 16);
             let all: f64 = cells.integrals(&|_| 1.0).iter().sum();

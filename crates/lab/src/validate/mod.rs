@@ -100,7 +100,7 @@ impl Validation {
         self.run_these(&sections::ALL, done)
     }
 
-    /// The same, until `done` stops it. Returns the sections that are finished.
+    /// Runs all sections until `done` stops it. Returns the sections that are finished.
     pub fn run_while(&self, done: impl FnMut(usize, &Section) -> ControlFlow<()>) -> Vec<Section> {
         self.run_these_while(&sections::ALL, done)
     }

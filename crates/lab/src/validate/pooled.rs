@@ -160,7 +160,7 @@ mod tests {
     }
 
     #[test]
-    fn the_remark_counts_what_is_pooled_and_how_likely_a_failure_is() {
+    fn the_remark_counts_pooled_scores_and_states_the_chance_of_a_failure() {
         let z = |z: f64| Statement { z: Some(z), chance: 0.01, ..Statement::plain("z", 0.0, String::new()) };
         let statements = vec![z(0.5), z(-1.5), z(3.0).of_the_same(), Statement::below("limit", 0.0, 1.0)];
         let first = Section { title: "T", claim: "", derivation: &[], source: "", statements, figures: Vec::new(), remark: None };

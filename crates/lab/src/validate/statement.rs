@@ -14,7 +14,7 @@ pub(super) const POWER: f64 = 1.644_853_6;
 /// A measured number and the number that it must be.
 #[derive(Clone, Debug, Serialize)]
 pub struct Statement {
-    /// What was measured.
+    /// The quantity that was measured.
     pub what: String,
     /// The measured value.
     pub measured: f64,
@@ -40,11 +40,11 @@ pub struct Statement {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Noticed {
-    /// As a fraction of the exact number.
+    /// A fraction of the exact number.
     Relative(f64),
     /// In units of the measured number.
     Absolute(f64),
-    /// As a fraction of each of the numbers that the statement combines.
+    /// A fraction of each of the numbers that the statement combines.
     Each(f64),
 }
 

@@ -11,7 +11,7 @@ const SPHERES: usize = 4;
 /// Those that mutants concern.
 const CONCERNED: [usize; 4] = [FURNACE, CAPS_AND_ROULETTE, DIRECTIONS, SPHERES];
 
-/// Those of these sections that fail.
+/// Returns the sections among these that fail.
 fn red<const N: usize>(fault: Option<InjectedFault>, places: [usize; N]) -> Vec<usize> {
     let validation = Validation { fault, ..Validation::new(Effort::Quick, None, 0) };
     let sections = validation.run_these(&places.map(|place| sections::ALL[place]), |_, _| ());

@@ -254,7 +254,7 @@ mod tests {
     }
 
     #[test]
-    fn squares_have_mean_and_variance_of_what_is_light() {
+    fn squares_have_the_mean_and_variance_of_valid_samples() {
         let four = square(&[1.0, 2.0, 3.0, 4.0]);
         assert_eq!((four.n, four.mean, four.variance), (4.0, [2.5, 2.0, 0.0], [5.0 / 3.0, 0.0, 0.0]));
         assert_eq!(four.square_of_mean(), 6.25 + 4.0);
@@ -283,7 +283,7 @@ mod tests {
     }
 
     #[test]
-    fn one_half_says_where_samples_go_and_the_other_what_that_gains() {
+    fn one_half_places_samples_and_the_other_measures_the_gain() {
         let noise = [vec![3.0, 1.0], vec![1.0, 3.0]];
         let pilot = Pilot { columns: 2, noise: noise.clone(), cost: vec![1.0, 4.0] };
         // A twentieth of the mean noise, 2, is added.

@@ -105,7 +105,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_number_is_grey_and_ends_are_kept() {
+    fn nan_is_grey_and_the_ends_are_kept() {
         assert_eq!(ColourMap::Viridis.of(f32::NAN), [96; 3]);
         assert_eq!([f32::NEG_INFINITY, 7.0].map(|x| ColourMap::Viridis.of(x)), [[68, 1, 84], [253, 231, 37]]);
     }

@@ -109,7 +109,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_number_is_black_and_what_is_too_bright_is_white() {
+    fn nan_is_black_and_too_bright_values_are_white() {
         assert_eq!([f32::NAN, -1.0, f32::NEG_INFINITY, f32::INFINITY, 7.0].map(|x| SRGB.of(x)), [0, 0, 0, 255, 255]);
     }
 }

@@ -58,7 +58,7 @@ pub(super) fn rel_mse_estimate(film: &Film) -> Option<f64> {
     rel_mse_estimate_in(film, &all)
 }
 
-/// The same for the tiles in a region.
+/// The expected relMSE of the tiles in a region.
 pub(super) fn rel_mse_estimate_in(film: &Film, region: &Region) -> Option<f64> {
     let tiles = || film.tiles.iter().filter(|tile| tile.lies_in(region));
     let doubled = tiles().flat_map(|tile| &tile.blocks).map(|block| block.doubled).min()?;
@@ -179,7 +179,7 @@ mod tests {
     }
 
     #[test]
-    fn independent_samples_leave_what_their_variance_says() {
+    fn independent_samples_leave_the_error_that_their_variance_predicts() {
         let doublings: Vec<_> = (1..7).map(|k| (2f64.powi(-k), 2f64.powi(-k))).collect();
         for count in 1..6 {
             assert!((remaining(&doublings[..count]) * 2f64.powi(count as i32) - 1.0).abs() < 1e-9, "{count}");
@@ -193,7 +193,7 @@ mod tests {
     }
 
     #[test]
-    fn what_remains_is_a_mean_of_both_laws_within_its_bounds() {
+    fn the_remaining_error_is_a_mean_of_both_laws_within_its_bounds() {
         // In units of variances: (2·½ + 4·2 − 4)/6 and ½ ρ/(1 − ρ), ρ = (1/8)(5/4)/(3/8).
         let once = remaining(&[(0.1, 0.2)]);
         assert!((once - 0.2 * (5.0f64 / 6.0).powf(0.35) * (5.0f64 / 14.0).powf(0.65)).abs() < 1e-12, "{once}");

@@ -13,13 +13,13 @@ pub struct Film {
     pub tiles: Vec<Tile>,
     /// Whether all samples up to the next doubling are there, which must be recorded before there are more.
     pub(super) awaits_error_record: bool,
-    /// What pixels share. If they do, their noise is correlated.
+    /// Path reuse between pixels, which correlates their noise.
     pub(super) path_reuse: PathReuse,
     /// Whether a pilot has measured the noise.
     pub(super) is_piloted: bool,
     /// The region that gets all samples.
     pub(super) focus: Option<Region>,
-    /// What light paths bring to the pixels, if the estimator traces any.
+    /// Radiance that light paths add to the pixels, if the estimator traces any.
     pub(super) splats: Option<SplatFilm>,
 }
 

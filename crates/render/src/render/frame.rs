@@ -44,7 +44,7 @@ pub struct Frame {
     pub spp: u32,
     /// Samples of every pixel, row by row; empty if all have `spp`.
     pub counts: Vec<u32>,
-    /// What its pixels share.
+    /// Path reuse between its pixels.
     pub path_reuse: PathReuse,
     /// Time spent rendering it.
     pub elapsed: Duration,
@@ -54,7 +54,7 @@ pub struct Frame {
     pub rel_mse_estimate: Option<f64>,
     /// Whether few pixels carry the estimated error, so that the true one may be much larger: see `render/heavy_tail.rs`.
     pub error_is_lower_bound: bool,
-    /// The same estimate with each of its blocks left out; `None` where that is.
+    /// Estimated relMSE with each block left out; `None` where the estimate of the whole is.
     pub block_errors: Option<BlockErrors>,
     /// Two halves of the samples, if requested.
     pub halves: Option<Halves>,

@@ -72,7 +72,7 @@ impl Threads {
         let resolution = film.resolution;
         let splats = film.splats.take();
         let mut tiles: Vec<&mut Tile> = film.tiles_in_focus().filter(|tile| tile.spp < spp).collect();
-        // What takes long begins first, or else one thread would be left with it in the end.
+        // Tiles that take long begin first, or else one thread would be left with one in the end.
         tiles.sort_by_cached_key(|tile| std::cmp::Reverse(tile.distance_to(spp)));
         let count = self.pool.install(|| {
             let tiles = tiles.into_par_iter().with_max_len(1);

@@ -111,7 +111,7 @@ pub fn text(replay: &Replay) -> String {
     format!("L = {symbols}\n  = {numbers}\n  = {sum}")
 }
 
-/// The same for a document that uses the package amsmath.
+/// The formula for a LaTeX document that uses the package amsmath.
 pub fn latex(replay: &Replay) -> String {
     let [symbols, numbers, sum] = parts(&LATEX, replay);
     format!("\\begin{{align*}}\n  L &= {symbols} \\\\\n  &= {numbers} \\\\\n  &= {sum}\n\\end{{align*}}")

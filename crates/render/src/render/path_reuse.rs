@@ -34,14 +34,14 @@ const LEAST_GAIN: f64 = 1.3;
 /// Seeds that images are unlikely to have.
 const SEEDS: [u32; 2] = [0x7f4a_7c15, 0x2545_f491];
 
-/// The same settings, with [`Estimator::Auto`] and [`Reuse::Auto`] resolved. Where path reuse is possible, the decision depends on the scene
-/// alone and is made once, with the scene's own estimator, or with `mis` if that one has light paths: a change of sampler, estimator
-/// or cap never turns path reuse suffixes or off.
+/// Resolves [`Estimator::Auto`] and [`Reuse::Auto`] in settings. Where path reuse is possible, the decision depends on the scene
+/// alone and is made once, with the scene's own estimator, or with `mis` if that one has light paths: a change of sampler,
+/// estimator or cap never turns path reuse on or off.
 pub fn resolved(scene: &Scene, rays: &CameraRays, settings: &RenderSettings) -> RenderSettings {
     resolved_unless(scene, rays, settings, &|| false).unwrap_or(*settings)
 }
 
-/// The same, unless the trial is interrupted. Then nothing is decided.
+/// Resolves settings unless the trial is interrupted. Then nothing is decided.
 pub(super) fn resolved_unless(
     scene: &Scene,
     rays: &CameraRays,
@@ -71,7 +71,7 @@ pub(super) fn resolved_unless(
     Ok(RenderSettings { reuse, ..*settings })
 }
 
-/// What a trial of a way to share has made.
+/// Result of a trial of path reuse.
 struct ReuseTrial {
     /// Means of the pixels of all parts, row by row, with each seed.
     images: [Vec<[f64; 3]>; 2],
@@ -134,7 +134,7 @@ fn part_of_outliers(trial: &ReuseTrial) -> f64 {
     if all > 0.0 { large / all } else { 0.0 }
 }
 
-/// What errors are relative to.
+/// Radiance that errors are relative to.
 struct ErrorScale {
     rows: Vec<[f64; 3]>,
     floor: f64,

@@ -203,7 +203,7 @@ mod tests {
     }
 
     #[test]
-    fn what_a_path_alone_would_have_made_is_told_beside_what_is_shared() {
+    fn the_radiance_of_a_path_alone_stands_beside_the_shared_radiance() {
         let scene = built_in();
         let settings = RenderSettings { roulette: Roulette::by_throughput_from(3), ..scene.settings };
         let id = PathId { scene: &scene, camera: &scene.camera, settings: &settings, pixel: [5, 6], sample: 7 };

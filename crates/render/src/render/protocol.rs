@@ -27,7 +27,7 @@ impl PartialEq for RenderRequest {
     }
 }
 
-/// How far to render it. A change continues with the existing samples.
+/// Limits of a render. A change continues with the existing samples.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Budget {
     /// Whether rendering stops after the first sample.
@@ -119,7 +119,7 @@ pub struct Status {
     pub rel_mse_estimate: Option<f64>,
     /// Whether few pixels carry that error, so that the true one may be much larger.
     pub error_is_lower_bound: bool,
-    /// What pixels share.
+    /// Path reuse between pixels.
     pub path_reuse: PathReuse,
     /// Whether sampling is adaptive.
     pub adapts: bool,

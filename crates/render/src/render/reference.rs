@@ -18,7 +18,7 @@ const DENOISED: &str = "the true image is denoised, and so biased";
 
 /// The reference of a scene. It is valid for the camera of the scene file.
 pub enum Reference {
-    /// The same radiance at every pixel, at any resolution.
+    /// A constant radiance for every pixel, at any resolution.
     Constant([f32; 3]),
     /// An image of one resolution, with the metadata of its file about its own noise; none if it is exact.
     Picture(Arc<Picture>, Arc<Provenance>),
@@ -109,7 +109,7 @@ impl Reference {
         Some(format!("the image has {:.3e} {more} radiance on average than [reference] says, {off}", bias.mean.abs()))
     }
 
-    /// The same where the mean of the image is right and that of a block is not: of an image that is turned, mirrored or of another view.
+    /// A message if the mean of the image is right, but that of a block is not: the image may be turned, mirrored or another view.
     fn contradiction_of_block(&self, frame: &Frame, bias: &Bias) -> Option<String> {
         /// Standard errors: those of a block are less sure than those of the image.
         const MOST: f64 = 10.0;

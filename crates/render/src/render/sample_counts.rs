@@ -48,7 +48,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_said_of_samples_is_true() {
+    fn sample_counts_are_summarised_correctly() {
         let uneven = SampleCounts::of([3, 4, 3, 3, 4].into_iter());
         assert_eq!(uneven, SampleCounts { least: 3, most: 4, total: 17, pixels: 5 });
         assert_eq!((uneven.mean(), uneven.to_string().as_str()), (3.4, "3.4 spp on average (3 to 4)"));

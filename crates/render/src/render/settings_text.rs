@@ -4,7 +4,7 @@ use serde_json::json;
 use super::{frame::Frame, tone::Display};
 use noisefall_scene::scene::{Camera, RenderSettings, Scene};
 
-/// What an image depends on, and how it is shown.
+/// Everything that an image depends on, and how it is shown.
 #[derive(Clone, Copy)]
 pub struct ImageOrigin<'a> {
     /// Title of the scene.
@@ -110,7 +110,7 @@ mod tests {
     }
 
     #[test]
-    fn only_what_differs_from_the_scene_is_an_option() {
+    fn only_settings_that_differ_from_the_scene_are_options() {
         let scene = RenderSettings { roulette: Roulette::by_throughput_from(1), ..RenderSettings::default() };
         assert_eq!(options(&RenderSettings { roulette: Roulette::Off, ..scene }, &scene), " --roulette off");
         assert_eq!(options(&scene, &RenderSettings::default()), " --roulette throughput:1");

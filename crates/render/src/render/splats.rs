@@ -35,7 +35,7 @@ pub struct TileSplats {
     pub counts: Vec<u32>,
 }
 
-/// What splats add to a pixel.
+/// Estimate of the radiance that splats add to a pixel.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SplatEstimate {
     /// Mean over all paths.
@@ -85,7 +85,7 @@ impl SplatFilm {
         }
     }
 
-    /// What a splat adds to its pixel.
+    /// Returns the light that a splat adds to its pixel.
     fn share(&self, filter: Filter, splat: &Splat) -> Option<Share> {
         let ([column, row], light) = splat.land(filter, self.resolution)?;
         let [width, _] = self.resolution;
@@ -230,7 +230,7 @@ mod tests {
     }
 
     #[test]
-    fn what_lies_outside_or_is_no_light_is_left_out() {
+    fn splats_outside_the_image_and_invalid_ones_are_left_out() {
         let film = SplatFilm::new([4, 4]);
         film.add(Filter::TENT, &[splat(-3.0, 1.0, 1.0), splat(1.0, 99.0, 1.0), splat(2.0, 2.0, f32::NAN), splat(1.0, 1.0, -1.0)]);
         assert!(film.estimates(0, 1).iter().all(|estimate| *estimate == SplatEstimate::default()));

@@ -40,7 +40,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn each_target_says_what_was_reached() {
+    fn each_target_says_that_it_was_reached() {
         let said = [Target::Samples(5), Target::Time, Target::Noise(0.01), Target::Noise(0.0007)];
         let text = ["stopped at 5 spp", "time is up", "error target 1 % reached", "error target 0.07 % reached"];
         assert_eq!(said.map(|target| target.to_string()), text);

@@ -30,7 +30,7 @@ pub struct Tile {
     pub(super) whole: Scatter,
     /// The series by number of bounces, if it is shown.
     pub(super) series: Option<TileSeries>,
-    /// What light paths have brought to the pixels; empty if there are none.
+    /// Radiance that light paths have added to the pixels; empty if there are none.
     pub(super) splats: Vec<SplatEstimate>,
     /// Thresholds of outliers, once they are known.
     pub(super) thresholds: Option<Thresholds>,

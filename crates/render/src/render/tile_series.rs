@@ -21,7 +21,7 @@ impl TileSeries {
                 for (column, sum) in sums.iter_mut().enumerate() {
                     let slot = (row * TILE) as usize + column;
                     let term = terms.term(k, slot, radiance[slot]);
-                    // What the film drops is dropped here too; the film counts it.
+                    // Samples that the film drops are dropped here too; the film counts them.
                     if radiance[slot][..3].iter().all(|c| (0.0..=f32::MAX).contains(c)) {
                         (0..3).for_each(|c| sum[c] += term[c]);
                     }

@@ -10,7 +10,7 @@ use noisefall_scene::scene::{Camera, RenderSettings};
 /// Everything that the image of a file depends on, and how far it is rendered. JSON in the file; later programs may add keys.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Header {
-    /// What the sections hold.
+    /// Type of the file, which decides its sections.
     pub kind: Kind,
     /// Name, version and commit of the program that wrote the file.
     pub program: String,
@@ -40,7 +40,7 @@ pub struct Header {
     pub remarks: Vec<String>,
 }
 
-/// What the image of a scene says of it, and depends on.
+/// Facts of a scene that its image states and depends on.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ImageFacts {
     /// Title of the scene.
@@ -51,7 +51,7 @@ pub struct ImageFacts {
     pub shares: bool,
 }
 
-/// What a file is for.
+/// Purpose of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Kind {

@@ -42,7 +42,7 @@ impl<R: Read + Seek> Reader<R> {
         Ok(Reader { from, header, cursor })
     }
 
-    /// What the file says about its image.
+    /// Returns the file's metadata about its image.
     pub fn header(&self) -> &Header {
         &self.header
     }

@@ -1,7 +1,7 @@
 //! Tags of sections.
 use std::fmt;
 
-/// What a section holds: four bytes of ASCII.
+/// Type of a section: four bytes of ASCII.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Tag(pub [u8; 4]);
 

@@ -212,7 +212,7 @@ fn longest_way(mut reach: f64, motion: &Motion, time: f64) -> f64 {
     let size = |matrix: &DMat3| matrix.to_cols_array().iter().map(|x| x * x).sum::<f64>().sqrt();
     let mut way = 0.0;
     for step in &motion.0 {
-        // What the step multiplies ways by at most, and the ways that it adds: one that all points go, one by their reach.
+        // The step multiplies ways by at most `factor`, and adds two: one that all points go, one in proportion to their reach.
         let (factor, of_all, of_reach) = match step {
             TransformStep::Translate(by) => (1.0, by.length(), 0.0),
             // However often it goes round, it is never farther than on the other side.

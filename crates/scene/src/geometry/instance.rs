@@ -86,7 +86,7 @@ impl Instance {
         self.meet(l, l.token(), stacks, ray, time, search)
     }
 
-    /// The same; a mesh is tested with the instructions of `s`, for any lanes.
+    /// The first intersection, where a mesh is tested with the instructions of `s`, for any lanes.
     #[inline(always)]
     pub fn meet<L: Lanes, S: Simd, const COUNTS: bool>(
         &self,

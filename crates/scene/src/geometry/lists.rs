@@ -84,7 +84,7 @@ impl Lists {
             }
             for (id, sphere) in members {
                 if let Some(t) = sphere.intersect(o, d) {
-                    // What a lane meets must not depend on the others, which have led here.
+                    // The surface that a lane meets must not depend on the other lanes, which have led here.
                     nearest.meet_in_any_order(l, t.only(near), *id);
                 }
             }
@@ -167,7 +167,7 @@ impl<L: Lanes> NearestListed<L> {
         self.t = nearer.pick(t, self.t);
         self.primitive = nearer.pick(primitive, self.primitive);
     }
-    /// The same for primitives in any order: of coincident surfaces, the one with the lowest id counts.
+    /// Adds primitives in any order: of coincident surfaces, the one with the lowest id counts.
     #[inline(always)]
     fn meet_in_any_order(&mut self, l: L, t: Fraction<L>, primitive: u32) {
         let is_first = t.equals(&self.t) & !self.primitive.below(primitive.saturating_add(1));

@@ -69,7 +69,7 @@ impl<'a> MeshBuilder<'a> {
             if let Shape::Mesh { data, .. } = shape {
                 let uses = uses.entry(Arc::as_ptr(data)).or_insert(0);
                 triangles += if *uses == 0 { data.triangles.len() as u64 } else { 0 };
-                // What moves needs a space of its own as well.
+                // A mesh that moves needs a space of its own as well.
                 *uses += if motion.0.is_empty() { 1 } else { 2 };
             }
         }

@@ -62,7 +62,7 @@ impl Quadric {
         first.only(first.numerator.above(0.0))
     }
 
-    /// The same for a capped cylinder, with the number of the piece.
+    /// The nearest intersection with a capped cylinder, and the number of its piece.
     #[inline(always)]
     pub(super) fn intersect_solid<L: Lanes>(&self, l: L, o: V<L>, d: V<L>) -> (Fraction<L>, U<L>) {
         self.splat(l).meet_solid(l, o, d)

@@ -132,11 +132,11 @@ noisefall_base::declare::words! {
 pub struct PictureError {
     /// The file.
     pub path: PathBuf,
-    /// What is wrong with it.
+    /// The problem with it.
     pub problem: ImageFormatError,
 }
 
-/// What is wrong with a file.
+/// A problem with an image file.
 #[derive(Debug, PartialEq, thiserror::Error)]
 pub enum ImageFormatError {
     /// The file does not exist.
@@ -186,7 +186,7 @@ fn read_as<P: Pixel>(path: &Path, encoding: Encoding) -> Result<Picture<P>, Pict
     picture.map_err(|problem| PictureError { path: path.to_owned(), problem })
 }
 
-/// The same for a file that can be in memory.
+/// Reads an image file that can be in memory.
 fn read_named<P: Pixel>(file: &NamedFile, encoding: Encoding) -> Result<Picture<P>, PictureError> {
     let Some(bytes) = file.content::<Vec<u8>>() else { return read_as(file.path(), encoding) };
     decode(&mut Cursor::new(&bytes[..]), encoding).map_err(|problem| PictureError { path: file.path().to_owned(), problem })
@@ -198,7 +198,7 @@ pub fn read_light(path: &Path, encoding: Encoding) -> Result<Texels, PictureErro
     light(path, read_as(path, encoding)?)
 }
 
-/// The same for a file that can be in memory.
+/// Reads an image of radiances from a file that can be in memory.
 pub fn read_light_of(file: &NamedFile, encoding: Encoding) -> Result<Texels, PictureError> {
     light(file.path(), read_named(file, encoding)?)
 }

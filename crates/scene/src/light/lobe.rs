@@ -31,7 +31,7 @@ impl<L: Lanes> Lobe<L> {
         self.alpha.above(0.0).pick(lobe + facing * SCATTERED, facing)
     }
 
-    /// The same for light from all directions.
+    /// Estimates that average for light from all directions.
     #[inline(always)]
     pub(super) fn of_sky(&self) -> F<L> {
         const LEAST: f32 = 0.02;

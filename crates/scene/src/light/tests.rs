@@ -109,7 +109,7 @@ fn directions_to_lights_are_distributed_as_their_pdf() {
             all.push(expected);
         }
         let whole: f64 = all.iter().sum();
-        // What faces away is chosen but has no directions: the pdf integrates to the probability that a sample exists.
+        // Lights that face away are chosen but have no directions: the pdf integrates to the probability that a sample exists.
         let exists = drawn / f64::from(SAMPLES);
         assert!((whole - exists).abs() < 4.0 * (exists * (1.0 - exists) / f64::from(SAMPLES)).sqrt() + 1e-3, "{whole} {exists}");
         all.iter_mut().for_each(|expected| *expected *= f64::from(SAMPLES));

@@ -34,7 +34,7 @@ pub static PARTS: LazyLock<Vec<[f32; 4]>> = LazyLock::new(|| build(SimdLevel::be
 #[derive(Clone, Copy)]
 pub struct AnisotropicLoss<'a, L: Lanes> {
     l: L,
-    /// What round facets of the larger width lose.
+    /// Loss of round facets of the larger width.
     round: Albedo<'a, L>,
     parts: &'a [[f32; 4]],
     widths: Widths<L>,

@@ -9,7 +9,7 @@ use noisefall_base::{
 /// The width α of the distribution of microfacet slopes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum AlphaSource {
-    /// The same everywhere.
+    /// A constant width.
     Constant(f32),
     /// The luminance of a texture is α, or its root if `squared`.
     Texture {
@@ -112,7 +112,7 @@ impl<'a, 'b> MaterialCompiler<'a, 'b> {
         self.alpha_of(parameter, value, squared)
     }
 
-    /// The same of a parameter whose value is α, or its root if `squared`.
+    /// α and its largest value, from a parameter whose value is α, or its root if `squared`.
     pub fn alpha_of(&self, parameter: &Parameter, value: &Textured<f64>, squared: bool) -> Result<(AlphaSource, f32), Problem> {
         let alpha = |value: f32| if squared { value * value } else { value };
         match value {

@@ -30,7 +30,7 @@ const INDEX: f32 = 2.0;
 /// Reflectance of a metal, channel by channel.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Reflectance {
-    /// The same at every angle.
+    /// A reflectance that does not depend on the angle.
     Constant(Textured),
     /// Schlick's approximation from the reflectance at normal incidence.
     Schlick(Textured),

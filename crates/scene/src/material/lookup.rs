@@ -32,7 +32,7 @@ pub fn colour<L: Lanes>(l: L, constant: V<L>, id: U<L>, lookup: &Lookup<L>) -> V
     textured.pick(textures.colour(l, id + u32::MAX, textured, at), constant)
 }
 
-/// The same for a number, which is the luminance of the texture.
+/// The luminance of the texture whose id plus 1 is `id`; `constant` in lanes where that is 0, and without a lookup.
 #[inline(always)]
 pub fn number<L: Lanes>(l: L, constant: F<L>, id: U<L>, lookup: &Lookup<L>) -> F<L> {
     let Some((textures, at)) = lookup else { return constant };

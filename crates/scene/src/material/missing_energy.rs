@@ -65,7 +65,7 @@ impl<'a, L: Lanes> MissingEnergy<'a, L> {
         MissingEnergy { turns: false, ..MissingEnergy::anisotropic(l, alpha, alpha, l.first(0), outside, table) }
     }
 
-    /// The same for facets whose larger width is `width`. In the lanes of `turned`, the table has rows for each azimuth.
+    /// Prepares lookups for facets whose larger width is `width`. In the lanes of `turned`, the table has rows for each azimuth.
     #[inline(always)]
     pub fn anisotropic(l: L, alpha: F<L>, width: F<L>, turned: M<L>, outside: M<L>, table: LossTable<'a, L>) -> Self {
         let (low, high) = (ALPHAS.start.sqrt().sqrt(), ALPHAS.end.sqrt().sqrt());

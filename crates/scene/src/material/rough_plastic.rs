@@ -153,7 +153,7 @@ impl Shade for RoughPlastic {
         let coat = Albedo::at(&materials.tables.rows, table.bits(), alpha);
         let average = if rough.any() { rough.pick(smooth + coat.average(l), smooth) } else { smooth };
         let (nonlinear, ior2) = (nonlinear.above(0.0), ior * ior);
-        // What enters comes out again at most.
+        // No more light comes out than enters.
         let returned = returned.min(1.0 - average / ior2);
         let rho = at.colour;
         let base = V {
@@ -176,7 +176,7 @@ pub struct RoughPlasticBsdf<'a, L: Lanes> {
     /// Lanes with a rough coat; the others have a delta lobe.
     rough: M<L>,
     facets: EitherFacets<L>,
-    /// What T exceeds that of a smooth coat by.
+    /// T minus that of a smooth coat.
     coat: Albedo<'a, L>,
     /// ρ/(η² (1 − R)).
     base: V<L>,

@@ -39,7 +39,7 @@ pub trait Shade {
     /// The BSDF at surface points. `directions` is the sampling of diffuse surfaces.
     fn at<'a, L: Lanes>(l: L, materials: &'a Materials, directions: Directions, at: &Local<L>) -> Self::Bsdf<'a, L>;
 
-    /// The same, with the textures of the scene and the coordinates at which they are looked up, if any are needed.
+    /// The BSDF, with the textures of the scene and the coordinates at which they are looked up, if any are needed.
     #[inline(always)]
     fn at_chart<'a, L: Lanes>(
         l: L,
@@ -75,7 +75,7 @@ pub trait Shade {
         z.splat(1.0)
     }
 
-    /// The same on the outside, where surfaces lie within another medium.
+    /// Factor of [`Shade::roulette_scale`] on the outside, where surfaces lie within another medium.
     #[inline(always)]
     fn compression_outside<L: Lanes>(l: L, _materials: &Materials, _at: &Local<L>) -> F<L> {
         l.f(1.0)

@@ -47,7 +47,7 @@ pub struct Tables {
     pub rows: Vec<[f32; 4]>,
     /// The table of compensated conductors; empty without any.
     pub loss: &'static [[f32; 4]],
-    /// The same for anisotropic facets.
+    /// The table for anisotropic facets.
     anisotropic_loss: &'static [[f32; 4]],
     /// Whether some dielectric is compensated.
     pub compensates_dielectrics: bool,

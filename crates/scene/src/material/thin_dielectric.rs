@@ -199,7 +199,7 @@ mod tests {
     }
 
     #[test]
-    fn tints_are_factors_of_what_is_reflected_and_what_passes() {
+    fn tints_are_factors_of_reflection_and_transmission() {
         let clear = ThinDielectric::default();
         let tinted =
             ThinDielectric { specular_reflectance: [0.5, 0.2, 0.0], specular_transmittance: [0.3, 0.8, 1.0], ..clear.clone() };

@@ -64,7 +64,7 @@ mod tests {
     }
 
     #[test]
-    fn what_could_not_be_rendered_is_refused() {
+    fn models_that_cannot_be_rendered_are_refused() {
         let refused = |model: Model, reason: &str| {
             assert!(model.checked().is_err_and(|error| error.contains(reason)), "{reason}");
         };

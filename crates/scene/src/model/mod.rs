@@ -65,11 +65,11 @@ pub struct Model {
 pub struct ModelError {
     /// The file.
     pub path: PathBuf,
-    /// What is wrong with it.
+    /// The problem with it.
     pub problem: ModelFormatError,
 }
 
-/// What is wrong with a file.
+/// A problem with a mesh file.
 #[derive(Debug, PartialEq, thiserror::Error)]
 pub enum ModelFormatError {
     /// The file does not exist.
@@ -134,7 +134,7 @@ impl FilePosition {
 /// The meshes of an OBJ file by material.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ObjParts {
-    /// What stands after `mtllib`, line by line: one file name or several, with spaces within and between them.
+    /// The text after `mtllib`, line by line: one file name or several, with spaces within and between them.
     pub libraries: Vec<String>,
     /// One mesh per material that has faces, in the order in which they come first.
     pub list: Vec<Part>,
@@ -154,7 +154,7 @@ impl From<Model> for ObjParts {
 /// The faces of a material.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Part {
-    /// What stands after `usemtl`; `None` for faces before the first such line.
+    /// The text after `usemtl`; `None` for faces before the first such line.
     pub material: Option<String>,
     /// The mesh.
     pub model: Model,
@@ -179,7 +179,7 @@ pub fn read(path: &Path) -> Result<Model, ModelError> {
     read_watched(path, &Progress::default())
 }
 
-/// The same, with progress and cancellation.
+/// Reads a mesh file, with progress and cancellation.
 pub fn read_watched(path: &Path, progress: &Progress) -> Result<Model, ModelError> {
     read_file(path, progress, decode).map_err(|problem| ModelError { path: path.to_owned(), problem })
 }

@@ -20,7 +20,7 @@ pub fn smooth_normals(vertices: &[[f32; 3]], triangles: &[[u32; 3]]) -> Vec<[f32
     smooth_normals_watched(vertices, triangles, &Progress::default()).expect("nobody cancels")
 }
 
-/// The same, with progress, which counts triangles, and cancellation.
+/// Computes unit vertex normals as [`smooth_normals`] does, with progress, which counts triangles, and cancellation.
 pub fn smooth_normals_watched(
     vertices: &[[f32; 3]],
     triangles: &[[u32; 3]],
@@ -30,7 +30,7 @@ pub fn smooth_normals_watched(
     smooth_at(&weld::firsts(vertices), vertices, triangles, progress)
 }
 
-/// The same, for vertices that share a normal with the first of those at their place: `places` has its index for each vertex.
+/// Computes unit normals of vertices that share one with the first vertex at their place: `places` has its index for each vertex.
 pub(super) fn smooth_at(
     places: &[u32],
     vertices: &[[f32; 3]],

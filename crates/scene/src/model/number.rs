@@ -7,7 +7,7 @@ pub fn real(word: &str) -> Option<f32> {
     word.parse().ok().or_else(|| unusual(word))
 }
 
-/// The same for notations that Rust does not have.
+/// Parses the notations that Rust does not have.
 #[cold]
 fn unusual(word: &str) -> Option<f32> {
     let word = word.replace(['d', 'D'], "e");

@@ -52,7 +52,7 @@ pub fn firsts(all: &[[f32; 3]]) -> Vec<u32> {
     firsts_within(all, |_| ())
 }
 
-/// The same for positions whose groups are equal too.
+/// Returns for each position the index of the first one that equals it and has an equal group.
 pub fn firsts_within<G: Ord + Send>(all: &[[f32; 3]], group: impl Fn(usize) -> G + Sync) -> Vec<u32> {
     let key = |(index, position): (usize, &[f32; 3])| ((position.map(|x| (x + 0.0).to_bits()), group(index)), index as u32);
     let mut keys: Vec<(([u32; 3], G), u32)> = all.par_iter().enumerate().map(key).collect();

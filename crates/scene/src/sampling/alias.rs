@@ -22,7 +22,7 @@ impl AliasTable {
         let count = weights.len();
         assert!(count.is_power_of_two() && count <= 1 << 23, "{count} cells");
         let (thresholds, aliases) = fair_coins(weights);
-        // What the rounded thresholds make of the weights is what the table really does, and so it is the probability.
+        // The table samples with rounded thresholds, so the probabilities follow from these and not from the weights.
         let mut probabilities: Vec<f64> = thresholds.iter().map(|threshold| threshold / count as f64).collect();
         for (threshold, alias) in thresholds.iter().zip(&aliases) {
             probabilities[*alias] += (1.0 - threshold) / count as f64;

@@ -48,7 +48,7 @@ mod tests {
     }
 
     #[test]
-    fn the_innermost_opaque_ball_is_what_shuts_the_camera_in() {
+    fn the_innermost_opaque_ball_shuts_the_camera_in() {
         let around = |balls: &[(&str, f64, &str)]| {
             let scene = scene(balls);
             scene.around(&scene.camera).map(|object| object.name.clone())

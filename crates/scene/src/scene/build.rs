@@ -35,19 +35,19 @@ impl SceneDescription {
         self.compiled(SceneText::new(Box::new(move || text)), None, files, None)
     }
 
-    /// The same for the scene of a file in another format, which errors name. Files are looked for in `assets` and in the folder of the
+    /// Builds the scene of a file in another format, which errors name. Files are looked for in `assets` and in the folder of the
     /// file. The text of the scene is written at its first use.
     pub fn build_with(self: &Arc<Self>, file: &Path, assets: Assets) -> Result<Scene, SceneError> {
         self.build_watched(file, assets, &Progress::default())
     }
 
-    /// The same, with progress and cancellation.
+    /// Builds the scene of a file in another format, with progress and cancellation.
     pub fn build_watched(self: &Arc<Self>, file: &Path, assets: Assets, progress: &Progress) -> Result<Scene, SceneError> {
         let files = Files { folder: file.parent().unwrap_or(Path::new("")), assets, progress: progress.clone() };
         self.compiled(self.later_text(), Some(file), files, None)
     }
 
-    /// The same after a change. Parts that did not change are reused from `before`, which can be any scene of the same folder and the same files in memory. With
+    /// Builds a changed scene. Reuses equal parts of `before`, which can be any scene of the same folder and files in memory. With
     /// [`Precision::Exact`] the scene has the same bits as from [`SceneDescription::build`].
     ///
     /// [`Precision::Interactive`] is faster, and may give other bits. [`Scene::is_exact`] then returns false, and the scene should be

@@ -20,7 +20,7 @@ pub struct Camera {
     /// The projection.
     #[serde(default, alias = "orthographic", deserialize_with = "Projection::deserialize")]
     pub projection: Projection,
-    /// How far the image plane is shifted to the right and up, in widths of the image.
+    /// Shift of the image plane to the right and up, in widths of the image.
     #[serde(default)]
     pub shift: [f64; 2],
     /// The thin lens; `None` is a pinhole.

@@ -38,7 +38,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_report_names_what_was_made_with_its_time_and_what_was_reused() {
+    fn the_report_names_new_parts_with_their_times_and_reused_parts() {
         let part = |part, made, reused, micros| PartReport { part, made, reused, took: Duration::from_micros(micros) };
         let parts = vec![part("lights", 1, 0, 420), part("shapes", 1, 0, 60), part("mesh trees", 0, 2, 0)];
         let report = CompileReport { parts, took: Duration::from_micros(1900) };

@@ -74,7 +74,7 @@ impl SceneError {
         1 + self.0.others.len()
     }
 
-    /// The same error with advice on what to do.
+    /// Adds advice to the error.
     pub fn with_help(mut self, help: impl Into<String>) -> SceneError {
         self.0.help = Some(quote::message(&help.into()));
         self

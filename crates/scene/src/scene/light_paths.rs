@@ -62,7 +62,7 @@ impl Scene {
         self.obstacle_to_merging().filter(|_| lacks).map(str::to_owned)
     }
 
-    /// What is legal but probably not meant, in the scene and with these settings.
+    /// Warnings about the scene with these settings, where something is legal but probably not meant.
     pub fn notes(&self, settings: &RenderSettings) -> Vec<String> {
         let of_settings = [self.infinite_variance(settings), self.lacks_light_paths(settings), self.lacks_merging(settings)];
         self.warnings().iter().cloned().chain(of_settings.into_iter().flatten()).collect()
@@ -83,7 +83,7 @@ impl Scene {
         made.as_ref().map_err(|reason| *reason)?.rays_for(estimator)
     }
 
-    /// What is known of the estimator in force, where it is not the one of the settings.
+    /// The estimator in force and the reason for it, where it is known and not the one of the settings.
     pub fn estimator_in_force(&self, settings: &RenderSettings) -> Option<EstimatorInForce> {
         let is_auto = settings.estimator == Estimator::Auto;
         // A trial has to try all strategies.

@@ -146,7 +146,7 @@ impl Scene {
 mod tests {
     use crate::scene::{Estimator, RenderSettings, parse};
 
-    /// What `bidirectional` and `light_tracing` say about a scene with these materials and a light of one of them.
+    /// The notes of `bidirectional` and `light_tracing` about a scene with these materials and a light of one of them.
     fn notes(materials: &str, punctual_light: &str) -> [Option<String>; 2] {
         let text = format!(
             "format = 1

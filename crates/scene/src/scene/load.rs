@@ -14,7 +14,7 @@ use noisefall_base::{file::open_regular, progress::Progress};
 /// Maximum size of a scene file, bytes. Larger files are rejected before they are read.
 pub const LARGEST_FILE: u64 = 64 << 20;
 
-/// What can be opened in place of a scene file.
+/// Files that can be opened in place of a scene file, for messages.
 const OPENABLE: &str = "scenes are TOML, glTF, GLB, Mitsuba XML or PBRT files; meshes (OBJ, PLY, STL) and images that Noisefall has \
                         saved (PNG, EXR) open too";
 
@@ -23,7 +23,7 @@ pub fn load(path: &Path) -> Result<Scene, SceneError> {
     load_watched(path, &Progress::default())
 }
 
-/// The same, with progress and cancellation.
+/// Reads and compiles a scene as [`load`] does, with progress and cancellation.
 pub fn load_watched(path: &Path, progress: &Progress) -> Result<Scene, SceneError> {
     if let Some(embedded) = load_embedded(path) {
         return embedded;

@@ -136,7 +136,7 @@ pub struct Scene {
     pub camera_motion: Motion,
     /// The settings that the scene opens with.
     pub settings: RenderSettings,
-    /// What it pays to share between pixels, once it has been tried.
+    /// The path reuse that pays in this scene, once it has been tried.
     pub path_reuse_by_trial: OnceLock<PathReuse>,
     /// The rays with which light paths start, or what keeps them from it: see [`Scene::light_rays`].
     pub light_paths: OnceLock<Result<LightStarts, Obstacle>>,
@@ -146,7 +146,7 @@ pub struct Scene {
     pub spp: Option<u32>,
     /// Exposure that the scene is displayed with, stops.
     pub exposure: f32,
-    /// What the image must converge to, if it is known.
+    /// The reference that the image must converge to, if it is known.
     pub reference: Option<SceneReference>,
     /// Largest number of media around the middle of a dielectric.
     pub deepest_media: usize,
@@ -174,7 +174,7 @@ pub type SceneText = LazyLock<String, Box<dyn FnOnce() -> String + Send>>;
 /// The known solution of a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SceneReference {
-    /// The same exact radiance at every pixel.
+    /// An exact radiance, constant over all pixels.
     Radiance([f32; 3]),
     /// A reference image, read from this file.
     Image(PathBuf, Arc<Picture>),

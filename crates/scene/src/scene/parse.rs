@@ -44,12 +44,12 @@ pub fn parse(name: &str, text: String) -> Result<Scene, SceneError> {
     parse_watched(name, text, &Progress::default())
 }
 
-/// The same, with progress and cancellation.
+/// Compiles the text of a scene file, with progress and cancellation.
 pub fn parse_watched(name: &str, text: String, progress: &Progress) -> Result<Scene, SceneError> {
     parse_with_assets(name, text, Assets::default(), progress)
 }
 
-/// The same, with files in memory.
+/// Compiles the text of a scene file, with files in memory.
 pub fn parse_with_assets(name: &str, text: String, assets: Assets, progress: &Progress) -> Result<Scene, SceneError> {
     let source = SourceText { name: name.to_owned(), text };
     let (description, damage, mut errors) = understood(&source)?;

@@ -9,7 +9,7 @@ impl RenderSettings {
 }
 
 impl Scene {
-    /// What pixels share with these settings. [`Reuse::Auto`] is still undecided and counts as nothing.
+    /// The path reuse with these settings. [`Reuse::Auto`] is still undecided and counts as none.
     pub fn path_reuse(&self, rays: &CameraRays, settings: &RenderSettings) -> PathReuse {
         if self.merges(settings) {
             return PathReuse::Merged;

@@ -149,7 +149,7 @@ impl CameraRays {
         self.projection.rays(l, place, self.eye, self.forward)
     }
 
-    /// The same rays through points of the lens, which `u` samples uniformly. There must be a lens.
+    /// The rays through raster points and points of the lens, which `u` samples uniformly. There must be a lens.
     #[inline(always)]
     pub fn through_lens<L: Lanes>(&self, l: L, x: F<L>, y: F<L>, u: (F<L>, F<L>)) -> (V<L>, V<L>) {
         let Some(lens) = self.lens else { return self.through(l, x, y) };

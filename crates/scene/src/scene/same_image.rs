@@ -88,7 +88,7 @@ mod tests {
     }
 
     #[test]
-    fn what_an_image_shows_is_told_from_the_rest() {
+    fn visible_changes_are_told_from_invisible_ones() {
         let before = built_in_description();
         assert!(!before.differs_unseen(&before), "nothing differs");
         let changed = |change: fn(&mut SceneDescription)| {

@@ -106,7 +106,7 @@ mod tests {
     use crate::scene::describe;
 
     #[test]
-    fn what_is_used_is_found_through_blends_and_mixtures() {
+    fn used_textures_and_materials_are_found_through_blends_and_mixtures() {
         let text = "format = 1\ncamera = { eye = [0, 0, 4], look_at = [0, 0, 0], fov = 40, resolution = [8, 8] }\n\
                     textures.squares.checker = { even = 0.1, odd = { texture = 'clouds' }, scale = 4 }\n\
                     textures.clouds.noise = { scale = 4, octaves = 2, low = 0, high = 1 }\n\

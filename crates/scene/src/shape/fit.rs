@@ -93,7 +93,7 @@ pub(super) fn vector(key: &'static str, before: DVec3, after: DVec3) -> (&'stati
     (key, OwnedValue::Vector(tidied(before, after)))
 }
 
-/// The same of a number.
+/// A new value of a number without the digits of rounding.
 pub(super) fn number(key: &'static str, before: f64, after: f64) -> (&'static str, OwnedValue) {
     (key, OwnedValue::Number(tidied(DVec3::splat(before), DVec3::splat(after)).x))
 }

@@ -51,8 +51,8 @@ pub trait Build {
     /// The shape, or the many.
     fn shapes(&self, builder: &mut ShapeBuilder) -> Result<Vec<Shape>, Problem>;
 
-    /// The same, moved and scaled to its place in a scene: a closed shape touches the surface, a flat one lies just above it. `None`
-    /// if only transforms can do that; the shape is then about as large as the cube from −1 to 1.
+    /// The shape, moved and scaled to its place in a scene: a closed shape touches the surface, a flat one lies just above it.
+    /// `None` if only transforms can do that; the shape is then about as large as the cube from −1 to 1.
     fn placed(&self, _placement: &Placement) -> Option<ShapeKind> {
         None
     }

@@ -71,7 +71,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_sum_has_no_digits_of_rounding_and_what_stays_keeps_its_own() {
+    fn a_sum_has_no_digits_of_rounding_and_unchanged_numbers_keep_theirs() {
         let odd = 0.123_456_789_012_345_67;
         let (before, by) = (DVec3::new(0.44, odd, 1000.1), DVec3::new(0.13, 0.0, -1000.0));
         assert_ne!((before + by).x, 0.57);

@@ -114,7 +114,7 @@ impl Transform {
         vec![Transform::Matrix([row(0), row(1), row(2), [0.0, 0.0, 0.0, 1.0]])]
     }
 
-    /// The same transform as a step of a motion.
+    /// Converts the transform to a step of a motion.
     fn step(&self) -> Result<TransformStep, Problem> {
         let error = |message: &str, label: &str| Err(Problem::at("", message, label));
         let step = match self {

@@ -18,7 +18,7 @@ pub(super) const MOST_LOOKUPS: u32 = 64;
 /// A colour of the scene: constant or by a texture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ColourSource {
-    /// The same everywhere, without a texture.
+    /// A constant colour.
     Constant([f32; 3]),
     /// The id in [`Textures`].
     Texture(u32),
@@ -27,7 +27,7 @@ pub enum ColourSource {
 /// A number of the scene: constant, or the luminance of a texture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum NumberSource {
-    /// The same everywhere.
+    /// A constant number.
     Constant(f32),
     /// The id in [`Textures`].
     Texture(u32),
@@ -71,7 +71,7 @@ impl<'a> TextureCompiler<'a> {
         compiler
     }
 
-    /// What the texels of the texture that is being compiled are called in the report.
+    /// The report's name for the texels of the texture that is being compiled.
     pub fn pictures(&self) -> &'static str {
         let is_unused = self.open.last().is_some_and(|name| !self.used.contains(name));
         if is_unused { UNUSED_PICTURES } else { PICTURES }

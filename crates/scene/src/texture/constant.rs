@@ -1,4 +1,4 @@
-//! The same colour everywhere: what stands for a texture that is only a colour.
+//! A constant colour, for textures that are only a colour.
 use super::{LookupResult, Pattern, Summary, TextureCoordinates, Textures};
 use noisefall_base::math::{Lanes, M, Pick, V};
 

@@ -45,7 +45,7 @@ macro_rules! textures {
 
         /// A texture as the renderer looks it up. Colours are linear Rec. 709.
         pub enum Texture {
-            /// The same colour everywhere.
+            /// A constant colour.
             Constant(Constant),
             $(
                 #[doc = concat!("The texture in `", stringify!($module), ".rs`.")]
@@ -184,7 +184,7 @@ impl Textures {
     #[simd]
     pub fn colour<L: Lanes>(&self, l: L, id: U<L>, mask: M<L>, at: &TextureCoordinates<L>) -> V<L> {
         let mut found = LookupResult { id, colour: V::splat(l, [0.0; 3]) };
-        // What a texture refers to stands before it: going backwards, one pass follows any nesting.
+        // Textures stand after those that they refer to: going backwards, one pass follows any nesting.
         for k in (0..self.textures.len()).rev() {
             let here = mask & found.id.is(k as u32);
             if here.any() {

@@ -77,7 +77,7 @@ pub fn replace(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
     replace_by(path, |to| to.write_all(bytes))
 }
 
-/// The same with bytes that are written piece by piece.
+/// Replaces a file with bytes that are written piece by piece.
 pub fn replace_by(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), WriteError> {
     OutputFile::of(path)?.replace(write)
 }

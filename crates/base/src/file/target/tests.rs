@@ -80,7 +80,7 @@ fn permissions_of_a_replaced_file_are_kept_and_those_of_a_new_one_are_usual() {
 
 #[test]
 #[cfg(unix)]
-fn what_is_no_regular_file_is_named_and_left_alone() {
+fn special_files_are_named_and_left_alone() {
     use std::os::unix::{fs::symlink, net::UnixListener};
     let folder = folder();
     let at = |name: &str| folder.path().join(name);
@@ -204,7 +204,7 @@ fn a_rename_that_is_refused_leaves_everything_as_it_was() {
     assert!(told.starts_with(&format!("{}: cannot be written: ", path.display())) && !told.contains("part"), "{told}");
     assert_eq!(fs::read(path.join("inside")).expect("it is there"), b"kept");
     assert_eq!(names(folder.path()), ["a.nf"]);
-    // What fails within the write leaves the old file.
+    // A failure within the write leaves the old file.
     let path = folder.path().join("b.nf");
     fs::write(&path, "old").expect("it is written");
     assert!(replace_by(&path, |_| Err(io::Error::other("no more"))).is_err());

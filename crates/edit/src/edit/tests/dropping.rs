@@ -6,7 +6,7 @@ use noisefall_scene::{
 };
 
 #[test]
-fn objects_are_dropped_to_what_is_below() {
+fn objects_are_dropped_onto_the_surface_below() {
     let mut document = room();
     let lift = |by: f64| Transform::Translate(DVec3::Y * by);
     for by in [0.75, -0.2] {
@@ -27,7 +27,7 @@ fn objects_are_dropped_to_what_is_below() {
 }
 
 #[test]
-fn what_is_beside_an_object_does_not_raise_it() {
+fn objects_beside_a_dropped_one_do_not_raise_it() {
     let mut document = room();
     // Its box reaches into the ball of the room, which it does not touch.
     let pearl = ShapeKind::from(Sphere { center: DVec3::new(0.6, 0.7, 0.6), radius: 0.3 });

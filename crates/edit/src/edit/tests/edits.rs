@@ -31,7 +31,7 @@ fn values_are_set_by_their_paths() {
 }
 
 #[test]
-fn what_is_absent_on_the_way_appears_and_goes_again() {
+fn absent_tables_on_a_path_appear_and_go_again() {
     there_and_back(&number("camera.lens.radius", 0.1), |scene| assert_eq!(scene.camera.lens.map(|lens| lens.radius), Some(0.1)));
     there_and_back(&Edit::set(path("render.max_bounces"), OwnedValue::Count(5)), |scene| {
         assert_eq!(scene.render.settings.max_bounces, Some(5));
@@ -70,7 +70,7 @@ fn objects_and_transforms_come_go_and_move() {
 }
 
 #[test]
-fn materials_come_go_and_are_renamed_with_what_names_them() {
+fn materials_come_go_and_are_renamed_with_their_references() {
     there_and_back(&Edit::insert(path("materials.new")), |scene| assert!(scene.materials.contains_key("new")));
     there_and_back(&Edit::remove(path("materials.white")), |scene| assert!(!scene.materials.contains_key("white")));
     there_and_back(&Edit::Rename { path: path("materials.gold"), to: "brass".to_owned() }, |scene| {
@@ -108,7 +108,7 @@ fn blends_follow_the_names_of_their_parts() {
 }
 
 #[test]
-fn what_is_inserted_has_the_texture_that_it_needs() {
+fn an_inserted_part_has_the_texture_that_it_needs() {
     let insert = room().insert(&path("materials.white.bump"));
     there_and_back(&insert, |scene| {
         assert_eq!(scene.materials["white"].bump.as_ref().map(|bump| bump.texture.as_str()), Some("tiles"));
@@ -152,7 +152,7 @@ fn several_edits_are_all_done_or_none_is() {
     });
 }
 
-/// What the reader says of the room with a part replaced.
+/// Returns the reader's error about the room with a part replaced.
 #[track_caller]
 fn reader_says(from: &str, to: &str) -> String {
     assert!(ROOM.contains(from));
@@ -161,7 +161,7 @@ fn reader_says(from: &str, to: &str) -> String {
 }
 
 #[test]
-fn what_the_reader_refuses_is_refused_with_its_message() {
+fn an_edit_that_the_reader_refuses_is_refused_with_its_message() {
     let cases = [
         (number("camera.fov", 200.0), ("fov = 40", "fov = 200")),
         (number("camera.fov", f64::NAN), ("fov = 40", "fov = nan")),
@@ -186,7 +186,7 @@ fn what_the_reader_refuses_is_refused_with_its_message() {
 }
 
 #[test]
-fn what_cannot_be_is_refused() {
+fn impossible_edits_are_refused() {
     let says = |edit: Edit, words: &str| {
         let problem = refuses(&mut room(), &edit);
         assert!(problem.message.contains(words), "{edit:?}: {}", problem.message);
@@ -220,7 +220,7 @@ fn references_that_are_not_defined_are_not_opened() {
 }
 
 #[test]
-fn titles_say_what_an_edit_does_and_to_what() {
+fn titles_name_an_edit_and_its_target() {
     let scene = room().description().clone();
     for (edit, title) in [
         (number("camera.fov", 1.0), "change of fov of the camera"),

@@ -45,7 +45,7 @@ fn a_drag_is_one_step() {
     assert_eq!((document.text().as_str(), document.has_changes()), (ROOM, false));
     history.redo(&mut document);
     assert_eq!(document.description().camera.lens.map(|lens| lens.radius), Some(1.0));
-    // What was undone is not continued.
+    // A step that was undone is not continued.
     history.drag(&mut document, &number("camera.fov", 11.0), drag).expect("it is in range");
     assert_eq!((history.len(), history.to_redo()), (2, None));
 }

@@ -36,7 +36,7 @@ fn values_under_other_keys_are_not_kept() {
 }
 
 #[test]
-fn a_change_of_kind_takes_along_what_depends_on_it() {
+fn a_change_of_kind_takes_dependent_values_along() {
     let change = |at: &str, choice: &str, name: &str| room().change_kind(&path(at), choice, name);
     there_and_back(&change("camera.projection", "projection", "orthographic"), |scene| assert_eq!(scene.camera.fov, None));
     let mut document = room();
@@ -101,7 +101,7 @@ fn a_value_has_the_default_of_its_kind() {
 }
 
 #[test]
-fn what_no_material_can_be_is_refused_at_once() {
+fn impossible_materials_are_refused_at_once() {
     let mut document = room();
     does(&mut document, &Edit::choose(path("materials.white"), "material", "diffuse_transmission"));
     let bright = Edit::set(path("materials.white.diffuse_transmission.reflectance"), OwnedValue::Textured(Textured::grey(0.8)));
@@ -157,7 +157,7 @@ fn a_shape_of_another_kind_keeps_place_and_size() {
     does(&mut document, &change);
     let ShapeKind::Rectangle(punctual_light) = &document.description().objects[2].shape else { panic!("it is a rectangle") };
     assert!(punctual_light.edge_u.cross(punctual_light.edge_v).distance(DVec3::NEG_Y * 0.64) < 1e-9, "{punctual_light:?}");
-    // What fills a cube is placed by transforms.
+    // A shape that fills a cube is placed by transforms.
     let mut document = room();
     let change = document.change_kind(&path("objects.1.shape"), ShapeKind::WHAT, "isosurface");
     does(&mut document, &change);

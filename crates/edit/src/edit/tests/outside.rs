@@ -9,7 +9,7 @@ fn compare(document: &Document, text: &str) -> crate::edit::Outside {
 }
 
 #[test]
-fn what_changed_outside_is_told() {
+fn outside_changes_of_camera_settings_and_scene_are_told_apart() {
     let document = room();
     assert!(document.compare_outside(ROOM).expect("it is readable").is_none());
     let told = |text: &str| {
@@ -53,7 +53,7 @@ fn both_sides_may_change() {
     assert!(document.compare_outside(&changed).expect("it is readable").is_none(), "it was compared");
     history.undo(&mut document);
     assert!(document.has_changes(), "the file is another one");
-    // The same on both sides is no conflict.
+    // Equal changes on both sides are no conflict.
     let outside = compare(&document, ROOM);
     assert!(!outside.conflicts);
     document.take_outside(&mut history, outside).expect("it is valid");

@@ -43,7 +43,7 @@ fn every_shape_is_added_to_every_side_of_a_surface() {
 }
 
 #[test]
-fn lights_emit_away_from_what_they_hang_on() {
+fn lights_emit_away_from_the_surface_behind_them() {
     let placement = Placement { at: DVec3::new(0.0, 2.5, 0.0), normal: DVec3::NEG_Y, extent: 5.0 };
     let mut document = room();
     let (edit, _) = document.add_light("rectangle", &placement, 0.0).expect("there is such a kind");

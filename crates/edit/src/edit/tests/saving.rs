@@ -88,7 +88,7 @@ fn colours_keep_their_form() {
 }
 
 #[test]
-fn what_is_new_stands_where_a_person_looks_for_it() {
+fn new_parts_stand_where_a_person_looks_for_them() {
     let lens = number("camera.lens.radius", 0.1);
     assert_eq!(changed(std::slice::from_ref(&lens)), ["+ lens = { radius = 0.1, focus = 4.0 }"]);
     let mut document = room();
@@ -142,12 +142,12 @@ fn comments_go_with_their_objects() {
     let mut document = room();
     does(&mut document, &Edit::remove(path("objects.0")));
     let after = document.text();
-    // What an empty line parts from an object is about more than this one.
+    // A comment that an empty line separates from an object is about more than this one.
     assert!(after.contains("# The shell.\n\n[[objects]]\nname = \"ball\"") && !after.contains("# Below."), "{after}");
 }
 
 #[test]
-fn what_is_renamed_keeps_its_place() {
+fn a_renamed_part_keeps_its_place() {
     let renamed = changed(&[Edit::Rename { path: path("materials.white"), to: "plaster wall".to_owned() }]);
     assert_eq!(renamed, ["- [materials.white]", "+ [materials.\"plaster wall\"]"]);
     let mut document = room();
@@ -196,7 +196,7 @@ fn lists_grow_and_shrink() {
     assert!(!made.iter().any(|line| line.contains("# twice")), "{made:?}");
 }
 
-/// The same scene in other styles of TOML.
+/// One scene in several styles of TOML.
 const STYLES: [&str; 3] = [
     "format = 1\ncamera = { eye = [0, 1, 4], look_at = [0, 1, 0], fov = 40, resolution = [64, 48] }\n\
      materials.gold.conductor = { f0 = 0.9, roughness = 0.3 }\nmaterials.white = { lambertian.albedo = 0.7 }\n\

@@ -12,7 +12,7 @@ fn view(document: &Document) -> (Camera, RenderSettings) {
 }
 
 #[test]
-fn a_scene_is_given_the_view_of_it_and_its_file_says_only_what_is_new() {
+fn a_scene_takes_over_the_view_and_its_file_changes_only_there() {
     let mut document = room();
     let (camera, settings) = view(&document);
     assert_eq!(document.use_view(&camera, &settings), None, "it has this view");

@@ -1,4 +1,4 @@
-//! What the exported file already contains, so that nothing is written twice.
+//! Contents of the exported file so far, so that nothing is written twice.
 use serde_json::{Map, Value};
 
 /// A material of the file.
@@ -10,7 +10,7 @@ pub struct Made {
     pub uses_coordinates: bool,
 }
 
-/// What a material uses of the colours of vertices.
+/// Vertex colours that a material uses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum VertexColors {
     None,
@@ -37,7 +37,7 @@ pub enum Triangles {
     Sheared(usize),
 }
 
-/// What determines a mesh: its triangles, whether it is reversed, its material, and the colours of its vertices.
+/// Key of a mesh: its triangles, whether it is reversed, its material, and the colours of its vertices.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct MeshKey {
     pub triangles: Triangles,

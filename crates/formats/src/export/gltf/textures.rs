@@ -141,7 +141,7 @@ impl Export<'_> {
         }
         let Some((name, image)) = found else { return Ok(None) };
         for part in parts.iter().filter(|part| part.texture.is_none() && !part.is_free()) {
-            // What the file has in a channel would change a constant there.
+            // The file's channel would change a constant.
             if part.channel != Channel::Alpha || !self.is_opaque(&image.path)? {
                 return Ok(None);
             }

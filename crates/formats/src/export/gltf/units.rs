@@ -3,7 +3,7 @@ use glam::{DAffine3, DMat3, DVec3};
 
 use noisefall_scene::geometry::{Outline, Shape};
 
-/// The same shape of unit size, and the map from there; `None` for meshes and isosurfaces. A map that mirrors keeps the front.
+/// Returns the shape at unit size, and the map from there; `None` for meshes and isosurfaces. A map that mirrors keeps the front.
 pub fn unit(shape: &Shape) -> Option<(Shape, DAffine3)> {
     let sphere = Shape::sphere(DVec3::ZERO, 1.0);
     Some(match shape {

@@ -138,7 +138,7 @@ impl Export<'_> {
 
     /// A BSDF with its bump and normal map. The normal map is the inner one, as in ours.
     fn bumped(&mut self, material: &MaterialDescription, mut element: Element) -> Element {
-        // What Mitsuba does unless it is told otherwise.
+        // Mitsuba shadows by default.
         let shadowing = material.normal_shadowing == Some(true);
         let shadowed = |element: Element| if shadowing { element } else { element.flag("use_shadowing_function", false) };
         if let Some(path) = &material.normal_map {

@@ -79,7 +79,7 @@ impl<'a> Column<'a> {
         Column { count: bytes.len() / 4, bytes: bytes.into(), stride: 4, component: Component::U32, width: 1, normalized: false }
     }
 
-    /// The same column without a copy of its bytes.
+    /// Borrows the column without a copy of its bytes.
     pub fn borrowed(&self) -> Column<'_> {
         Column { bytes: self.bytes.borrowed(), ..*self }
     }

@@ -13,7 +13,7 @@ use super::{
 /// Bytes of a weight while it is interpolated.
 const WEIGHT: u64 = 64;
 
-/// What animations set at a node.
+/// Properties of a node that animations set.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Pose {
     pub translation: Option<[f64; 3]>,
@@ -81,7 +81,7 @@ impl Pose {
     }
 }
 
-/// What a channel sets; `None` if its target is not known.
+/// Evaluates a channel; `None` if its target is not known.
 fn evaluated(document: &Document, buffers: &Buffers, animation: &Animation, channel: &Channel, time: f64) -> Found<Option<Pose>> {
     let sampler = element(&animation.samplers, channel.sampler, "sampler")?;
     let keys = Keys {

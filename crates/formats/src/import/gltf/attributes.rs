@@ -59,7 +59,7 @@ impl UvMap {
     }
 }
 
-/// What a material reads of the vertices besides their places, normals and colours.
+/// Attributes of vertices that a material reads besides positions, normals and colours.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Wanted {
     /// The set of texture coordinates.
@@ -101,7 +101,7 @@ impl Attributes {
         ]
     }
 
-    /// The same without what cannot be seen without a skin.
+    /// Returns the attributes that matter for a mesh without a skin.
     pub fn visible(&self, wanted: &Wanted) -> Attributes {
         Attributes {
             position: self.position,

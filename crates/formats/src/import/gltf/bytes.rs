@@ -72,7 +72,7 @@ impl<'a> Slice<'a> {
         }
     }
 
-    /// The same without a copy.
+    /// Borrows the bytes without a copy.
     pub fn borrowed(&self) -> Slice<'_> {
         match self {
             Slice::Memory(bytes) => Slice::Memory(Cow::Borrowed(bytes)),

@@ -55,7 +55,7 @@ pub struct Instances<'a> {
     visited: u64,
 }
 
-/// What determines the triangles of a primitive.
+/// Key of the triangles of a primitive.
 #[derive(Clone, PartialEq, Eq, Hash)]
 struct Key {
     attributes: Attributes,

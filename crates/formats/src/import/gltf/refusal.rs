@@ -19,7 +19,7 @@ impl Refusal {
         Refusal { message: message.into(), help: help.into() }
     }
 
-    /// The same with the place in front.
+    /// Puts the place in front of the message.
     pub fn within(self, place: &str) -> Refusal {
         Refusal { message: format!("{place}: {}", self.message), ..self }
     }

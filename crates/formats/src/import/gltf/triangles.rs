@@ -3,7 +3,7 @@ use rayon::prelude::*;
 
 use super::{accessor::Picks, refusal::Found};
 
-/// What a primitive draws.
+/// Topology of a primitive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Mode {
     Triangles,
@@ -64,7 +64,7 @@ pub fn compact(triangles: &mut [[u32; 3]], count: usize) -> Found<Picks> {
     Ok(Picks::These(used))
 }
 
-/// The same by a table of all vertices.
+/// Renumbers the vertices by a table of all of them.
 fn numbered(triangles: &mut [[u32; 3]], count: usize) -> Picks {
     let mut numbers = vec![u32::MAX; count];
     triangles.iter().flatten().for_each(|vertex| numbers[*vertex as usize] = 0);

@@ -15,7 +15,7 @@ use super::{
 };
 use noisefall_scene::model::{Model, turn_normals};
 
-/// What moves the vertices of a mesh.
+/// Deformation of the vertices of a mesh by morph targets and a skin.
 #[derive(Clone, Debug, Default)]
 pub struct Deformation {
     /// Weights of the morph targets.

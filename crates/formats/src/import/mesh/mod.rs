@@ -83,7 +83,7 @@ pub fn read(path: &Path, options: &ImportOptions, folder: &Folder) -> Result<Imp
     Ok(to)
 }
 
-/// What to do about a file that is not read.
+/// Returns advice about a file that is not read.
 fn help(problem: &ModelFormatError) -> &'static str {
     match problem {
         ModelFormatError::Points(_) => "only surfaces are rendered",

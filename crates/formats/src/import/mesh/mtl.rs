@@ -7,7 +7,7 @@ use crate::import::Remarks;
 use noisefall_base::quote;
 use noisefall_scene::model::number;
 
-/// What a material states, by its keys. Materials have few statements, and files many materials: a tree would take kilobytes for each.
+/// Statements of a material, by key. Materials have few statements, and files many materials: a tree would take kilobytes for each.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Statements<T>(Vec<(&'static str, T)>);
 

@@ -9,7 +9,7 @@ use noisefall_scene::scene::SceneError;
 /// Larger files are no spectra.
 const LARGEST_SPECTRUM: u64 = 16 << 20;
 
-/// What a spectrum stands for.
+/// Quantity that a spectrum describes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
     /// Light.

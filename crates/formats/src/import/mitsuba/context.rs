@@ -11,7 +11,7 @@ use noisefall_scene::scene::{SceneError, description::SceneDescription};
 /// Objects within objects, references followed.
 const DEEPEST: usize = 64;
 
-/// What a texture is looked up for.
+/// Quantity that a texture is looked up for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum TextureValue {
     /// A radiance.
@@ -31,7 +31,7 @@ pub struct Import {
     pub remarks: Remarks,
     pub textures: Names,
     pub materials: Names,
-    /// What the object that is being translated uses of the shape that it lies on.
+    /// Properties that the object in translation needs of its shape.
     pub uses: Uses,
     /// Textures by their element and what is looked up.
     pub known_textures: HashMap<(usize, TextureValue), (String, Uses)>,
@@ -45,7 +45,7 @@ pub struct Import {
     pub known_models: HashMap<String, String>,
     /// Colours of spectrum files by what they stand for and by path.
     pub known_spectra: HashMap<String, [f64; 3]>,
-    /// What files of meshes have.
+    /// Lists in the files of meshes.
     pub known_lists: HashMap<PathBuf, Lists>,
     /// Files of serialized meshes.
     pub packed: HashMap<PathBuf, Packed>,
@@ -56,7 +56,7 @@ pub struct Import {
     within: Vec<usize>,
 }
 
-/// What textures need of a shape.
+/// Properties of a shape that textures need.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Uses {
     /// Surface coordinates, or tangents that follow them.
@@ -65,7 +65,7 @@ pub struct Uses {
     pub attributes: BTreeSet<String>,
 }
 
-/// What the file of a mesh has besides triangles.
+/// Lists in the file of a mesh besides its triangles.
 #[derive(Clone, Copy)]
 pub struct Lists {
     pub normals: bool,

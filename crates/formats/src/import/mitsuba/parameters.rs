@@ -26,7 +26,7 @@ pub enum Unsubstituted {
 }
 
 impl Substitutions {
-    /// Those of the command line.
+    /// Starts with the definitions of the command line.
     pub fn new(defines: &[(String, String)]) -> Substitutions {
         let mut all = Substitutions::default();
         defines.iter().for_each(|(name, value)| all.add(name, value));

@@ -52,7 +52,7 @@ pub fn is_black(import: &Import, image: &Image) -> bool {
     import.images.get(&image.path).is_some_and(|path| is_black_file(path))
 }
 
-/// The same for a file. One that is black compresses well: large files are not read for that.
+/// Whether an image file is black. Black images compress well, so large files are not read.
 pub fn is_black_file(path: &Path) -> bool {
     const LARGEST: u64 = 4 << 20;
     let is_small = fs::metadata(path).is_ok_and(|known| known.len() <= LARGEST);

@@ -57,7 +57,7 @@ impl Import {
         }
     }
 
-    /// The same from 0 to 1.
+    /// The number with a name, limited to the range from 0 to 1.
     pub fn fraction(&mut self, element: Element, of: &str, default: f64) -> Result<Textured<f64>, SceneError> {
         let number = self.textured_number(element, of, default)?;
         Ok(match number {
@@ -119,7 +119,7 @@ impl Import {
             "bitmap" => self.bitmap(element).map(Into::into),
             "checkerboard" => self.checkerboard(element, value),
             "mesh_attribute" => self.mesh_attribute(element, element.required_text("name")?),
-            // Those of version 0.6.
+            // Types of version 0.6.
             "vertexcolors" => self.mesh_attribute(element, "vertex_color"),
             "scale" => self.scaled_texture(element, value),
             "gridtexture" => self.grid(element),

@@ -14,7 +14,7 @@ impl Element<'_> {
         transform.children().try_fold(DMat4::IDENTITY, |before, step| Ok(step.see().step()? * before))
     }
 
-    /// The same in space, where the last row must be 0, 0, 0, 1.
+    /// The affine transform with this name: its last row must be 0, 0, 0, 1.
     pub fn affine(self, name: &str) -> Result<DAffine3, SceneError> {
         let matrix = self.transform(name)?;
         let is_affine = matrix.row(3).abs_diff_eq(DVec4::W, 1e-9) && matrix.is_finite();

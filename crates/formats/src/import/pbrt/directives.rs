@@ -163,7 +163,7 @@ impl Interpreter {
         let entity = Rc::new(self.read_entity(directive, target, place)?);
         match directive {
             "Camera" => {
-                // What is named "camera" leads from the camera to the world.
+                // The coordinate system "camera" leads from the camera to the world.
                 self.systems.insert("camera".to_owned(), self.state.maps.map(|map| map.inverse()));
                 self.import.refuse_medium(&self.state.media[1], place)?;
                 self.options.camera = Some((entity, self.state.maps));

@@ -161,7 +161,7 @@ impl Import {
         folder.missing.require(folder.resolve(named), error).map(Some)
     }
 
-    /// The same, but it must be given.
+    /// Returns the file of a parameter that must be given.
     pub fn required_file(&self, entity: &Entity, name: &str) -> Result<PathBuf, SceneError> {
         let missing = || entity.error(format!("{} names no file", entity.shown()), format!("`string {name}` is missing"));
         self.file(entity, name)?.ok_or_else(missing)

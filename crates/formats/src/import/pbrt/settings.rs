@@ -10,7 +10,7 @@ use noisefall_scene::{
 
 /// pbrt's defaults.
 const RESOLUTION: [i64; 2] = [1280, 720];
-/// That of pbrt-v3.
+/// The default of pbrt-v3.
 const OLD_RESOLUTION: [i64; 2] = [640, 480];
 const SAMPLES: u32 = 16;
 const BOUNCES: u32 = 5;

@@ -13,7 +13,7 @@ use noisefall_scene::scene::SceneError;
 /// Types of colours.
 pub const COLOURS: [Type; 3] = [Type::Rgb, Type::Spectrum, Type::Blackbody];
 
-/// What a spectrum stands for.
+/// Quantity that a spectrum describes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Role {
     /// Light. Spectra that are not RGB have luminance 1, as in pbrt, whatever their values.

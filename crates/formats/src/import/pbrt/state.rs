@@ -27,7 +27,7 @@ pub struct State {
     defaults: [Rc<[Parameter]>; 5],
 }
 
-/// What the parameters of `Attribute` belong to.
+/// Target of the parameters of `Attribute`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AttributeTarget {
     Shape,

@@ -177,7 +177,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_spectrum_has_an_error() {
+    fn an_invalid_spectrum_is_an_error() {
         let error = |text: &str| Spectrum::parse(text).expect_err("it is wrong");
         assert_eq!(error("400 1"), SpectrumError::TooShort);
         assert_eq!(error("400 1\n400 2"), SpectrumError::NotAscending);

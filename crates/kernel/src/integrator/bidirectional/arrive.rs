@@ -135,7 +135,7 @@ fn seen_first<L: Lanes>(l: L, work: &Work, path: &Path<L>, interaction: &Surface
     Partial { v: work.light_paths_of_image() / (join.density * cos), c: l.f(0.0) }
 }
 
-/// What the weights of lights depend on that camera paths meet.
+/// Parameters of the weights of lights that camera paths hit.
 struct HitWeigher<L: Lanes> {
     /// The camera sees the lights directly, and no other strategy finds that.
     first: bool,

@@ -46,7 +46,7 @@ pub(super) fn shade_camera_paths<L: Lanes, O: Observer<L>>(
     next.clear();
     let connects = work.settings.estimator.connects();
     let only_caustics = work.settings.estimator.traces_only_caustics();
-    // What light paths bring to the first surface is found by them alone.
+    // Only light paths sample the first surface.
     let is_joined = !connects && !only_caustics && *bounce == 0;
     let others = match *bounce {
         _ if connects => CompetingStrategies::All,

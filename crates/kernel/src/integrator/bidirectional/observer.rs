@@ -11,7 +11,7 @@ pub(in crate::integrator) enum PathStart {
     Camera,
 }
 
-/// What a strategy (s, t) finds.
+/// Contribution of a strategy (s, t).
 pub(in crate::integrator) struct Term<L: Lanes> {
     pub s: U<L>,
     pub t: u32,

@@ -1,4 +1,4 @@
-//! How far vertices are merged.
+//! Radius within which vertices are merged.
 use std::f32::consts::PI;
 
 use crate::integrator::work::Work;

@@ -78,7 +78,7 @@ pub(super) fn scatter<L: Lanes>(
     in_stage!(stage, K => scatter_kind::<L, K>(l, work, hits, at, back, reflection))
 }
 
-/// How far rays that pass a surface start behind the points that are stored of it.
+/// Returns the distance behind the stored points of a surface at which rays start that pass it.
 #[inline(always)]
 pub(super) fn depth<L: Lanes>(l: L, stage: Stage, hits: &HitQueues, at: Register<L>) -> F<L> {
     if stage.transmits() { Detail::read(l, &hits.details, at.start).error * 2.0 } else { l.f(0.0) }
@@ -216,7 +216,7 @@ impl<'a, 'q, L: Lanes, K: Shade> SurfaceHits<'a, 'q, L, K> {
         K::DETAILED && (self.work.scene.shapes.have_elements() || self.normals.relief.is_some())
     }
 
-    /// What a viewer in the direction `d` sees.
+    /// Returns the surface as a viewer in the direction `d` sees it.
     #[inline(always)]
     fn view(&self, l: L, d: V<L>) -> View<L> {
         if !self.has_shading_normals() {

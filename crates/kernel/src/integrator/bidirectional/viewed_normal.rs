@@ -12,7 +12,7 @@ pub(super) struct Normals<L: Lanes> {
     pub surface: V<L>,
     /// The shading normal, whether or not a viewer sees its front.
     pub shading: V<L>,
-    /// What bump and normal maps tilt, in scenes with any.
+    /// Normals of bump and normal maps, in scenes with any.
     pub relief: Option<MappedNormals<L>>,
 }
 

@@ -100,7 +100,7 @@ fn a_pane_and_a_door_are_passed_and_the_wall_beside_them_is_not() {
     assert_eq!(way(&scene(&[sky(), pane.clone()]), left, right), 3.0);
     let solid = scene(&[sky(), object(WALL, WHITE)]);
     assert!((way(&solid, left, right) - 0.996).abs() < 1e-5);
-    // What lies behind a pane stops too, and so does a wall thinner than the margin.
+    // A surface behind a pane stops too, and so does a wall thinner than the margin.
     let behind = object("cuboid = { min = [2.0, -50.0, -50.0], max = [2.001, 50.0, 50.0] }", WHITE);
     assert!((way(&scene(&[sky(), pane, behind]), left, right) - 1.996).abs() < 1e-5);
     let door =

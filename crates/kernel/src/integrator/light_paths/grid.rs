@@ -55,12 +55,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn it_finds_what_a_search_through_all_points_finds() {
+    fn it_finds_the_same_points_as_a_full_search() {
         let mut random = SmallRng::seed_from_u64(1);
         let mut grid = Grid::default();
         for radius in [0.01f32, 0.1, 0.7] {
             let mut points: Vec<[f32; 3]> = (0..500).map(|_| [0, 1, 2].map(|_| random.random_range(-1.0..1.0))).collect();
-            // The same point twice.
+            // A point that occurs twice.
             points.push(points[0]);
             grid.fill(points.iter().copied(), radius);
             for _ in 0..200 {

@@ -30,7 +30,7 @@ pub fn finite<L: Lanes>(cos: F<L>) -> F<L> {
 pub enum CompetingStrategies {
     /// There are all of them.
     All,
-    /// Those of earlier vertices remain only behind surfaces with a single direction.
+    /// Strategies of earlier vertices remain only behind surfaces with a single direction.
     AfterDelta,
     /// There are none.
     None,

@@ -1,7 +1,7 @@
 //! The outliers of a tile.
 use super::replays::Replays;
 
-/// What path reuse needs beside the queues of a batch. Allocated by the first trace that shares.
+/// Buffers of outlier reuse beside the queues of a batch. Allocated by the first trace that shares.
 #[derive(Default)]
 pub struct OutlierBuffers {
     pub samples: Vec<Outlier>,

@@ -6,7 +6,7 @@ use crate::integrator::slots::{BLOCK, BLOCKS, TILE};
 const FACTOR: f32 = 8.0;
 /// The brightest part of the samples of a block, which does not count as typical.
 const OUTLIERS: f64 = 0.05;
-/// What is typical of a block is at least this part of what is typical of the tile.
+/// Lower bound of a block's typical radiance, relative to the tile's.
 const LEAST: f32 = 0.1;
 
 /// Thresholds of r + g + b, for each pixel of a tile. They come from a pilot with a seed of its own.
@@ -33,7 +33,7 @@ impl Thresholds {
         Thresholds(thresholds)
     }
 
-    /// The same for all pixels.
+    /// Sets one threshold for all pixels.
     #[cfg(test)]
     pub fn uniform(threshold: f32) -> Self {
         Thresholds(vec![threshold; (TILE * TILE) as usize])

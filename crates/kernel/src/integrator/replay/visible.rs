@@ -61,7 +61,7 @@ mod tests {
         [[objects]]\nshape.rectangle = { origin = [-1, -1, 1], edge_u = [2, 0, 0], edge_v = [0, 2, 0] }\nmaterial = \"white\"\n";
 
     #[test]
-    fn what_lies_behind_a_screen_or_the_camera_is_hidden() {
+    fn points_behind_a_screen_or_the_camera_are_hidden() {
         let scene = parse("scene.toml", SCENE.to_owned()).expect("it is a scene");
         for projection in [Projection::default(), Projection::orthographic(6.0)] {
             let camera = Camera { projection, ..scene.camera };

@@ -73,7 +73,7 @@ pub fn advise(
     Ok(advice)
 }
 
-/// What pixels could share in place of what they share now.
+/// Returns the possible path reuse that is not in use.
 fn other_reuses(scene: &Scene, camera: &Camera, settings: &RenderSettings) -> Vec<Reuse> {
     let rays = scene.rays(camera);
     let now = scene.path_reuse(&rays, &resolved(scene, &rays, settings));

@@ -231,7 +231,7 @@ fn path_reuse_is_tried_and_taken_over_where_it_stands_out() {
     assert_eq!((adopted(&advice), advice.best().name.as_str()), (shared, "reused suffixes"));
 }
 
-/// What is not in use already, whatever the word for that.
+/// The reuse that `auto` stands for counts as in use.
 #[test]
 fn all_path_reuse_is_tried_that_is_possible_and_not_in_use() {
     let (scene, glass) = (scene(), parse("scene.toml", include_str!("../../../../../scenes/tinted_glass.toml").to_owned()));

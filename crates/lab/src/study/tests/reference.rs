@@ -37,7 +37,7 @@ fn rendered(variance: Option<f32>, rel_mse_estimate: Option<f64>) -> KnownRefere
 }
 
 #[test]
-fn the_own_error_of_a_reference_is_what_its_file_says_of_it() {
+fn the_own_error_of_a_reference_comes_from_its_file() {
     let own = |reference, is_declared, floor| {
         let found = known(&study_scene(Some(reference), is_declared), floor).expect("it is lit").expect("it is known");
         (found.rel_mse, found.is_taken_for_exact, found.variance_of_mean)

@@ -100,7 +100,7 @@ fn lines_of_a_run_say_all_that_it_depends_on() {
 }
 
 #[test]
-fn labels_tell_how_light_is_estimated_and_what_is_not_the_default() {
+fn labels_state_the_estimator_and_settings_that_are_not_the_default() {
     let a = RenderSettings::default();
     let b = RenderSettings {
         estimator: Estimator::Light,
@@ -134,7 +134,7 @@ fn first_cells<'a>(row: &'a str, end: &str) -> Vec<&'a str> {
 }
 
 #[test]
-fn a_report_says_what_was_found_and_against_what() {
+fn a_report_states_the_findings_and_the_reference() {
     let unbiased = |rel_mse, seconds| Run { bias: String::new(), invalid_samples: 0, ..points(rel_mse, seconds) };
     let limits = Limits { floor: 0.0, black: 1.0, variance_of_mean: 0.0, mean: 1.0 };
     let outcome = |estimator, sampler, runs: &[Run]| {
@@ -184,7 +184,7 @@ fn a_report_says_what_was_found_and_against_what() {
     // The best is first. ±10 % between its repeats is a standard error of ln 1.21/2.
     let row = &page[page.find("class=\"first\"").expect("a first row")..];
     let cells = first_cells(row, "</td>");
-    let settings = ["mis", "bsdf", "sobol", "throughput", "auto: on"];
+    let settings = ["mis", "bsdf", "sobol", "throughput", "auto: suffixes"];
     assert_eq!((cells[0], &cells[1..6]), ("1", &settings[..]), "{cells:?}");
     assert_eq!(cells[6..9], ["16", "1.00", "10.5 %"], "{cells:?}");
     assert!(cells[9].starts_with("−0.50 ± "), "{cells:?}");

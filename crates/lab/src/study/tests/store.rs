@@ -106,7 +106,7 @@ fn a_disk_that_fails_at_any_moment_leaves_the_measurements_before() {
     lose_nothing(&folder.path().join(CSV), &mut || store.add(rows(KEYS[1], 2)).map_err(|error| error.to_string()));
     let before = Store::open(folder.path()).expect("a store");
     assert_eq!((before.len(), before.dropped), (1, 0));
-    // What could not be written is measured again.
+    // Rows that could not be written are measured again.
     store.add(rows(KEYS[1], 2)).expect("it can be written");
     assert_eq!(Store::open(folder.path()).expect("a store").len(), 2);
 }

@@ -33,7 +33,7 @@ pub fn lit(punctual_light: &str) -> Scene {
     lit_in("", punctual_light)
 }
 
-/// The same, and what is around them.
+/// A light over a diffuse floor, with surroundings.
 fn lit_in(surroundings: &str, punctual_light: &str) -> Scene {
     scene(&format!(
         "camera = {{ eye = [0.0, 1.0, 2.0], look_at = [0.0, 0.0, 0.0], fov = 0.001, resolution = [32, 32] }}

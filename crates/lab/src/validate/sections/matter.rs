@@ -268,7 +268,7 @@ mod tests {
     use super::beyond_digits;
 
     #[test]
-    fn only_what_no_last_digit_explains_is_an_error() {
+    fn only_differences_beyond_the_last_digit_are_errors() {
         let w = glam::DVec3::new(0.0, 0.0, 0.25);
         // A square root of the height changes by 4ε/(2 · 0.5).
         let spread = 4.0 * f64::from(f32::EPSILON);

@@ -224,7 +224,7 @@ mod tests {
     const BALL: &str = "sphere = { center = [0.0, 0.0, 0.0], radius = 1.0 }";
 
     #[test]
-    fn a_surface_in_front_of_what_was_met_was_missed() {
+    fn a_surface_in_front_of_the_hit_was_missed() {
         with_world(BALL, |world| {
             let ahead = ray([0.0, 0.0, 3.0], [0.0, 0.0, -1.0]);
             assert_eq!([1.0, 2.0, 2.001, f64::INFINITY].map(|t| world.passes_a_surface(ahead, t)), [false, false, true, true]);
@@ -236,7 +236,7 @@ mod tests {
     }
 
     #[test]
-    fn rays_are_judged_by_what_they_meet_and_closed_rooms_let_none_out() {
+    fn rays_are_judged_by_their_hits_and_closed_rooms_let_none_out() {
         with_world(BALL, |world| {
             let mut found = Comparison::default();
             let met = world.judge(ray([0.0, 0.0, 3.0], [0.0, 0.0, -1.0]), true, &mut found);

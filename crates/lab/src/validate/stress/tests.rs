@@ -42,7 +42,7 @@ fn scenes_are_functions_of_family_and_number() {
 
 /// The camera sees nothing but a sky of radiance 1.
 #[test]
-fn errors_are_relative_to_what_is_expected() {
+fn errors_are_relative_to_the_expected_value() {
     let text = "format = 1
         camera = { eye = [0.0, 0.0, 0.0], look_at = [0.0, 0.0, 1.0], fov = 40.0, resolution = [8, 8] }
         environment.radiance = 1.0

@@ -21,7 +21,7 @@ use noisefall_scene::scene::PathReuse;
 
 const FILM: Tag = Tag(*b"FILM");
 const TILE: Tag = Tag(*b"TILE");
-/// What light paths bring to a tile. Absent without such paths.
+/// Radiance that light paths add to a tile. Absent without such paths.
 const SPLATS: Tag = Tag(*b"SPLT");
 /// Bytes of a tile besides its pixels, at most; and of a pixel.
 const BESIDES: usize = 2048;

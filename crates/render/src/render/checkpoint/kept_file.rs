@@ -59,7 +59,7 @@ impl KeptRender {
         self.state.elapsed
     }
 
-    /// The same for a render that continues with another scene or program.
+    /// Marks the render as one that continues with another scene or program.
     pub fn mixed(self) -> KeptRender {
         KeptRender { state: KeptState { is_mixed: true, ..self.state }, ..self }
     }
@@ -80,7 +80,7 @@ impl KeptFile {
         Ok(KeptFile { path: path.to_owned(), reader })
     }
 
-    /// What the file says about its image.
+    /// Returns the file's metadata about its image.
     pub fn header(&self) -> &Header {
         self.reader.header()
     }

@@ -26,7 +26,7 @@ const SHARE: u32 = 100;
 pub struct KeepPlan {
     /// The file.
     pub path: PathBuf,
-    /// What the file says about the image.
+    /// Metadata of the file about the image.
     pub header: Header,
     /// Time between two checkpoints. It is longer if they would take more than 1 % of the time. `None` keeps on request only.
     pub every: Option<Duration>,
@@ -34,14 +34,14 @@ pub struct KeepPlan {
     pub events: Sender<KeepEvent>,
 }
 
-/// What became of a checkpoint.
+/// Result of a checkpoint.
 #[derive(Clone, Debug, PartialEq)]
 pub enum KeepEvent {
     /// It is on the disk.
     Kept,
     /// Checkpoints take so long that the time between them is this.
     Slower {
-        /// What the last one took from the render.
+        /// Time that the last one took from the render.
         took: Duration,
         /// The time until the next one.
         every: Duration,

@@ -245,7 +245,7 @@ mod tests {
     }
 
     #[test]
-    fn what_has_no_samples_and_what_is_too_large_gives_its_film_back() {
+    fn empty_and_too_large_sessions_give_their_films_back() {
         let scene = Arc::new(noisefall_scene::scene::built_in());
         let empty = session([32, 32], Publish::Sparse, None);
         assert!(SessionCache::default().keep(empty).is_some());

@@ -43,9 +43,9 @@ pub(super) struct Session {
     steps_done: u64,
     rel_mse_estimate: Option<f64>,
     error_is_lower_bound: bool,
-    /// The same for the region that is rendered before the rest.
+    /// The region that is rendered before the rest, and its estimated relMSE.
     region_estimate: Option<(Region, f64)>,
-    /// What pixels share.
+    /// Path reuse between pixels.
     path_reuse: PathReuse,
     /// Whether the first samples are of another scene or program.
     is_mixed: bool,
@@ -222,7 +222,7 @@ impl Session {
         let rays = scene.rays(camera);
         let begun = Instant::now();
         let resolved = threads.install(|| resolved_unless(scene, &rays, settings, interrupted));
-        // What a trial takes is part of the time of the image.
+        // The time of a trial is part of the time of the image.
         self.elapsed += begun.elapsed();
         let Ok(settings) = resolved else { return };
         self.path_reuse = scene.path_reuse(&rays, &settings);

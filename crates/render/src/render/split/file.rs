@@ -56,7 +56,7 @@ impl SampleFile {
         &self.path
     }
 
-    /// What it says about its image.
+    /// Returns the file's metadata about its image.
     pub fn header(&self) -> &Header {
         self.reader.header()
     }

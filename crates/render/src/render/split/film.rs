@@ -48,7 +48,7 @@ pub struct SampleFilm {
     tiles: Vec<RangeTile>,
     samples: Range<u32>,
     count: PassCount,
-    /// What light paths bring to the pixels, if the estimator traces any.
+    /// Radiance that light paths add to the pixels, if the estimator traces any.
     splats: Option<SplatFilm>,
     _memory: [Option<Reservation>; 2],
 }
@@ -141,7 +141,7 @@ impl SampleFilm {
         self.tiles.iter().map(|tile| &tile.sums)
     }
 
-    /// The same. Each tile is freed as soon as it is dropped.
+    /// Returns the sums of the tiles. Each tile is freed as soon as it is dropped.
     pub fn into_sums(self) -> impl Iterator<Item = TileSums> {
         self.tiles.into_iter().map(|tile| tile.sums)
     }

@@ -29,7 +29,7 @@ pub enum JoinError {
         path: PathBuf,
         /// The first file.
         first: PathBuf,
-        /// What differs.
+        /// Description of the difference.
         difference: String,
     },
     /// Two files have the same samples.
@@ -39,7 +39,7 @@ pub enum JoinError {
         path: PathBuf,
         /// The other file.
         other: PathBuf,
-        /// What both have.
+        /// The samples that both have.
         samples: SampleRanges,
     },
     /// The sums would overflow.
@@ -104,7 +104,7 @@ impl Join {
         Ok(())
     }
 
-    /// What the files say about their image.
+    /// Returns the files' metadata about their image.
     pub fn header(&self) -> &Header {
         &self.header
     }
@@ -129,7 +129,7 @@ impl Join {
         self.tiles.iter()
     }
 
-    /// The same. Each tile is freed as soon as it is dropped.
+    /// Returns the sums of the tiles. Each tile is freed as soon as it is dropped.
     pub fn into_sums(self) -> impl Iterator<Item = TileSums> {
         self.tiles.into_iter()
     }

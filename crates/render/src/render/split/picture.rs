@@ -73,7 +73,7 @@ impl SplitPicture {
         Ok(())
     }
 
-    /// What light paths bring to the pixels of a tile.
+    /// Estimates the radiance that light paths add to the pixels of a tile.
     fn splats_of(&self, sums: &TileSums) -> Vec<SplatEstimate> {
         let Some(splats) = &sums.splats else { return Vec::new() };
         let samples = u64::from(self.samples.total());

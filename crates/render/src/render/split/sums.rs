@@ -28,7 +28,7 @@ pub struct TileSums {
     pub counts: Vec<u32>,
     /// Samples that were negative or not finite; they count as black.
     pub invalid: u64,
-    /// What light paths bring to the pixels, if there are any.
+    /// Radiance that light paths add to the pixels, if there are any.
     pub splats: Option<TileSplats>,
 }
 

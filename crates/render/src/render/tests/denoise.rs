@@ -72,7 +72,7 @@ fn the_steps_of_denoising_are_known_before() {
 }
 
 #[test]
-fn what_is_cancelled_or_has_no_halves_is_not_denoised() {
+fn cancelled_images_and_those_without_halves_are_not_denoised() {
     let frame = noisy(&truth(), 0.3, 7);
     assert!(denoised(&frame, &|| true).is_none());
     assert!(denoised(&Frame { halves: None, ..frame }, &|| false).is_none());

@@ -114,9 +114,9 @@ fn the_noise_figure_does_not_depend_on_the_unit_of_radiance() {
     }
 }
 
-/// What is told of noise does not depend on when a render was interrupted, nor on how many threads it has.
+/// The estimated noise does not depend on when a render was interrupted, nor on how many threads it has.
 #[test]
-fn interruptions_change_no_bit_of_what_is_told_of_noise() {
+fn interruptions_change_no_bit_of_the_estimated_noise() {
     let scene = room(1.0);
     let rays = scene.rays(&Camera { resolution: [75, 50], ..scene.camera });
     for (adaptive, reuse) in [(false, Reuse::Suffixes), (true, Reuse::Off)] {

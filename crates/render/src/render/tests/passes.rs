@@ -33,7 +33,7 @@ fn frame(film: &Film) -> Frame {
 }
 
 #[test]
-fn what_is_said_of_an_interrupted_picture_is_true_of_every_pixel() {
+fn the_figures_of_an_interrupted_image_are_true_of_every_pixel() {
     const SIZE: [u32; 2] = [80, 50];
     let (scene, threads) = (built_in(), threads(1));
     let whole: Vec<Frame> = (1..=4)

@@ -74,7 +74,7 @@ fn the_errors_without_a_block_are_those_of_the_others() {
 }
 
 #[test]
-fn the_noise_of_the_reference_counts_and_what_is_not_known_is_not_claimed() {
+fn the_noise_of_the_reference_counts_and_unknown_scores_are_not_claimed() {
     let noisy = frame([0.01, 0.03]);
     let reference = picture(1.0, frame([0.05, 0.07]).noise);
     assert!(reference.bias(&noisy).and_then(|bias| bias.z).is_some_and(|z| (z - 0.5 / 0.2).abs() < 1e-6));

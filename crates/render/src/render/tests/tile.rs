@@ -91,7 +91,7 @@ fn blocks_get_samples_by_their_rates_and_stop_where_they_double() {
     }
     assert!(tile.is_adaptive());
     let counts = |tile: &Tile| tile.blocks.iter().map(|block| block.spp).collect::<Vec<_>>();
-    // What is left to do where nothing is there yet, up to an average of 4: all alike.
+    // The samples that an empty tile needs for an average of 4: all blocks are alike.
     assert_eq!(tile.distance_to(4), 24);
     let mut stops = Vec::new();
     while tile.distance_to(12) > 0 {

@@ -79,7 +79,7 @@ fn views_show_the_numbers_they_are_named_after() {
 }
 
 #[test]
-fn scores_are_what_is_too_much_in_standard_errors() {
+fn scores_are_deviations_in_standard_errors() {
     let mut frame = frame();
     frame.standard_error[4] = 0.0;
     (frame.radiance[5], frame.standard_error[5]) = ([2.0; 3], 0.0);
@@ -102,7 +102,7 @@ fn scores_are_what_is_too_much_in_standard_errors() {
 }
 
 #[test]
-fn a_difference_is_relative_to_what_is_pinned() {
+fn a_difference_is_relative_to_the_pinned_image() {
     let frame = frame();
     let pinned = Frame { radiance: vec![[2.0; 3]; 8], ..self::frame() };
     let root = 4.04f32.sqrt();
@@ -185,7 +185,7 @@ fn numbers_have_the_colours_of_their_scale() {
     assert_eq!((scale.map, scale.ends, scale.log), (ColourMap::Diverging, [-4.0, 4.0], false));
     let table = ColourMap::Diverging.table();
     assert_eq!([pixels[0], pixels[1], pixels[3], pixels[7]], [table[0], table[128], table[255], GREY]);
-    // That of another image takes the place of its own.
+    // The scale of another image replaces its own.
     let given = Scale { ends: [0.0, 2.0], ..scale };
     let (legend, _) = draw(look, &Sources { reference: Some(&truth), scale: Some(given), ..sources(&frame, &[]) }, &mut pixels)
         .expect("scores");
@@ -197,7 +197,7 @@ fn numbers_have_the_colours_of_their_scale() {
 }
 
 #[test]
-fn a_scale_has_the_unit_of_its_view_and_what_is_missing_is_asked_for() {
+fn a_scale_has_the_unit_of_its_view_and_missing_inputs_are_asked_for() {
     let (frame, features) = (Frame { counts: (0..8).collect(), ..frame() }, features());
     let truth = Reference::Constant([2.0; 3]);
     let all = Sources { features: Some(&features), reference: Some(&truth), pinned: Some(&frame), ..sources(&frame, &[]) };

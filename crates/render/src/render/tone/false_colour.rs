@@ -66,7 +66,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_no_number_is_dark_and_what_is_too_bright_is_the_last_colour() {
+    fn nan_is_dark_and_too_bright_values_have_the_last_colour() {
         assert_eq!(FALSE_COLOURS.of(f32::NAN)[..3], ColourMap::Viridis.of(0.0));
         assert_eq!(FALSE_COLOURS.of(f32::INFINITY)[..3], ColourMap::Viridis.of(1.0));
     }

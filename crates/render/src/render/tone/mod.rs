@@ -56,9 +56,9 @@ pub fn false_colour_range(display: Display) -> Option<[f32; 2]> {
     (display.tone_map == ToneMap::FalseColour).then(range)
 }
 
-/// What radiance is multiplied by before a tone map.
+/// Factors of radiance before a tone map.
 struct Gain {
-    /// That of the exposure.
+    /// The factor of the exposure.
     scale: f32,
     /// The matrix of exposure and white balance, if there is one.
     balance: Option<Rows>,

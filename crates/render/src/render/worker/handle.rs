@@ -78,7 +78,7 @@ impl Renderer {
         receiver
     }
 
-    /// What asks for checkpoints from other threads.
+    /// Returns a handle that requests checkpoints from other threads.
     pub fn keep_handle(&self) -> KeepHandle {
         KeepHandle { sender: self.sender.clone(), shared: self.shared.clone() }
     }
@@ -118,7 +118,7 @@ impl Renderer {
         lock(&self.shared.published)[0].clone()
     }
 
-    /// The same for the image beside it.
+    /// The latest frame and figures of the second image. Never waits for the render.
     pub fn latest_second(&self) -> Published {
         lock(&self.shared.published)[1].clone()
     }

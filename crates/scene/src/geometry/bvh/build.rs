@@ -26,7 +26,7 @@ const REPORT: usize = 1 << 14;
 
 /// Items of a branch whose sides grow at the same time, at least.
 const LARGE: usize = 1 << 15;
-/// The same as a fraction of all items. Smaller sides would be copied more often.
+/// All items, divided by this, are another lower bound. Smaller sides would be copied more often.
 const LARGE_SHARE: usize = 16;
 
 /// A range of items below one branch.
@@ -70,7 +70,7 @@ struct Builder<'a, const LEAF_SIZE: usize> {
     /// Items of a branch whose sides grow at the same time.
     large: usize,
     progress: &'a Progress,
-    /// What is reported for all `count` items, and what has been.
+    /// Progress to report for all `count` items, and the progress reported so far.
     work: u64,
     count: usize,
     reported: AtomicU64,
@@ -85,8 +85,8 @@ impl Bvh {
             .expect("nobody cancels")
     }
 
-    /// The same for `count` boxes, on all threads, with cancellation and progress, which reports `work` in all. Of items in one place with
-    /// the same `contents`, only the first is in the tree, so that a ray does not test them all.
+    /// Builds a tree over `count` boxes on all threads, with cancellation and progress, which reports `work` in all. Of items in
+    /// one place with the same `contents`, only the first is in the tree, so that a ray does not test them all.
     pub fn build_watched<const LEAF_SIZE: usize>(
         count: usize,
         bounds: impl Fn(usize) -> Bounds + Sync,

@@ -76,7 +76,7 @@ fn splat<S: Simd>(s: S, x: &[[f32; MAX_LANES]; 3], lane: usize) -> [f32x8<S>; 3]
     [f32x8::splat(s, x[0][lane]), f32x8::splat(s, x[1][lane]), f32x8::splat(s, x[2][lane])]
 }
 
-/// The same in registers.
+/// One ray, prepared for the test of boxes, in registers.
 pub(super) struct WideSlabs<S: Simd> {
     near_origin: [f32x8<S>; 3],
     far_origin: [f32x8<S>; 3],
@@ -116,7 +116,7 @@ mod tests {
     /// 7 u (A + B) with u = ε/2, A the farthest that the scene is from the origin along the axis, B that along any, and the rounding of
     /// the moved origin.
     #[test]
-    fn boxes_are_widened_by_what_rounding_may_do_along_each_axis() {
+    fn boxes_are_widened_by_the_possible_rounding_along_each_axis() {
         let bounds = Bounds { min: [-3.0, 1.0, -50.0], max: [5.0, 40.0, 7.0] };
         let (o, d) = ([2.0f32, -6.0, 9.0], [0.3f32, -0.6, 0.2]);
         let slabs = Slabs::new(One, V::splat(One, o), V::splat(One, d), &bounds);

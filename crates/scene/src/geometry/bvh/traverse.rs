@@ -66,7 +66,7 @@ impl<L: Lanes> Searches<L> {
     }
 }
 
-/// What rays go through, and where boxes wait for two of them.
+/// A traversal: the tree, its rays, and stacks of boxes that wait for two of them.
 struct Descent<'a, L: Lanes, C, const COUNTS: bool> {
     bvh: &'a Bvh,
     slabs: &'a Slabs,

@@ -6,7 +6,7 @@ use std::ops::Range;
 pub struct ParseError {
     /// The erroneous bytes of the text; empty and at the end if something is missing there.
     pub at: Range<usize>,
-    /// What is wrong, and what to write instead.
+    /// The problem, and the text to write instead.
     pub message: String,
     /// Label at the position.
     pub label: String,

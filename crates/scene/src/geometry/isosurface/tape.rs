@@ -1,6 +1,6 @@
 //! An expression as a list of operations on registers, evaluated for up to sixteen rays at once.
 //!
-//! The same tape runs over any [`Quantity`]: values with derivatives ([`super::jet::Jet`]) or affine forms over a segment of a
+//! A tape runs over any [`Quantity`]: values with derivatives ([`super::jet::Jet`]) or affine forms over a segment of a
 //! ray ([`super::affine_form::AffineForm`]).
 use fearless_simd_macros::simd;
 

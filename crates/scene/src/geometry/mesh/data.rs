@@ -113,7 +113,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn boxes_of_what_is_far_apart_are_apart() {
+    fn distant_vertices_have_separate_boxes() {
         let vertices = vec![[-4.0, 1.0, 2.0], [-4.0, 1.25, 2.0], [4.0, 9.0, 6.0], [4.0, 9.0, 5.5]];
         let data = MeshData { vertices, triangles: vec![[0, 1, 2], [1, 2, 3]], ..MeshData::default() };
         let boxes = data.boxes();

@@ -1,4 +1,4 @@
-//! What the leaves of a tree hold: triangles, pairs of them, or pieces of long ones.
+//! Items in the leaves of a tree: triangles, pairs of them, or pieces of long ones.
 use super::{
     leaves::{Apart, Filled, PAIRS, Shared, TriangleLeaves},
     pairs::{Pair, pairs},

@@ -110,7 +110,7 @@ impl Mesh {
         self.closest_by(l.token(), l, &mut Stacks::<false>::default(), (o, d), Search::nearest(l, t_max))
     }
 
-    /// The same within the limit of a search; boxes and triangles are tested with the instructions of `s`, for any lanes.
+    /// The first triangle within the limit of a search. Boxes and triangles are tested with the instructions of `s`, for any lanes.
     #[simd]
     pub fn closest_by<S: Simd, L: Lanes, const COUNTS: bool>(
         &self,

@@ -86,7 +86,7 @@ struct Sums {
     bounds: Bounds,
     /// Area of their boxes.
     area: f32,
-    /// The same of the long ones, and the longest edges of those boxes.
+    /// Area of the boxes of long triangles, and the longest edges of those boxes.
     long_area: f32,
     lengths: f32,
 }

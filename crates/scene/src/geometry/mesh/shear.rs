@@ -33,7 +33,7 @@ pub(super) struct Shears {
     depth: [f32; MAX_LANES],
 }
 
-/// The same for one ray.
+/// One ray, prepared for the test of triangles.
 pub(super) struct Shear {
     pub axes: [usize; 3],
     origin: [f32; 3],

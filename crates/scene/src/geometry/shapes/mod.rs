@@ -64,8 +64,8 @@ impl Shapes {
         Shapes::after(None, Precision::Exact, shapes, near, &Progress::default()).expect("nobody cancels").0
     }
 
-    /// The same; trees of meshes are those of the shapes `before` where `precision` allows it. Also returns the time that each of these
-    /// trees took to build, or `None` for trees that are reused.
+    /// Builds all shapes, and reuses the mesh trees of the shapes `before` where `precision` allows it. Also returns the time that
+    /// each of these trees took to build, or `None` for trees that are reused.
     pub fn after<'a>(
         before: Option<&Shapes>,
         precision: Precision,
@@ -279,7 +279,7 @@ impl Shapes {
         nearest
     }
 
-    /// The same, with room for the boxes of the tree over objects and of the trees below.
+    /// Implements [`Shapes::nearer`], with stacks for the boxes of the tree over objects and of the trees below.
     #[inline(always)]
     fn nearer_by<L: Lanes, const COUNTS: bool>(
         &self,

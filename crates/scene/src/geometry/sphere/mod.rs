@@ -85,7 +85,7 @@ pub(super) fn surface_point<L: Lanes>(
     [nx, ny, nz, _]: [F<L>; 4],
     p: V<L>,
 ) -> SurfacePoint<L> {
-    // What decides on which side of its own sphere a ray starts is the sign of c as `intersect` evaluates it. Adding up its
+    // The sign of c as `intersect` evaluates it decides on which side of its own sphere a ray starts. The sum of its
     // roundings, each at most u = ε/2, gives |δc| ≤ u (24 k F² + 34 F) with F = |x − q|; on the sphere k F² ≤ 2 F, and F is at
     // most √3 times its largest component, so that half of it is below 36 ε max|xᵢ − qᵢ|. The rest is the rounding of x itself.
     const ROUNDINGS_OF_C: f32 = 36.0 * f32::EPSILON;

@@ -37,7 +37,7 @@ fn crowd(rng: &mut SmallRng) -> Vec<(Shape, Motion)> {
     crowd
 }
 
-/// What it may be off by has a size and no sign.
+/// The bound on the rounding has a size and no sign.
 #[test]
 fn a_map_and_the_opposite_one_round_alike() {
     let turn = DMat3::from_axis_angle(DVec3::new(1.0, 2.0, 3.0).normalize(), 1.1);
@@ -55,7 +55,7 @@ fn one_by_one(alone: &[Shapes], o: V<One>, d: V<One>, time: f32) -> Option<f32> 
 }
 
 #[test]
-fn the_tree_finds_what_trying_each_finds() {
+fn the_tree_finds_the_nearest_of_all_shapes() {
     let mut rng = SmallRng::seed_from_u64(1);
     let crowd = crowd(&mut rng);
     let of = |crowd: &[(Shape, Motion)]| Shapes::new(crowd.iter().map(|(shape, motion)| (shape, motion)), DVec3::ZERO);
@@ -85,7 +85,7 @@ fn the_tree_finds_what_trying_each_finds() {
 }
 
 /// Some rays in lanes, of which some have none, against the same rays alone.
-fn assert_lanes_meet_what_single_rays_meet<L: Lanes>(l: L, all: &Shapes, rng: &mut SmallRng) {
+fn assert_lanes_agree_with_single_rays<L: Lanes>(l: L, all: &Shapes, rng: &mut SmallRng) {
     let rays: [[V<One>; 2]; MAX_LANES] = std::array::from_fn(|_| [v(unit_vector(rng) * 3.0), v(unit_vector(rng))]);
     let times: [f32; MAX_LANES] = std::array::from_fn(|_| rng.random_range(0.0..1.0));
     let is_live: [f32; MAX_LANES] = std::array::from_fn(|_| f32::from(rng.random::<u32>() % 4 > 0));
@@ -103,13 +103,13 @@ fn assert_lanes_meet_what_single_rays_meet<L: Lanes>(l: L, all: &Shapes, rng: &m
 }
 
 #[test]
-fn rays_in_lanes_meet_what_single_rays_meet() {
+fn rays_in_lanes_agree_with_single_rays() {
     let mut rng = SmallRng::seed_from_u64(2);
     let crowd = crowd(&mut rng);
     let all = Shapes::new(crowd.iter().map(|(shape, motion)| (shape, motion)), DVec3::ZERO);
     for level in SimdLevel::available() {
         for _ in 0..300 {
-            in_lanes!(level, l => assert_lanes_meet_what_single_rays_meet(l, &all, &mut rng));
+            in_lanes!(level, l => assert_lanes_agree_with_single_rays(l, &all, &mut rng));
         }
     }
 }
@@ -163,7 +163,7 @@ fn touching() -> Vec<Shape> {
 }
 
 #[test]
-fn clusters_find_what_single_spheres_find() {
+fn clusters_agree_with_single_spheres() {
     let mut rng = SmallRng::seed_from_u64(7);
     let field = sphere_field(100, DVec3::splat(-2.0), DVec3::splat(4.0), 1);
     for spheres in [field, touching()] {

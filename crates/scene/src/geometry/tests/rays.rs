@@ -131,7 +131,7 @@ fn rays_that_leave_a_surface_do_not_meet_it_at_once() {
                 let d = (n * grazing + along * (1.0 - grazing * grazing).sqrt()).normalize();
                 let o = found.p + found.n_geometric * (found.error * side);
                 let Some(t) = closest(&alone, o, v(d)) else { continue };
-                // What it meets must be another part of the piece, as far away as that really is.
+                // The ray must meet another part of the piece, as far away as that really is.
                 let there = intersections(piece, exact(o), exact(v(d)), 1e-3);
                 let next = there.iter().map(|m| m.t).find(|next| *next > 0.0);
                 let next = next.unwrap_or_else(|| panic!("{}: nothing at {t:e}", case.name));

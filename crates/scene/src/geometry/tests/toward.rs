@@ -79,7 +79,7 @@ fn assert_match(case: &Case, x: DVec3, rng: &mut SmallRng) {
 }
 
 #[test]
-fn directions_cover_what_is_seen_of_a_shape_as_their_density_says() {
+fn directions_cover_the_visible_part_of_a_shape_as_their_density_says() {
     let mut rng = SmallRng::seed_from_u64(1);
     for shape in kinds() {
         for (how, map) in transforms().into_iter().take(5) {

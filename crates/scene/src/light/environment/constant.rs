@@ -1,4 +1,4 @@
-//! The same radiance from all directions.
+//! An environment of constant radiance.
 use std::f32::consts::FRAC_1_PI;
 
 use super::{Radiant, Surrounding};
@@ -11,7 +11,7 @@ use noisefall_base::{
     math::{F, Frame, Lanes, Pick, V, colour::luminance},
 };
 
-/// The same radiance from all directions.
+/// A constant radiance from all directions.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Constant {
     /// W·sr⁻¹·m⁻², linear Rec. 709.
@@ -47,8 +47,8 @@ impl Surrounding for Constant {
     }
 }
 
-/// The same radiance from all directions, W·sr⁻¹·m⁻². It is sampled in proportion to the cosine, on both sides of the surface alike if
-/// the surface transmits, and not at all where a narrow lobe reflects it: the next direction of the path finds it, too.
+/// A constant radiance from all directions, W·sr⁻¹·m⁻². It is sampled in proportion to the cosine, on both sides of the surface
+/// alike if the surface transmits, and not at all where a narrow lobe reflects it: the next direction of the path finds it, too.
 pub struct ConstantRadiance(pub [f32; 3]);
 
 impl Radiant for ConstantRadiance {

@@ -118,7 +118,7 @@ impl PunctualLight {
         }
     }
 
-    /// The same light at the origin.
+    /// Moves the light to the origin.
     pub(super) fn at_origin(self) -> PunctualLight {
         PunctualLight { source: PunctualOrigin::At(DVec3::ZERO), ..self }
     }
@@ -199,7 +199,7 @@ fn turns(angle: f64) -> f64 {
     -angle / TAU
 }
 
-/// What `of` is at the edge, and the factor of t, which is 0 there and 1 at the inner angle.
+/// Returns `of` at the edge, and the factor of t, which is 0 there and 1 at the inner angle.
 fn fall([inner, edge]: [f64; 2], of: impl Fn(f64) -> f64) -> (f32, f32) {
     let factor = (1.0 / (of(inner) - of(edge)).max(0.0)).min(STEEPEST);
     (of(edge) as f32, factor as f32)

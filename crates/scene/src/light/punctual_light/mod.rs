@@ -54,7 +54,7 @@ pub trait Shine {
     /// The light after a transform. Positions, targets and directions are transformed; intensities and angles are not.
     fn compile(&self, map: &DAffine3, resources: &Resources) -> Result<PunctualLight, Problem>;
 
-    /// The same light without its files, so that it can be checked without reading them; `None` if it has none.
+    /// The light without its files, so that it can be checked without reading them; `None` if it has none.
     fn without_files(&self) -> Option<PunctualLightKind> {
         None
     }

@@ -21,7 +21,7 @@ pub struct Projector {
     pub image: String,
     /// Encoding of the file's numbers; EXR, HDR and PFM are always linear.
     pub encoding: Encoding,
-    /// What continues the image at its edges.
+    /// Continuation of the image beyond its edges.
     pub wrap: Wrap,
     /// Interpolation between its texels.
     pub filter: TexelFilter,

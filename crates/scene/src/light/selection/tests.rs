@@ -266,7 +266,7 @@ fn choices_are_as_frequent_as_their_probability() {
 }
 
 #[test]
-fn what_can_contribute_can_be_chosen() {
+fn every_light_that_can_contribute_can_be_chosen() {
     let random = &mut Random(4 << 20);
     let mut contributions = 0;
     for set in sets() {

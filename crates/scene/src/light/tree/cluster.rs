@@ -21,7 +21,7 @@ pub(in crate::light) struct Item {
 impl Item {
     pub fn new(bound: &Bound, light: u32) -> Item {
         let center = bound.center.as_vec3();
-        // What rounding takes the centre away by, of both the light and the reference point.
+        // Distance that rounding can move the centre, of both the light and the reference point.
         let moved = 4.0 * f32::EPSILON * center.abs().max_element();
         let axis = bound.normal.map_or(Vec3::ZERO, glam::DVec3::as_vec3);
         Item {
@@ -210,7 +210,7 @@ mod tests {
 
     /// A quarter of the bound cos(θ − β), which is 1 where the sphere reaches over the normal, and three quarters of cos θ.
     #[test]
-    fn what_a_cluster_may_send_falls_off_with_the_angle_at_the_reference_point() {
+    fn the_weight_of_a_cluster_falls_off_with_the_angle_at_the_reference_point() {
         for i in 0..200 {
             let u = |k: u32| f64::from(unit(hash(U::<One>(8 * i + k))).0);
             let (radius, distance, theta, power) = (0.1 + u(0), 0.2 + 3.0 * u(1), std::f64::consts::PI * u(2), 1.0 + u(3));

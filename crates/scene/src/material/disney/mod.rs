@@ -52,7 +52,7 @@ pub struct Disney {
     pub anisotropic: Textured<f64>,
     /// Index of refraction.
     pub ior: f64,
-    /// How far the interface reflects in the hue of the base color.
+    /// Amount of the base color's hue in the reflection of the interface.
     pub spec_tint: Textured<f64>,
     /// Fraction of the non-metallic base that is clear and refracts.
     pub spec_trans: Textured<f64>,
@@ -60,7 +60,7 @@ pub struct Disney {
     pub flatness: Textured<f64>,
     /// Amount of light that fibres reflect at grazing angles.
     pub sheen: Textured<f64>,
-    /// How far the sheen has the hue of the base color.
+    /// Amount of the base color's hue in the sheen.
     pub sheen_tint: Textured<f64>,
     /// Amount of the clear coat.
     pub clearcoat: Textured<f64>,
@@ -131,7 +131,7 @@ macro_rules! shade {
 shade!(Disney, false, {
     const GLOSSY: bool = true;
 
-    /// That of metals; lights are chosen for other bases as for diffuse ones.
+    /// The width of metals; lights are chosen for other bases as for diffuse ones.
     #[inline(always)]
     fn alpha<L: Lanes>(l: L, bsdf: &DisneyBsdf<L, false>) -> F<L> {
         bsdf.0.metal.above(0.5).pick(bsdf.0.facets.mean().min(l.f(1.0)), l.f(0.0))

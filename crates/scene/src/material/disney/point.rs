@@ -92,7 +92,7 @@ impl<L: Lanes, const CLEAR: bool> Point<L, CLEAR> {
         (fresnel.above(0.0).pick(reflected, none), through)
     }
 
-    /// The same for a facet at a cosine ≥ 0 to the viewer.
+    /// The parts of the light that a facet at a cosine ≥ 0 to the viewer reflects and transmits.
     #[inline(always)]
     pub fn scattered(&self, cos: F<L>) -> (V<L>, V<L>) {
         let (fresnel, cos_t) = dielectric(cos, self.relative);

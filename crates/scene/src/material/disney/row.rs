@@ -24,7 +24,7 @@ pub struct DisneyRow<T> {
 }
 
 impl<T: Copy> DisneyRow<T> {
-    /// The same of other values.
+    /// Applies a function to all values.
     pub fn map<U>(&self, of: impl Fn(T) -> U) -> DisneyRow<U> {
         DisneyRow {
             ior: of(self.ior),

@@ -71,7 +71,7 @@ impl<L: Lanes> Interface<L> {
         Reflectances { metal, opaque, clear }
     }
 
-    /// What a smooth opaque base reflects; with a film, no less than that.
+    /// Reflectance of a smooth opaque base; with a film, an upper bound.
     #[inline(always)]
     pub fn most_reflected(&self, cos: F<L>) -> F<L> {
         let plain = dielectric(cos, self.index).0;
@@ -125,7 +125,7 @@ impl<L: Lanes> Interface<L> {
     }
 }
 
-/// The same in all channels.
+/// Returns a number in all channels.
 #[inline(always)]
 pub fn grey<L: Lanes>(x: F<L>) -> V<L> {
     V { x, y: x, z: x }

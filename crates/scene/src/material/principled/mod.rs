@@ -188,7 +188,7 @@ macro_rules! shade {
 shade!(Principled, false, {
     const GLOSSY: bool = true;
 
-    /// That of metals; lights are chosen for other bases as for diffuse ones.
+    /// The width of metals; lights are chosen for other bases as for diffuse ones.
     #[inline(always)]
     fn alpha<L: Lanes>(l: L, bsdf: &PrincipledBsdf<L, false>) -> F<L> {
         let Point { base, values, .. } = &bsdf.0;

@@ -13,19 +13,19 @@ use noisefall_base::math::{
     exp::{exp2_of_negative, log2},
 };
 
-/// What depends on ω_o alone.
+/// Quantities that depend on ω_o alone.
 pub struct View<L: Lanes> {
     pub fuzz: Option<Fuzz<L>>,
     /// The part of the light that white fuzz reflects, and the one that passes it times the weight of the coat.
     pub fuzzed: F<L>,
     pub coated: F<L>,
-    /// What the coat of that weight reflects.
+    /// The part that the coat of that weight reflects.
     pub coat: F<L>,
-    /// What passes fuzz and coat, darkened, but not absorbed.
+    /// The part that passes fuzz and coat, darkened, but not absorbed.
     pub passed: V<L>,
     /// log₂ of the coat's colour, and the way in it towards the viewer over its thickness.
     absorption: Option<(V<L>, F<L>)>,
-    /// What the interface of an opaque base lets in.
+    /// The part that the interface of an opaque base lets in.
     pub entered: F<L>,
     /// Factors that restore the light that single scattering between microfacets loses.
     pub metal_gain: V<L>,

@@ -52,7 +52,7 @@ fn ends_of_lobes(bsdf: &Any<'_>, cos: f32) -> Vec<f32> {
 }
 
 #[test]
-fn no_light_is_made_and_what_is_lossless_loses_none() {
+fn no_light_is_made_and_lossless_materials_lose_none() {
     for case in &cases() {
         for cos in COSINES {
             let albedo = albedo(&case.bsdf(), cos);

@@ -33,7 +33,7 @@ pub struct Faces<'a> {
     pub groups: Vec<(u32, u32)>,
     /// Corners whose texture coordinates, and whose normals, do not exist.
     pub missing: [usize; 2],
-    /// What stands after `mtllib`.
+    /// The text after `mtllib`.
     pub libraries: Vec<&'a str>,
 }
 

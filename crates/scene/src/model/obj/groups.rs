@@ -20,7 +20,7 @@ pub fn within(groups: &[(u32, u32)], [from, to]: [u32; 2]) -> impl Iterator<Item
     start.into_iter().chain(groups[next..].iter().take_while(move |(at, _)| *at < to).map(move |(at, group)| (at - from, *group)))
 }
 
-/// What the lines say about this many triangles.
+/// Returns the smoothing that the lines ask for, of this many triangles.
 pub fn smoothing(groups: &[(u32, u32)], triangles: usize) -> Result<Smoothing, ModelFormatError> {
     let runs: Vec<(u32, u32)> = within(groups, [0, triangles as u32]).collect();
     let Some((_, first)) = runs.first() else { return Ok(Smoothing::Unstated) };

@@ -15,7 +15,7 @@ const MOST: usize = 1 << 16;
 
 /// The faces of a material, as a file of their own would have them.
 pub struct PartFaces<'a> {
-    /// What stands after `usemtl`; `None` for faces before the first such line.
+    /// The text after `usemtl`; `None` for faces before the first such line.
     pub material: Option<&'a str>,
     pub faces: Faces<'a>,
 }

@@ -18,7 +18,7 @@ pub fn read(file: &mut (impl Read + Seek), length: u64, progress: &Progress) -> 
     in_blocks(file, length, BLOCK, progress)
 }
 
-/// The same in blocks of `block` bytes.
+/// Reads a file in blocks of `block` bytes.
 fn in_blocks(
     file: &mut (impl Read + Seek),
     length: u64,

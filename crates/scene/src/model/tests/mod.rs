@@ -48,7 +48,7 @@ fn kinds_are_told_by_the_first_line_and_the_name() {
 }
 
 #[test]
-fn what_is_no_file_is_refused() {
+fn paths_that_are_no_files_are_refused() {
     let folder = tempfile::tempdir().expect("a folder");
     assert_eq!(message(&folder.path().join("a.obj")), "cannot be read: there is no such file");
     assert_eq!(message(folder.path()), "cannot be read: it is not a regular file but a folder");

@@ -107,7 +107,7 @@ fn coordinates_and_normals_that_do_not_exist_are_missing() {
 }
 
 #[test]
-fn smoothing_is_what_the_lines_say() {
+fn smoothing_follows_the_lines() {
     let smoothing = |faces: &str| model(&square(faces)).smoothing;
     assert_eq!(smoothing("f 1 2 3 4\n"), Smoothing::Unstated);
     for off in ["s off\nf 1 2 3 4\n", "s 0\nf 1 2 3\n", "s\nf 1 2 3\n", "s 1\ns off\nf 1 2 3\n", "f 1 2 3\ns 1\n"] {

@@ -132,7 +132,7 @@ mod tests {
     }
 
     #[test]
-    fn what_the_blend_and_its_parts_share_is_that_of_the_merged_material() {
+    fn the_merged_material_keeps_the_common_properties_of_the_blend_and_its_parts() {
         let scene = scene(
             "materials.a = { lambertian.albedo = 0.25, opacity = 0.5 }\n\
              materials.b = { lambertian.albedo = 0.75, opacity = 0.5, two_sided = false }\n\

@@ -23,7 +23,7 @@ pub struct CameraDescription {
     pub resolution: [u32; 2],
     /// Perspective or parallel rays.
     pub projection: Projection,
-    /// How far the image plane is shifted to the right and up, in widths of the image.
+    /// Shift of the image plane to the right and up, in widths of the image.
     pub shift: [f64; 2],
     /// The thin lens; `None` is a pinhole.
     pub lens: Option<Lens>,

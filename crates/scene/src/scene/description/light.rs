@@ -35,10 +35,10 @@ impl Declare for EmissionDescription {
     }
 }
 
-/// What the image converges to.
+/// The reference that the image converges to.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ReferenceDescription {
-    /// The same radiance at every pixel, W·sr⁻¹·m⁻².
+    /// A constant radiance for every pixel, W·sr⁻¹·m⁻².
     Radiance([f64; 3]),
     /// An image file of the resolution of the camera.
     Image(String),

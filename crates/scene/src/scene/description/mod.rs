@@ -60,7 +60,7 @@ pub struct SceneDescription {
     pub punctual_lights: Vec<PunctualLightDescription>,
     /// The settings that the scene opens with.
     pub render: RenderDescription,
-    /// What the image must converge to, if it is known.
+    /// The reference that the image must converge to, if it is known.
     pub reference: Option<ReferenceDescription>,
 }
 

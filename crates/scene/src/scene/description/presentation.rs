@@ -11,7 +11,7 @@ pub struct Presentation {
     pub notes: String,
     /// The settings that the scene opens with.
     pub render: RenderDescription,
-    /// What the image must converge to, if it is known.
+    /// The reference that the image must converge to, if it is known.
     pub reference: Option<ReferenceDescription>,
 }
 

@@ -5,7 +5,7 @@ use noisefall_base::declare::Word;
 
 /// Paths start at lights. Every surface point that they reach is connected to the camera.
 ///
-/// What the camera sees of a mirror or of clear glass cannot be connected to it, and comes from camera paths as with `mis`.
+/// Mirrors and clear glass cannot be connected to the camera. Their light comes from camera paths, as with `mis`.
 pub(super) struct LightTracing;
 
 impl Weighting for LightTracing {

@@ -94,7 +94,7 @@ impl Parameters for Reader<'_> {
     fn present(&mut self, parameter: &Parameter, now: bool) -> bool {
         let is_table = self.frame().table.is_some();
         let given = self.look_up(parameter, Looks::Table).is_some();
-        // What is visited next says what it looks like.
+        // The next visit of the table records what it looks like.
         if given {
             self.frame().known.pop();
         }

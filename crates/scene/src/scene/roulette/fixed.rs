@@ -1,4 +1,4 @@
-//! The same survival probability at every bounce.
+//! Roulette with a constant survival probability.
 use serde::{Deserialize, Serialize};
 
 use super::{Roulette, Survival};
@@ -7,7 +7,7 @@ use noisefall_base::{
     math::{F, Lanes, V},
 };
 
-/// The same survival probability at every bounce.
+/// Roulette with the same survival probability at every bounce.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Fixed {
@@ -16,7 +16,7 @@ pub struct Fixed {
 }
 
 impl Roulette {
-    /// The same survival probability at every bounce, from [`Roulette::LEAST`] to 1.
+    /// Roulette with the same survival probability at every bounce, from [`Roulette::LEAST`] to 1.
     pub const fn fixed(survival: f32) -> Roulette {
         Roulette::Fixed(Fixed { survival })
     }

@@ -107,7 +107,7 @@ impl RenderSettings {
             reuse => PathReuse::asked(reuse).words().to_owned(),
         },
     )
-    .noun("path_reuse");
+    .noun("path reuse");
 
     /// Whether noisier pixels get more samples.
     pub const ADAPTIVE: Setting = Setting::new(

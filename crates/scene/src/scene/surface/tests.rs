@@ -59,7 +59,7 @@ fn every_kind_of_bsdf_has_its_stage() {
 }
 
 #[test]
-fn flags_say_what_is_turned_one_sided_squared_or_lit_by_itself() {
+fn flags_mark_turned_one_sided_squared_and_self_lit_surfaces() {
     let word = |material: &str, more: &str| scene(&[(material, more)]).surfaces.rows[0][3].to_bits();
     let flags = |material: &str, more: &str| word(material, more) & !(STAGE_MASK << STAGE_SHIFT) & !0xffff;
     let rough = "dielectric = { ior = 1.5, roughness = 0.5 }";
@@ -120,7 +120,7 @@ fn media_are_octaves_a_metre_and_the_first_is_empty() {
 }
 
 #[test]
-fn what_has_no_material_has_no_colour_texture_or_medium() {
+fn objects_without_a_material_have_no_colour_texture_or_medium() {
     let bumpy = "dielectric = { ior = 1.5, transmittance = 0.5 }\nbump = { texture = 'squares', height = 0.01 }";
     let bare = "[[objects]]\nshape.sphere = { center = [0, 3, 0], radius = 0.25 }";
     let surfaces = scene(&[(bumpy, bare)]).surfaces;

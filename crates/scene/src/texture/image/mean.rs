@@ -4,7 +4,7 @@ use super::words::{TexelFilter, Wrap};
 /// One axis of an image: what continues it, how it is interpolated, and its number of texels.
 #[derive(Clone, Copy)]
 pub struct Axis {
-    /// What continues the image.
+    /// Continuation of the image beyond its edges.
     pub wrap: Wrap,
     /// Interpolation between texels.
     pub filter: TexelFilter,

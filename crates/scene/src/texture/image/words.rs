@@ -14,7 +14,7 @@ words! {
 }
 
 words! {
-    /// What continues an image beyond its unit square.
+    /// Continuation of an image beyond its unit square.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub enum Wrap {
         Repeat: "repeat", "Repeat", "Repeats the image.";

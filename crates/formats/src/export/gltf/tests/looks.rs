@@ -39,7 +39,7 @@ fn of(material: MaterialDescription) -> (MaterialDescription, Vec<String>) {
     (material, trip.remarks)
 }
 
-/// The same for a scene with textures.
+/// A material that comes back from a scene with textures, and the round trip.
 fn with(material: MaterialDescription, scene: &SceneDescription, assets: &Assets) -> (RoundTrip, MaterialDescription) {
     let mut scene = scene.clone();
     scene.materials.insert("m".to_owned(), material);

@@ -164,7 +164,7 @@ fn points_and_lines_are_remarks() {
 }
 
 #[test]
-fn what_is_not_in_the_scene_is_not_shown() {
+fn nodes_outside_the_scene_are_not_shown() {
     let nodes = json!([{ "mesh": 0 }, { "mesh": 0, "camera": 0 }]);
     let scenes = json!([{ "nodes": [1] }, { "nodes": [0] }]);
     let camera = json!([{ "type": "perspective", "perspective": { "yfov": 1, "aspectRatio": 2, "znear": 0.1 } }]);

@@ -64,7 +64,7 @@ fn document(columns: &[(&str, &[f32])], parts: Value) -> Value {
     document
 }
 
-/// The same with the usual corners.
+/// A file with one triangle that has the usual corners.
 fn triangle(parts: Value) -> Value {
     document(&[("VEC3", &CORNERS)], parts)
 }

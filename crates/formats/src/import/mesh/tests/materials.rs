@@ -49,7 +49,7 @@ fn classic_materials_are_told_by_their_illumination_and_colors() {
 }
 
 #[test]
-fn opacity_is_d_or_what_tr_leaves() {
+fn opacity_is_d_or_one_minus_tr() {
     assert_eq!(material("Kd 1\nd 0.25\n").opacity, Some(Textured::Constant(0.25)));
     assert_eq!(material("Kd 1\nTr 0.25\n").opacity, Some(Textured::Constant(0.75)));
     assert_eq!(material("Kd 1\nd -halo 1\nTr 1\n").opacity, None);

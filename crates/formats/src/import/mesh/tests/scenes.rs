@@ -107,7 +107,7 @@ fn normals_and_coordinates_that_do_not_exist_are_remarks() {
 }
 
 #[test]
-fn point_clouds_and_pointers_are_called_what_they_are() {
+fn point_clouds_and_pointers_are_named_in_the_error() {
     let folder = tempfile::tempdir().expect("a folder");
     let message = |name: &str, text: &str| {
         let path = folder.path().join(name);

@@ -156,7 +156,7 @@ pub fn normal_map(import: &mut Import, element: Element, two_sided: bool) -> Res
     Ok(MaterialDescription { normal_map: Some(image.path), ..relief.over(inner) })
 }
 
-/// What Mitsuba does with tilted normals; since version 3.7.1, both by default.
+/// Treatment of tilted normals, as in Mitsuba: since version 3.7.1, it shadows and mirrors them by default.
 struct Relief {
     /// Whether they darken light at grazing angles.
     shadows: bool,

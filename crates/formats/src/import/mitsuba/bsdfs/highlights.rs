@@ -22,7 +22,7 @@ pub fn phong(import: &mut Import, element: Element, two_sided: bool) -> Result<M
             EXPONENT
         }
     };
-    // The same spread of normals (Walter et al., "Microfacet models for refraction through rough surfaces", 2007).
+    // The normals spread equally (Walter et al., "Microfacet models for refraction through rough surfaces", 2007).
     let facets = Facets {
         roughness: Roughness::Alpha(Textured::Constant((2.0 / (exponent + 2.0)).sqrt())),
         distribution: Distribution::Beckmann,
@@ -46,7 +46,7 @@ pub fn ward(import: &mut Import, element: Element, two_sided: bool) -> Result<Ma
 struct Lobes {
     diffuse: Textured,
     specular: Textured,
-    /// That of the specular part.
+    /// Fraction of the specular part.
     fraction: f64,
 }
 

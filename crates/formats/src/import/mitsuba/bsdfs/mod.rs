@@ -48,7 +48,7 @@ fn family(kind: &str) -> Option<Translate> {
         "mask" => adapters::mask,
         "twosided" => adapters::two_sided,
         "blendbsdf" => adapters::blend,
-        // Those of version 0.6.
+        // Types of version 0.6.
         "mixturebsdf" => adapters::mixture,
         "phong" => highlights::phong,
         "ward" => highlights::ward,

@@ -56,7 +56,7 @@ fn coated(
     let ior = ior.clamp(1.0, 20.0);
     let internal_reflectance = match &roughness {
         Roughness::Alpha(Textured::Constant(alpha)) => internal_reflectance(ior, *alpha, distribution),
-        // That of a smooth coat.
+        // The value of a smooth coat.
         _ => 1.0,
     };
     let specular_reflectance = match import.colour(element, "specular_reflectance", 1.0, Role::Reflectance)? {

@@ -141,7 +141,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn panes_reflect_and_let_pass_what_those_of_mitsuba_do() {
+    fn panes_reflect_and_transmit_as_in_mitsuba() {
         for (eta, single) in [(1.2, 0.008_26), (1.5, 0.04), (2.0, 0.1111)] {
             let interface: f64 = ((of_pane(eta) - 1.0) / (of_pane(eta) + 1.0)).powi(2);
             assert!((2.0 * interface / (1.0 + interface) - single).abs() < 1e-4, "{eta}");

@@ -67,7 +67,7 @@ mod tests {
         // At noon of the June solstice, in London and on the tropic.
         assert!((elevation([51.5, 0.0], [2020, 6, 20], 12.0) - 61.9).abs() < 0.2);
         assert!((elevation([23.44, 0.0], [2020, 6, 20], 12.03) - 90.0).abs() < 0.6);
-        // That of Mitsuba 3.9 by default: in the afternoon it stands in the west.
+        // The default of Mitsuba 3.9: in the afternoon the sun stands in the west.
         let tokyo = towards_sun([35.6894, 139.6917], [2010, 7, 10], 15.0 - 9.0);
         assert!(tokyo.abs_diff_eq(DVec3::new(0.051_385_4, 0.691_748, 0.720_308), 1e-3), "{tokyo}");
         // At midnight it is below the horizon.

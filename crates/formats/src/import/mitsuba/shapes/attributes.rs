@@ -119,7 +119,7 @@ mod tests {
     }
 
     #[test]
-    fn what_ends_too_early_or_counts_too_many_is_refused() {
+    fn truncated_files_and_excessive_counts_are_refused() {
         for end in 0..FILE.len() - 1 {
             let _ = values(&FILE.as_bytes()[..end], "face", "weight");
         }

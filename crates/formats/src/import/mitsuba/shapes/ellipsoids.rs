@@ -24,7 +24,7 @@ pub fn ellipsoids(import: &mut Import, element: Element, placed: Placed) -> Resu
     let read = read_values(&bytes, "vertex", channel, |channels, _| {
         match ellipsoid(channels, size) {
             None => wrong = wrong.or(Some(count)),
-            // What is too many is only counted.
+            // Ellipsoids beyond the limit are only counted.
             Some(map) if count < MOST_OBJECTS => {
                 let shape = Sphere { center: DVec3::ZERO, radius: 1.0 };
                 found.push(Geometry { shape: shape.into(), map: placed.map * map, flip });

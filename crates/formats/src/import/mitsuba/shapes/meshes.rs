@@ -96,7 +96,7 @@ pub fn in_memory(path: String, smooth: bool) -> ShapeKind {
     Mesh { source: MeshSource::File(path), smooth: (!smooth).then_some(false) }.into()
 }
 
-/// What a file has. A mirror turns the normals of triangles round, and not those of the file. The compile need not read it again.
+/// Returns the lists of a file. A mirror reverses normals of triangles, but not those of the file. The compile reuses the model.
 fn lists(import: &mut Import, element: Element, path: &Path) -> Result<Lists, SceneError> {
     if let Some(known) = import.known_lists.get(path) {
         return Ok(*known);

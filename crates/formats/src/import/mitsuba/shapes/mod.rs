@@ -28,16 +28,16 @@ const MOST_OBJECTS: usize = 1 << 18;
 /// Shapes that are followed in all, empty groups included: groups that hold each other twice double without an object.
 const MOST_SHAPES: usize = 1 << 20;
 
-/// What a family needs of a shape besides its own values.
+/// Properties of a shape that a family needs besides its own values.
 #[derive(Clone, Copy)]
 pub struct Placed<'a> {
     /// `to_world`, and that of the instance around it.
     pub map: DAffine3,
-    /// That of the instance alone.
+    /// `to_world` of the instance alone.
     pub around: DAffine3,
     /// Whether the shape asks for the other side as its front.
     pub flip: bool,
-    /// What its material and its emission use.
+    /// Properties that its material and its emission use.
     pub uses: &'a Uses,
 }
 

@@ -128,7 +128,7 @@ fn mixtures_have_a_weight_for_each_part() {
     let Material::Blend(rest) = first else { panic!("{first:?}") };
     assert!(matches!(rest.weight, Textured::Constant(weight) if (weight - 1.0 / 3.0).abs() < 1e-12));
     assert_eq!(rest.second, "b");
-    // What is missing is black.
+    // A missing part is black.
     let (black, _, weight) = parts(&mixture("0, 0.25, 0"));
     assert!(matches!(black, Material::Lambertian(black) if black.albedo == Textured::grey(0.0)) && weight == 0.25);
     let (alone, _) = material(&mixture("0, 1, 0"));

@@ -115,7 +115,7 @@ fn glass_has_tints() {
 }
 
 #[test]
-fn masks_bumps_and_blends_keep_what_they_hold() {
+fn masks_bumps_and_blends_keep_their_contents() {
     let (masked, _) = material(
         "<bsdf type=\"mask\"><float name=\"opacity\" value=\"0.25\"/><bsdf type=\"twosided\"><bsdf type=\"diffuse\"/></bsdf></bsdf>",
     );

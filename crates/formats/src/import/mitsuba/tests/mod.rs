@@ -62,7 +62,7 @@ fn object(shape: &str) -> ObjectDescription {
     scene(&format!("{SENSOR}{shape}")).description.objects.remove(0)
 }
 
-/// What the remarks say, without places.
+/// Returns the texts of the remarks, without places.
 fn remarks(imported: &Imported) -> Vec<String> {
     imported.remarks.iter().map(|counted| format!("{} → {}", counted.remark.found, counted.remark.used)).collect()
 }
@@ -108,7 +108,7 @@ fn names_of_old_versions_are_understood() {
 }
 
 #[test]
-fn what_is_not_read_is_reported_with_its_place() {
+fn ignored_elements_are_reported_with_their_places() {
     let imported = scene(&format!(
         "{SENSOR}\n  <shape type=\"sphere\"><float name=\"foo\" value=\"1\"/></shape><bsdf type=\"null\" id=\"n\"/>"
     ));

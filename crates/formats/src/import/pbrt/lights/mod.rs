@@ -60,7 +60,7 @@ impl Import {
         Ok(factors.map(|x| x * self.gain))
     }
 
-    /// The same for light of an image, which has one factor. In pbrt-v3, its colour is another one.
+    /// The factor of light of an image, equal for all channels. In pbrt-v3, its colour is another factor.
     fn image_scale(&mut self, entity: &Entity, name: &str) -> Result<f64, SceneError> {
         let scale = self.light_scale(entity)?;
         let colour = match entity.has("mapname") {

@@ -59,7 +59,7 @@ impl Import {
         }
     }
 
-    /// What lies between coat and base.
+    /// Checks the medium between coat and base.
     fn coat_medium(&mut self, entity: &Entity) -> Result<(), SceneError> {
         entity.ignore(&["thickness", "maxdepth", "nsamples", "g"]);
         let is_clear = match self.colour(entity, "albedo", [0.0; 3], Role::Reflectance)? {

@@ -28,7 +28,7 @@ impl Facets {
     }
 }
 
-/// What α is for a roughness.
+/// Map from a roughness to α.
 #[derive(Clone, Copy)]
 pub enum Remap {
     /// The roughness itself.
@@ -58,7 +58,7 @@ impl Import {
         self.facets_by(entity, prefix, default, Remap::Root)
     }
 
-    /// The same with another meaning of roughness.
+    /// The facets of an interface whose roughness `remap` converts to α.
     pub(super) fn facets_by(&mut self, entity: &Entity, prefix: &str, default: f64, remap: Remap) -> Result<Facets, SceneError> {
         let remap = if entity.flag("remaproughness", true)? { remap } else { Remap::None };
         let both = format!("{prefix}roughness");

@@ -11,7 +11,7 @@ use noisefall_scene::{
 
 /// Steps along each side of a bilinear patch that is not flat.
 const STEPS: u32 = 8;
-/// The same where there are many patches.
+/// Steps along each side where there are many patches.
 const FEW_STEPS: u32 = 2;
 const MANY: usize = 4096;
 /// A patch whose fourth corner is off the plane of the others by more than this part of its size is not flat.

@@ -73,7 +73,7 @@ fn defaults_are_those_of_pbrt() {
 }
 
 #[test]
-fn what_is_not_taken_over_is_remarked() {
+fn ignored_parameters_are_reported() {
     let found = imported("Film \"rgb\" \"float cropwindow\" [0 .5 0 .5] \"string hue\" \"red\"\nCamera \"spherical\"");
     let lines = remarks(&found).join("\n");
     assert!(lines.contains("cropwindow") && lines.contains("`hue`") && lines.contains("spherical"), "{lines}");

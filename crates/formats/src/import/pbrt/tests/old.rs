@@ -158,7 +158,7 @@ fn integrators_have_the_nearest_estimator() {
 }
 
 #[test]
-fn what_neither_version_has_is_refused() {
+fn constructs_of_neither_version_are_refused() {
     assert!(error("WorldBegin\nSurface \"x\"").contains("not a directive of pbrt-v4 or pbrt-v3"));
     assert!(error("WorldBegin\nMaterial \"clay\"\nShape \"sphere\"").contains("not a material of pbrt-v4 or pbrt-v3"));
 }

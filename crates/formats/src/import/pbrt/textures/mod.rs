@@ -25,7 +25,7 @@ use noisefall_scene::{
     texture::{mix::Mix, product::Product},
 };
 
-/// What the values of a texture are.
+/// Type of the values of a texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Content {
     Numbers,

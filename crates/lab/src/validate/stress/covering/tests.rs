@@ -75,7 +75,7 @@ fn all_pairs_and_all_triples_are_in_few_rows() {
 }
 
 #[test]
-fn what_is_refused_is_left_out_and_all_else_is_there() {
+fn refused_combinations_are_left_out_and_all_others_are_there() {
     let refuses = |row: &Row| {
         let sets = [vec![(1, 3), (2, 1)], vec![(4, 1), (6, 0), (7, 4)]];
         sets.into_iter().find(|set| set.iter().all(|(factor, level)| row[*factor] == Some(*level)))
@@ -118,7 +118,7 @@ fn factors_are_those_of_the_declarations() {
         ("objects.2.emission.emission:", EmissionSource::alternatives().len()),
         ("objects.1.transform.0.transform:", Transform::alternatives().len()),
         ("lights.0.light:", PunctualLightKind::alternatives().len()),
-        ("background.background:", EnvironmentDescription::alternatives().len()),
+        ("environment.environment:", EnvironmentDescription::alternatives().len()),
         ("camera.projection.projection:", Projection::alternatives().len()),
         ("camera.filter.filter:", Filter::alternatives().len()),
         ("render.roulette.roulette:", Roulette::alternatives().len()),

@@ -45,7 +45,7 @@ fn glass(dice: &mut Dice) -> TrialScene {
     uncapped(&room.trial_scene(dice, &camera, 1.0), furnace(1.0, 0.5))
 }
 
-/// The same scene without a cap, and its exact value.
+/// Removes the cap from a scene, and sets its exact value.
 fn uncapped(trial_scene: &TrialScene, exact: f64) -> TrialScene {
     let text = trial_scene.text.replace("max_bounces = 60, ", "");
     TrialScene { size: trial_scene.size, ..TrialScene::of(text, Expected::Everywhere(exact)) }

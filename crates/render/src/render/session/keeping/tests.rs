@@ -121,7 +121,7 @@ fn stopped_at_random_and_continued_from_a_file_a_render_has_the_same_bits() {
 }
 
 #[test]
-fn a_scene_is_opened_again_from_the_file_and_what_has_changed_is_noticed() {
+fn a_scene_is_opened_again_from_the_file_and_changes_are_noticed() {
     let folder = tempfile::tempdir().expect("a folder");
     let texture = folder.path().join("wood.png");
     let paint = |grey: u8| ::image::RgbImage::from_pixel(8, 4, ::image::Rgb([grey; 3])).save(&texture).expect("it is written");

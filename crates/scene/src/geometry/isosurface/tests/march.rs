@@ -32,7 +32,7 @@ fn assert_agrees(shape: &Isosurface, reach: f32, o: V<One>, d: V<One>, what: &st
         assert_eq!(found, None, "{what}: outside the box");
         return;
     };
-    // What rounding hides at the start has no sign.
+    // Values that rounding hides at the start have no sign.
     let start =
         (0..100).map(|i| enter + (leave - enter) * 0.01 * f64::from(i)).find(|t| f(*t).abs() > rounding(shape, o + d * *t));
     let expected = start.and_then(|start| first_sampled_change(f, start, leave, 2000));

@@ -42,7 +42,7 @@ fn random_expressions_have_their_values() {
     for _ in 0..20_000 {
         let depth = rng.random_range(1..6);
         let tree = tree(&mut rng, depth);
-        // What is the same everywhere is refused.
+        // Constant expressions are refused.
         let Ok(expression) = Expression::parse(&tree.to_string()) else { continue };
         for _ in 0..4 {
             let p = DVec3::from_array([0; 3].map(|_| rng.random_range(-2.0..2.0)));
@@ -59,7 +59,7 @@ fn random_expressions_have_their_values() {
 }
 
 #[test]
-fn errors_say_what_and_where() {
+fn errors_state_the_problem_and_its_place() {
     let cases: [(&str, std::ops::Range<usize>, &str, &str); 23] = [
         ("", 0..0, "empty", "x^2"),
         ("  ", 0..2, "empty", "x^2"),
@@ -93,7 +93,7 @@ fn errors_say_what_and_where() {
 }
 
 #[test]
-fn what_is_too_long_or_deep_is_an_error() {
+fn expressions_that_are_too_long_or_deep_are_errors() {
     let deep = |open: &str, close: &str, n: usize| format!("{}x{}", open.repeat(n), close.repeat(n));
     assert!(Expression::parse(&deep("(", ")", 60)).is_ok());
     for text in [deep("(", ")", 2000), deep("-", "", 4000), deep("sin(", ")", 800), deep("(", "", 4000), "x^".repeat(2000)] {

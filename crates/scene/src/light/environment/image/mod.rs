@@ -153,7 +153,7 @@ pub struct EnvironmentImage {
     tables: Arc<SkyTables>,
     /// Offset from an azimuth, in turns from −z towards +x, to u; in [0, 1).
     shift: f32,
-    /// What turns or mirrors the image after that.
+    /// Rotation or reflection of the image after the shift.
     turn: Option<Turn>,
 }
 
