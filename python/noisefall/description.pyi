@@ -8,68 +8,6 @@ def to_dict(value: Any) -> Any:
     """A tree of dicts and lists without dataclasses and without fields that are `None`."""
 
 @dataclass(kw_only=True)
-class Sky:
-    """A clear sky with a sun; black below the horizon."""
-
-    ground_albedo: Sequence[float] | float | None = None
-    """Albedo of the ground, which brightens the sky of `hosek`."""
-    model: Literal['preetham', 'hosek'] | None = None
-    """Model of the radiance."""
-    sky_scale: float | None = None
-    """Factor that multiplies the radiance of the sky."""
-    sun: Sequence[float] | None = None
-    """Direction towards the sun, of any length."""
-    sun_diameter: float | None = None
-    """Angular diameter of the sun. Changing it keeps the irradiance. Default: that of the model. (degrees)"""
-    sun_scale: float | None = None
-    """Factor that multiplies the radiance of the sun; 0 shows the sky alone."""
-    turbidity: float | None = None
-    """Haze: 2 is very clear, 10 is hazy."""
-    zenith: Sequence[float] | None = None
-    """Direction of the zenith, of any length."""
-
-@dataclass(kw_only=True)
-class Rotate:
-    """Rotation about an axis through the origin."""
-
-    axis: Sequence[float]
-    """Direction of the axis, of any length."""
-    degrees: float
-    """Angle, counter-clockwise when the axis points at the viewer. (°)"""
-
-@dataclass(kw_only=True)
-class Transform:
-    """An entry of `transform`."""
-
-    matrix: Sequence[Sequence[float]] | None = None
-    """Four rows of four numbers; the last row is 0, 0, 0, 1."""
-    rotate: Rotate | Mapping[str, Any] | None = None
-    """Rotation about an axis through the origin."""
-    scale: Sequence[float] | float | None = None
-    """Scale factors of x, y and z, or one factor for all."""
-    translate: Sequence[float] | None = None
-    """Translation. (m)"""
-
-@dataclass(kw_only=True)
-class Background:
-    """Radiance of rays that meet no surface."""
-
-    image: str | None = None
-    """Equirectangular image, such as EXR or HDR; its centre is towards −z."""
-    pole_rows: bool | None = None
-    """Whether the first and last rows of texels lie at the poles. Otherwise they lie half a row from them."""
-    radiance: Sequence[float] | float | None = None
-    """Radiance of each channel. (W·sr⁻¹·m⁻²)"""
-    rotate: float | None = None
-    """Rotation of the image, counter-clockwise seen from above. (°)"""
-    scale: float | None = None
-    """Factor that multiplies the radiance."""
-    sky: Sky | Mapping[str, Any] | None = None
-    """A clear sky with a sun; black below the horizon."""
-    transform: Sequence[Transform | Mapping[str, Any]] | None = None
-    """Rotations and mirrorings of the image, applied after `rotate`."""
-
-@dataclass(kw_only=True)
 class Gaussian:
     """A normal distribution, cut off at three standard deviations."""
 
@@ -100,6 +38,15 @@ class Lens:
     """Distance of the plane in focus from the eye, along the axis. (m)"""
     radius: float
     """Radius of the lens; 0 is a pinhole. (m)"""
+
+@dataclass(kw_only=True)
+class Rotate:
+    """Rotation about an axis through the origin."""
+
+    axis: Sequence[float]
+    """Direction of the axis, of any length."""
+    degrees: float
+    """Angle, counter-clockwise when the axis points at the viewer. (°)"""
 
 @dataclass(kw_only=True)
 class Motion:
@@ -154,6 +101,59 @@ class Camera:
     """Times at which the shutter opens and closes. Motion runs from time 0 to 1. Default: time 0."""
     up: Sequence[float] | None = None
     """Direction that points up in the image. Default: [0, 1, 0]."""
+
+@dataclass(kw_only=True)
+class Sky:
+    """A clear sky with a sun; black below the horizon."""
+
+    ground_albedo: Sequence[float] | float | None = None
+    """Albedo of the ground, which brightens the sky of `hosek`."""
+    model: Literal['preetham', 'hosek'] | None = None
+    """Model of the radiance."""
+    sky_scale: float | None = None
+    """Factor that multiplies the radiance of the sky."""
+    sun: Sequence[float] | None = None
+    """Direction towards the sun, of any length."""
+    sun_diameter: float | None = None
+    """Angular diameter of the sun. Changing it keeps the irradiance. Default: that of the model. (degrees)"""
+    sun_scale: float | None = None
+    """Factor that multiplies the radiance of the sun; 0 shows the sky alone."""
+    turbidity: float | None = None
+    """Haze: 2 is very clear, 10 is hazy."""
+    zenith: Sequence[float] | None = None
+    """Direction of the zenith, of any length."""
+
+@dataclass(kw_only=True)
+class Transform:
+    """An entry of `transform`."""
+
+    matrix: Sequence[Sequence[float]] | None = None
+    """Four rows of four numbers; the last row is 0, 0, 0, 1."""
+    rotate: Rotate | Mapping[str, Any] | None = None
+    """Rotation about an axis through the origin."""
+    scale: Sequence[float] | float | None = None
+    """Scale factors of x, y and z, or one factor for all."""
+    translate: Sequence[float] | None = None
+    """Translation. (m)"""
+
+@dataclass(kw_only=True)
+class Environment:
+    """Radiance of rays that meet no surface."""
+
+    image: str | None = None
+    """Equirectangular image, such as EXR or HDR; its centre is towards −z."""
+    pole_rows: bool | None = None
+    """Whether the first and last rows of texels lie at the poles. Otherwise they lie half a row from them."""
+    radiance: Sequence[float] | float | None = None
+    """Radiance of each channel. (W·sr⁻¹·m⁻²)"""
+    rotate: float | None = None
+    """Rotation of the image, counter-clockwise seen from above. (°)"""
+    scale: float | None = None
+    """Factor that multiplies the radiance."""
+    sky: Sky | Mapping[str, Any] | None = None
+    """A clear sky with a sun; black below the horizon."""
+    transform: Sequence[Transform | Mapping[str, Any]] | None = None
+    """Rotations and mirrorings of the image, applied after `rotate`."""
 
 @dataclass(kw_only=True)
 class Directional:
@@ -702,6 +702,15 @@ class Object:
     """Transforms, applied from the first to the last."""
 
 @dataclass(kw_only=True)
+class Reference:
+    """What the image must converge to, if it is known."""
+
+    image: str | None = None
+    """Reference image, of the resolution of the camera."""
+    radiance: Sequence[float] | float | None = None
+    """Radiance of each channel. (W·sr⁻¹·m⁻²)"""
+
+@dataclass(kw_only=True)
 class Throughput:
     """Survival probability is the square root of the throughput's largest component, at most 0.95: paths that carry little end early."""
 
@@ -727,7 +736,7 @@ class Render:
     """Whether passing a surface that is not opaque counts as a bounce for `max_bounces`."""
     directions: Literal['uniform', 'cosine', 'bsdf'] | None = None
     """How the next direction is sampled at diffuse surfaces."""
-    estimator: Literal['path', 'light', 'mis', 'caustics', 'forward', 'bidirectional', 'auto'] | None = None
+    estimator: Literal['path', 'light', 'mis', 'caustics', 'light_tracing', 'bidirectional', 'auto'] | None = None
     """How light is estimated. All estimators converge to the same image; they differ in noise."""
     exposure: float | None = None
     """Exposure of the displayed image. One stop doubles the brightness; samples do not change. (stops)"""
@@ -735,7 +744,7 @@ class Render:
     """Highest number of bounces, reflections and refractions alike. A cap cuts the series L_e + T L_e + …, so the image is too dark. Default: no cap. (bounces)"""
     merging: bool | None = None
     """Whether the estimator `bidirectional` merges vertices that are near each other (Georgiev et al. 2012). Finds caustics in mirrors. Biased, but consistent."""
-    reuse: Literal['auto', 'on', 'bright', 'both', 'off'] | None = None
+    reuse: Literal['auto', 'suffixes', 'outliers', 'both', 'off'] | None = None
     """What neighbouring pixels share: path suffixes (Bekaert, Sbert and Halton 2002), outliers, or both. Less noise, no bias, but the noise of neighbouring pixels is correlated."""
     roulette: Literal['off', 'throughput'] | Roulette | Mapping[str, Any] | None = None
     """Ends paths at random and weights the survivors, so that the mean does not change."""
@@ -860,22 +869,13 @@ class Texture:
     """The colours of a mesh’s vertices, interpolated; white without them."""
 
 @dataclass(kw_only=True)
-class Reference:
-    """What the image must converge to, if it is known."""
-
-    image: str | None = None
-    """Reference image, of the resolution of the camera."""
-    radiance: Sequence[float] | float | None = None
-    """Radiance of each channel. (W·sr⁻¹·m⁻²)"""
-
-@dataclass(kw_only=True)
 class Description:
     """A scene file."""
 
-    background: Background | Mapping[str, Any] | None = None
-    """Radiance of rays that meet no surface."""
     camera: Camera | Mapping[str, Any]
     """Position, direction and lens of the camera."""
+    environment: Environment | Mapping[str, Any] | None = None
+    """Radiance of rays that meet no surface."""
     format: int | None = None
     """The version of the format: 1."""
     lights: Sequence[Light | Mapping[str, Any]] | None = None
@@ -886,11 +886,11 @@ class Description:
     """Notes about the scene."""
     objects: Sequence[Object | Mapping[str, Any]] | None = None
     """The objects of the scene, one table each."""
+    reference: Reference | Mapping[str, Any] | None = None
+    """What the image must converge to, if it is known."""
     render: Render | Mapping[str, Any] | None = None
     """The settings that the scene opens with."""
     textures: Mapping[str, Texture | Mapping[str, Any]] | None = None
     """Textures by name."""
     title: str | None = None
     """Name of the scene in the window and in reports."""
-    reference: Reference | Mapping[str, Any] | None = None
-    """What the image must converge to, if it is known."""

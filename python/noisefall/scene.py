@@ -17,7 +17,7 @@ from .path import Path
 Estimator = Literal["path", "light", "mis", "caustics", "light_tracing", "bidirectional", "auto"]
 Directions = Literal["uniform", "cosine", "bsdf"]
 Sampler = Literal["independent", "stratified", "sobol", "bluenoise"]
-Reuse = Literal["auto", "on", "bright", "both", "off"]
+Reuse = Literal["auto", "suffixes", "outliers", "both", "off"]
 
 #: Called with the image so far. Returning `False` stops the render.
 Callback = Callable[[Image], "bool | None"]

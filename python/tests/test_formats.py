@@ -43,7 +43,7 @@ def test_images_and_comparisons_follow_the_schema(program):
 def test_paths_follow_the_schema(program, name):
     check = validator("replay")
     for sample in range(2):
-        for reuse in ["on", "off"]:
+        for reuse in ["suffixes", "off"]:
             options = ["--size", "32x32", "--sample", str(sample), "--reuse", reuse, "--json"]
             check.validate(program("render", name, "--pixel", "16,20", *options))
 

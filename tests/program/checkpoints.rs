@@ -136,9 +136,9 @@ fn a_scene_that_has_changed_is_noticed_and_anyway_is_labelled() {
 fn a_scene_of_another_program_with_its_meshes_is_read_again() {
     let shell = Shell::new();
     done(&shell, &["convert", &scene("cornell_box"), "-o", "box.glb"]);
-    begin(&shell, "box.glb", &["--reuse", "on"]);
+    begin(&shell, "box.glb", &["--reuse", "suffixes"]);
     done(&shell, &["render", "--resume", "a.nf", "-o", "b.exr", "--spp", "20"]);
-    done(&shell, &[&["render", "box.glb", "-o", "c.exr", "--spp", "20", "--reuse", "on"], &SIZE[..]].concat());
+    done(&shell, &[&["render", "box.glb", "-o", "c.exr", "--spp", "20", "--reuse", "suffixes"], &SIZE[..]].concat());
     assert!(bytes(&shell, "b.exr") == bytes(&shell, "c.exr"));
     fs::remove_file(shell.path("box.glb")).expect("it is there");
     assert!(refused(&shell, &["render", "--resume", "a.nf", "-o", "b.exr"]).contains("box.glb is missing"));

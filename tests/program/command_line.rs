@@ -203,7 +203,7 @@ fn failures_exit_with_1_and_say_why_and_wrong_usage_with_2() {
     fails(
         &["render", &furnace, "-o", "out.png", "--estimator", "foo"],
         2,
-        "path, light, mis, caustics, forward, bidirectional or auto",
+        "path, light, mis, caustics, light_tracing, bidirectional or auto",
     );
     fails(&["render", &furnace], 2, "--output");
     fails(&["render", &furnace], 2, "-o <OUTPUT>");

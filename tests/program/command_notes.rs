@@ -92,7 +92,7 @@ fn options_without_effect_are_named() {
     };
     for (options, note) in [
         (
-            &["-o", "a.png", "--adaptive", "on", "--reuse", "on"][..],
+            &["-o", "a.png", "--adaptive", "on", "--reuse", "suffixes"][..],
             "warning: `adaptive` is not used: path reuse is on (reused suffixes)",
         ),
         (
@@ -118,7 +118,7 @@ fn options_without_effect_are_named() {
     let plain = said(&["-o", "a.png", "--adaptive", "on", "--reuse", "off", "--estimator", "mis"]);
     assert!(!plain.contains("shared") && !plain.contains("light paths"), "{plain}");
     assert_eq!(said(&["-o", "a.png", "--reuse", "off"]), "");
-    let samples = ["--samples", "0..8", "--size", "16x16", "--adaptive", "on", "--reuse", "on", "--exposure", "1"];
+    let samples = ["--samples", "0..8", "--size", "16x16", "--adaptive", "on", "--reuse", "suffixes", "--exposure", "1"];
     let done = shell.run(&[&["render", &scene("cornell_box"), "-o", "a.nf"], &samples[..]].concat());
     let notes = text(&done.stderr);
     assert!(notes.contains("`adaptive` is not used") && notes.contains("a file of samples has no display"), "{notes}");

@@ -177,7 +177,7 @@ fn a_variance_that_few_samples_make_up_is_not_trusted() {
 #[test]
 fn bias_is_distinguished_from_noise_with_path_reuse_too() {
     let shell = Shell::new();
-    for reuse in ["on", "off"] {
+    for reuse in ["suffixes", "off"] {
         render(&shell, "a.exr", &["--seed", "1", "--reuse", reuse]);
         render(&shell, "b.exr", &["--seed", "2", "--reuse", reuse]);
         render(&shell, "capped.exr", &["--seed", "3", "--max-bounces", "4", "--reuse", reuse]);

@@ -78,7 +78,7 @@ fn replays_follow_the_schema() {
     let mut present = BTreeSet::new();
     for name in ["cornell_box", "glass_and_mirror", "lights", "leaves", "textures_and_bump", "room_window"] {
         for sample in ["0", "1", "lit"] {
-            for reuse in ["on", "off"] {
+            for reuse in ["suffixes", "off"] {
                 let options = ["--size", "32x32", "--sample", sample, "--reuse", reuse];
                 let line = last_line(&shell.run(&[&["render", name, "--pixel", "16,20", "--json"], &options[..]].concat()));
                 assert!(fits_part(&line, "replay", &schema), "{name}, {sample}: {line:#}");

@@ -16,6 +16,7 @@ mod evidence;
 mod faults;
 mod figures;
 mod formats;
+mod former_names;
 mod imports;
 mod installed;
 mod interruption;

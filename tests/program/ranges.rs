@@ -154,7 +154,7 @@ const RANGES: &[Range] = &[
     range("render.spp", "VIEW\nrender.spp = X", &["1"], &["-1", "4294967296", "1.5"], "expected a whole number, 0 or more"),
     range("render.exposure", "VIEW\nrender.exposure = X", &["-100.0", "0", "1.5", "100"], &["-100.1", "101", "nan"], "expected a number from -100 to 100"),
     range("render.seed", "VIEW\nrender.seed = X", COUNT, NO_COUNT, "expected a whole number, 0 or more"),
-    range("reference.radiance", "VIEW\ntruth.radiance = X", LIGHT, NO_LIGHT, "radiance"),
+    range("reference.radiance", "VIEW\nreference.radiance = X", LIGHT, NO_LIGHT, "radiance"),
 ];
 
 /// All keys of the format, as its declarations visit them: tables and key, joined by points.
@@ -263,7 +263,7 @@ const TABLES: &[(&str, &str)] = &[
     ("render.roulette.", "VIEW\nrender.roulette.zzz = 1"),
     ("render.roulette.", "VIEW\nrender.roulette = 'zzz'"),
     ("render.roulette.throughput.", "VIEW\nrender.roulette.throughput.zzz = 1"),
-    ("truth.", "VIEW\ntruth.zzz = 1"),
+    ("reference.", "VIEW\nreference.zzz = 1"),
 ];
 
 fn full(text: &str) -> String {

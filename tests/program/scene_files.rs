@@ -98,7 +98,7 @@ fn unknown_keys_and_kinds_are_refused() {
     refuses("albedo = 0.8", "albedo = 0.8, color = 1", "unknown key `color`");
     refuses("sphere = {", "ball = {", "unknown kind `ball`");
     refuses("\"stratified\"", "\"halton\"", "unknown value `halton`");
-    refuses("format = 1", "format = 1\nlights = []", "unknown key `lights`");
+    refuses("format = 1", "format = 1\nsources = []", "unknown key `sources`");
     refuses("{ fixed = 0.75 }", "\"always\"", "unknown value `always`");
 }
 

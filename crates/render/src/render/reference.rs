@@ -83,16 +83,16 @@ impl Reference {
 
     /// The relMSE of a frame, and the same without each of its blocks, if it has the reference's resolution.
     pub fn block_errors(&self, frame: &Frame) -> Option<BlockErrors> {
-        let truth = self.radiance_of(frame)?;
-        let floor = Floor::DEFAULT.of_picture(&truth);
-        Some(BlockErrors::rel_mse(&frame.radiance, &truth, frame.width as usize, floor))
+        let reference = self.radiance_of(frame)?;
+        let floor = Floor::DEFAULT.of_picture(&reference);
+        Some(BlockErrors::rel_mse(&frame.radiance, &reference, frame.width as usize, floor))
     }
 
     /// The bias of a frame against the reference; `None` if the frame has another resolution.
     pub fn bias(&self, frame: &Frame) -> Option<Bias> {
-        let truth = self.radiance_of(frame)?;
-        let of_truth = if let Reference::Picture(_, provenance) = self { provenance.noise.as_ref() } else { None };
-        Some(Bias::by_samples(&frame.radiance, &truth, [frame.noise.as_ref(), of_truth], frame.width as usize))
+        let reference = self.radiance_of(frame)?;
+        let of_reference = if let Reference::Picture(_, provenance) = self { provenance.noise.as_ref() } else { None };
+        Some(Bias::by_samples(&frame.radiance, &reference, [frame.noise.as_ref(), of_reference], frame.width as usize))
     }
 
     /// A message if a frame contradicts the reference: its mean, or that of a block, is off by more than chance explains.
@@ -117,11 +117,11 @@ impl Reference {
         const LEAST_PART: f64 = 0.1;
         /// For each block.
         const EFFECTIVE_SAMPLES: f64 = 100.0;
-        let (truth, width) = (self.radiance_of(frame)?, frame.width as usize);
+        let (reference, width) = (self.radiance_of(frame)?, frame.width as usize);
         let are_known = frame.noise.as_ref()?.effective_samples >= EFFECTIVE_SAMPLES * bias.block_z.len() as f64;
         let mean = |rgb: &[f32; 3]| rgb.iter().map(|c| f64::from(*c)).sum::<f64>() / 3.0;
-        let level = truth.iter().map(mean).sum::<f64>() / truth.len().max(1) as f64;
-        let differences: Vec<f64> = frame.radiance.iter().zip(truth.iter()).map(|(x, r)| mean(x) - mean(r)).collect();
+        let level = reference.iter().map(mean).sum::<f64>() / reference.len().max(1) as f64;
+        let differences: Vec<f64> = frame.radiance.iter().zip(reference.iter()).map(|(x, r)| mean(x) - mean(r)).collect();
         let blocks = bias.block_z.iter().zip(SampleNoise::block_means(&differences, width)).enumerate();
         let large = blocks.filter(|(_, (z, difference))| z.abs() > MOST && difference.abs() > LEAST_PART * level);
         let (block, (z, difference)) =
@@ -140,7 +140,7 @@ impl Reference {
 
 /// A message if a small image with independent samples contradicts the `[reference]` of a scene, or if that is a denoised image.
 pub fn contradiction(scene: &Scene, threads: &Threads) -> Option<String> {
-    /// Longer side of the image if the truth is constant, so that any resolution is valid.
+    /// Longer side of the image if the reference is constant, so that any resolution is valid.
     const LONGER_SIDE: u32 = 48;
     /// Samples of the whole image.
     const SAMPLES: u64 = 1 << 23;

@@ -7,7 +7,7 @@ pub const RADIANCE: Parameter = Parameter::new("radiance", "Radiance of each cha
     .unit("W·sr⁻¹·m⁻²")
     .required()
     .aliases("power intensity flux strength brightness watts le Le L_e color colour rgb")
-    .advice("radiance is in W·sr⁻¹·m⁻²: a flat light of area A with the power Φ has Φ/(π A)");
+    .advice("radiance is in W·sr⁻¹·m⁻²: a flat light of area A and power Φ has Φ/(π A)");
 
 /// The image of a background.
 pub const IMAGE: Parameter = Parameter::new("image", "Equirectangular image, such as EXR or HDR; its centre is towards −z.")

@@ -52,13 +52,11 @@ const K: Parameter =
 
 const TINT: Parameter = Parameter::new("tint", "Multiplies the reflectance at every angle.").aliases("specular_reflectance");
 
-const F0: Parameter = Parameter::new(
-    "f0",
-    "Reflectance at normal incidence.means(Meaning::Colour); it rises to 1 at grazing angles by Schlick's approximation.",
-)
-.symbol("F₀")
-.required()
-.aliases("color colour albedo rgb specular_color");
+const F0: Parameter =
+    Parameter::new("f0", "Reflectance at normal incidence; it rises to 1 at grazing angles by Schlick's approximation.")
+        .symbol("F₀")
+        .required()
+        .aliases("color colour albedo rgb specular_color");
 
 const REFLECTANCE: Parameter = Parameter::new("reflectance", "Reflectance of the microfacets, the same at every angle.")
     .symbol("F")

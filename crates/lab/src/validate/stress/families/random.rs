@@ -112,7 +112,7 @@ fn settings(dice: &mut Dice) -> String {
     let directions = dice.pick(&Directions::ALL).name();
     let roulette = dice.pick(&["'throughput'", "{ fixed = 0.01 }", "{ fixed = 0.9 }", "{ throughput = { start = 1 } }"]);
     let seed = dice.below(1 << 20);
-    let reuse = dice.pick(&["on", "off"]);
+    let reuse = dice.pick(&["suffixes", "off"]);
     format!(
         "estimator = '{estimator}', sampler = '{sampler}', directions = '{directions}', roulette = {roulette}, reuse = '{reuse}', seed = {seed}"
     )
