@@ -39,11 +39,11 @@ fn first_picture(c: &mut Criterion) {
     let renderer = Renderer::new(threads, Publish::Live, notify);
     let triangles = load("scenes/million_triangles.toml".as_ref()).expect("a shipped scene compiles");
     let usual = RenderSettings::default();
-    let from_both_ends = RenderSettings { estimator: Estimator::Bidirectional, ..usual };
+    let is_bidirectional = RenderSettings { estimator: Estimator::Bidirectional, ..usual };
     let mut generation = 0;
     for (name, scene, settings) in [
         ("the built-in scene", built_in(), usual),
-        ("the built-in scene from camera and light", built_in(), from_both_ends),
+        ("the built-in scene from camera and light", built_in(), is_bidirectional),
         ("1.28 million triangles", triangles, usual),
     ] {
         let scene = Arc::new(scene);
@@ -75,7 +75,7 @@ fn leaves_heavy_renders(c: &mut Criterion) {
     };
     let light = sphere(0.0, [16, 16], "");
     let long_paths = sphere(0.9999, RESOLUTION, "");
-    let both_ends = sphere(0.9999, RESOLUTION, "estimator = 'bidirectional'\nmax_bounces = 64\n");
+    let bidirectional = sphere(0.9999, RESOLUTION, "estimator = 'bidirectional'\nmax_bounces = 64\n");
     let renderer = Renderer::new(Threads::new(0, SimdLevel::best()).expect("threads can be had"), Publish::Live, || {});
     let mut generation = 0;
     let mut submit = |scene: &Arc<Scene>| {
@@ -83,7 +83,7 @@ fn leaves_heavy_renders(c: &mut Criterion) {
         renderer.submit(generation, RenderRequest { scene: scene.clone(), camera: scene.camera, settings: scene.settings });
         generation
     };
-    for (name, heavy) in [("a heavy image renders", long_paths), ("bidirectional paths render", both_ends)] {
+    for (name, heavy) in [("a heavy image renders", long_paths), ("bidirectional paths render", bidirectional)] {
         c.bench_function(&format!("16 x 16, a change while {name}, all cores"), |b| {
             b.iter_custom(|count| {
                 let mut sum = Duration::ZERO;

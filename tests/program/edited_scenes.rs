@@ -68,7 +68,7 @@ fn change(scene: &mut SceneDescription, random: &mut SmallRng) -> String {
         4 => {
             let environment = scene.environment.get_or_insert_default();
             environment.chosen(&mut Dice::new(random));
-            format!("background: {environment:?}")
+            format!("environment: {environment:?}")
         }
         5 => {
             scene.camera.look_at += DVec3::new(0.01, 0.02 * random.random::<f64>(), 0.0);

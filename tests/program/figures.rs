@@ -91,8 +91,8 @@ fn replays_follow_the_schema() {
     for sample in 0..4 {
         let options = ["--size", "32x32", "--sample", &sample.to_string(), "--estimator", "bidirectional"];
         let line = last_line(&shell.run(&[&["render", "cornell_box", "--pixel", "16,20", "--json"], &options[..]].concat()));
-        assert!(fits_part(&line, "replay", &schema) && line["both_ends"].is_object(), "{sample}: {line:#}");
-        present.insert("both_ends".to_owned());
+        assert!(fits_part(&line, "replay", &schema) && line["bidirectional"].is_object(), "{sample}: {line:#}");
+        present.insert("bidirectional".to_owned());
     }
     let of = |part: &str| schema["$defs"][part]["required"].as_array().expect("keys").clone();
     for key in [of("replay"), of("vertex")].concat() {
@@ -104,7 +104,7 @@ fn replays_follow_the_schema() {
 fn values_that_the_schema_does_not_describe_are_refused() {
     let schema: Value = serde_json::from_str(SCHEMA).expect("the schema is JSON");
     let replay =
-        json!({ "radiance": [0.0, 0.5, 1], "alone": null, "shared": null, "both_ends": null, "vertices": [], "end": "cap" });
+        json!({ "radiance": [0.0, 0.5, 1], "alone": null, "shared": null, "bidirectional": null, "vertices": [], "end": "cap" });
     assert!(fits_part(&replay, "replay", &schema));
     for (key, wrong) in [("radiance", json!([0.0, 1.0])), ("end", json!("bored")), ("vertices", json!([{}])), ("more", json!(1))]
     {

@@ -81,7 +81,7 @@ fn shipped_scenes_with_old_names_come_back() {
 #[test]
 fn a_background_is_still_read() {
     let shell = Shell::new();
-    let current = fs::read_to_string(scene("sky_lit")).expect("it is shipped");
+    let current = fs::read_to_string(scene("depth_of_field")).expect("it is shipped");
     for (name, text) in [("new", current.clone()), ("old", current.replace("[environment]", "[background]"))] {
         fs::write(shell.path(&format!("{name}.toml")), text).expect("it is written");
     }

@@ -180,10 +180,10 @@ fn lights() {
     assert_eq!(light("emission = { radiance = 1, two_sided = true }").side, Side::Both);
     assert_eq!(light("emission = { radiance = 1 }\nflip = true").side, Side::Back);
     assert!(matches!(
-        compiled("VIEW\nbackground.radiance = [1, 2, 3]").lights.environment,
+        compiled("VIEW\nenvironment.radiance = [1, 2, 3]").lights.environment,
         Some(Environment::Constant(ConstantRadiance([1.0, 2.0, 3.0])))
     ));
-    assert!(compiled("VIEW\nbackground.radiance = 0").lights.environment.is_none());
+    assert!(compiled("VIEW\nenvironment.radiance = 0").lights.environment.is_none());
 }
 
 #[test]
@@ -196,7 +196,7 @@ fn skies() {
     let name = folder.path().join("sky.toml").display().to_string();
     let radiance = |rest: &str, degrees: f64| {
         let view = "camera = { eye = [0, 0, 4], look_at = [0, 0, 0], fov = 40, resolution = [8, 8] }";
-        let text = format!("format = 1\n{view}\nbackground = {{ image = 'sky.hdr'{rest} }}");
+        let text = format!("format = 1\n{view}\nenvironment = {{ image = 'sky.hdr'{rest} }}");
         let scene = parse(&name, text).unwrap_or_else(|error| panic!("{}", error.report()));
         let Some(Environment::Image(sky)) = &scene.lights.environment else { panic!("it is an image") };
         let (sin, cos) = degrees.to_radians().sin_cos();
@@ -345,7 +345,7 @@ fn warnings() {
             format!("[[objects]]\nshape.sphere = {{ center = [0, 0, 0], radius = {}.0 }}\nmaterial = 'glass'\n", i + 1)
         };
         let glass = format!("materials.glass.dielectric = {{ ior = 1.5{tint} }}\n");
-        compiled(&format!("VIEW\nbackground.radiance = 1.0\n{glass}{}", (0..count).map(shell).collect::<String>()))
+        compiled(&format!("VIEW\nenvironment.radiance = 1.0\n{glass}{}", (0..count).map(shell).collect::<String>()))
             .warnings()
             .to_vec()
     };
@@ -354,7 +354,7 @@ fn warnings() {
     let moving = |shutter: &str| {
         let view = format!("camera = {{ eye = [0, 0, 4], look_at = [0, 0, 0], fov = 40, resolution = [8, 8]{shutter} }}");
         let ball = "[[objects]]\nshape.sphere = { center = [0, 0, 0], radius = 1 }\nemission.radiance = 1\nmotion = [{ translate = [1, 0, 0] }]";
-        compiled(&format!("{view}\nbackground.radiance = 1\n{ball}")).warnings().to_vec()
+        compiled(&format!("{view}\nenvironment.radiance = 1\n{ball}")).warnings().to_vec()
     };
     assert_eq!(moving("").len(), 1);
     assert_eq!((moving(", shutter = [0, 0]").len(), moving(", shutter = [0, 1]").len()), (0, 0));

@@ -83,7 +83,7 @@ fn the_reason_for_the_end_of_a_path_is_printed() {
 fn lobes_are_named_with_their_probability() {
     let shell = Shell::new();
     // On the glass ball, reflection has Fresnel's reflectance as its probability, and the probabilities add up to 1.
-    let head = "format = 1\ncamera = { eye = [0, 0, 4], look_at = [0, 0, 0], fov = 20, resolution = [8, 8] }\nbackground.radiance = 1\n\
+    let head = "format = 1\ncamera = { eye = [0, 0, 4], look_at = [0, 0, 0], fov = 20, resolution = [8, 8] }\nenvironment.radiance = 1\n\
                 materials.ball = MATERIAL\n[[objects]]\nshape = { sphere = { center = [0, 0, 0], radius = 1 } }\nmaterial = \"ball\"\n";
     let first = |material: &str, sample: u32| {
         fs::write(shell.path("a.toml"), head.replace("MATERIAL", material)).expect("it is written");

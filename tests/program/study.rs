@@ -116,7 +116,7 @@ fn path_reuse_and_adaptive_samples_are_listed_and_scenes_of_one_title_told_apart
     fs::copy(scene("cornell_box"), shell.path("other.toml")).expect("a scene");
     let few =
         ["--estimators", "mis", "--directions", "bsdf", "--samplers", "independent", "--roulette", "throughput", "--spp", "4"];
-    let lists = ["--reuse", "on,off", "--adaptive", "on,off", "--size", "16x16", "--seconds", "1000", "--repeats", "1"];
+    let lists = ["--reuse", "suffixes,off", "--adaptive", "on,off", "--size", "16x16", "--seconds", "1000", "--repeats", "1"];
     let shipped = scene("cornell_box");
     let done = shell.run(&[&["study", "other.toml", &shipped, "-o", "out"], &few[..], &lists].concat());
     assert!(done.status.success(), "{}", text(&done.stderr));

@@ -113,17 +113,17 @@ fn replayed_samples_add_up_to_the_film() {
 }
 
 /// The settings of an estimator with light paths.
-fn from_both_ends(estimator: Estimator) -> RenderSettings {
+fn is_bidirectional(estimator: Estimator) -> RenderSettings {
     RenderSettings { estimator, adaptive: false, ..settings(Sampler::Sobol, Reuse::Off) }
 }
 
-const BOTH_ENDS: [Estimator; 2] = [Estimator::LightTracing, Estimator::Bidirectional];
+const BIDIRECTIONAL: [Estimator; 2] = [Estimator::LightTracing, Estimator::Bidirectional];
 
 #[test]
 fn paths_from_lights_bring_the_same_light_for_every_number_of_threads_and_every_simd_level() {
     let scene = built_in();
-    for estimator in BOTH_ENDS {
-        let settings = from_both_ends(estimator);
+    for estimator in BIDIRECTIONAL {
+        let settings = is_bidirectional(estimator);
         assert!(scene.traces_light_paths(&settings));
         assert_same_everywhere(&scene, &settings, estimator.name());
     }
@@ -132,7 +132,7 @@ fn paths_from_lights_bring_the_same_light_for_every_number_of_threads_and_every_
 #[test]
 fn an_interrupted_pass_with_paths_from_lights_goes_on_as_if_nothing_had_happened() {
     let scene = built_in();
-    for estimator in BOTH_ENDS {
-        assert_goes_on(&scene, &from_both_ends(estimator), estimator.name());
+    for estimator in BIDIRECTIONAL {
+        assert_goes_on(&scene, &is_bidirectional(estimator), estimator.name());
     }
 }

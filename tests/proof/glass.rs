@@ -14,7 +14,7 @@ pub fn in_white_light(camera: &str, materials: &str, spheres: &[([f64; 3], f64, 
         format!("[[objects]]\nshape.sphere = {{ center = {center:?}, radius = {radius:?} }}\nmaterial = '{material}'\n")
     };
     let objects: String = spheres.iter().map(object).collect();
-    scene(&format!("camera = {{ {camera}, resolution = [32, 32] }}\nbackground.radiance = 1.0\n{materials}\n{objects}"))
+    scene(&format!("camera = {{ {camera}, resolution = [32, 32] }}\nenvironment.radiance = 1.0\n{materials}\n{objects}"))
 }
 
 const ALL_OF_IT: &str = "eye = [0.0, 0.5, 4.0], look_at = [0.0, 0.0, 0.0], fov = 30.0";

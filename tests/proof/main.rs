@@ -8,8 +8,8 @@
 //! Seeds are fixed: a test that passes once passes always.
 #![allow(clippy::print_stdout, reason = "figures are printed for those who ask for them")]
 mod adaptive;
+mod bidirectional;
 mod black;
-mod both_ends;
 mod combinations;
 mod determinism;
 mod enclosures;

@@ -128,7 +128,7 @@ fn shapes_are_mirrored_with_their_tangents() {
     assert_mirrored("shapes", count, count / 2, |number, description| {
         let brushed = "conductor = { reflectance = 0.9, roughness = 0.4, anisotropy = 0.9, tangent_rotation = 30 }";
         let text = format!(
-            "format = 1\ncamera = {{ eye = [0, 0, 4], look_at = [0, 0, 0], fov = 40, resolution = [8, 8] }}\nbackground.radiance = 1\n[materials.m]\n{brushed}"
+            "format = 1\ncamera = {{ eye = [0, 0, 4], look_at = [0, 0, 0], fov = 40, resolution = [8, 8] }}\nenvironment.radiance = 1\n[materials.m]\n{brushed}"
         );
         let brushed = describe("brushed.toml", text).unwrap_or_else(|error| panic!("{}", error.report()));
         description.materials.insert("m".to_owned(), brushed.materials["m"].clone());

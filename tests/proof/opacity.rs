@@ -12,7 +12,7 @@ use noisefall_render::render::{
 use noisefall_scene::scene::{Camera, Estimator, RenderSettings, Reuse, Roulette, Scene, load};
 
 use crate::{
-    both_ends::sum,
+    bidirectional::sum,
     picture::{LUMINANCE, RED, WITH_CAMERA_PATHS, picture, scene, settings},
     statistics::{assert_within, samples},
 };
@@ -377,7 +377,7 @@ fn a_replayed_path_crosses_the_same_surfaces() {
             for (sample, rendered) in rendered.into_iter().enumerate() {
                 let replay = replay(&scene, &rays, &settings, pixel, sample as u32);
                 assert_eq!(replay.radiance, rendered, "{pixel:?}");
-                if let Some(both) = &replay.both_ends {
+                if let Some(both) = &replay.bidirectional {
                     assert_eq!(sum(&both.strategies), rendered, "{pixel:?}");
                     continue;
                 }

@@ -42,7 +42,7 @@ fn no_light_enters_a_closed_room_at_its_edges() {
     for (name, room) in rooms() {
         for (what, target) in [("corner", [1.0; 3]), ("edge", [1.0, 1.0, 0.2])] {
             let scene = scene(&format!(
-                "camera = {{ eye = {:?}, look_at = {:?}, fov = 0.01, resolution = [32, 32] }}\nbackground.radiance = 1e6\n\
+                "camera = {{ eye = {:?}, look_at = {:?}, fov = 0.01, resolution = [32, 32] }}\nenvironment.radiance = 1e6\n\
                  materials.wall.lambertian.albedo = 0.8\n{room}",
                 turned([-0.3, -0.2, 0.1]),
                 turned(target)

@@ -141,7 +141,7 @@ fn threads_forget_the_media_of_the_scene_before() {
         let objects: String =
             numbers().enumerate().map(|(i, tint)| ball(i).replace(&format!("tint{i}'"), &format!("tint{tint}'"))).collect();
         let camera = "camera = { eye = [0.0, 0.0, 6.0], look_at = [0.0, 0.0, 0.0], fov = 50.0, resolution = [96, 96] }";
-        crate::picture::scene(&format!("{camera}\nbackground.radiance = 1.0\n{materials}{objects}"))
+        crate::picture::scene(&format!("{camera}\nenvironment.radiance = 1.0\n{materials}{objects}"))
     };
     let threads = Threads::new(1, SimdLevel::best()).expect("a thread can be had");
     for tints in [25, 2] {

@@ -145,7 +145,7 @@ impl App {
                 self.session.settings.roulette = Roulette::BY_THROUGHPUT;
                 self.start_comparison(RenderSettings { max_bounces: Some(3), ..self.session.settings });
             }
-            TourRequest::CompareBothEnds => {
+            TourRequest::CompareBidirectional => {
                 self.session.settings.estimator = Estimator::Mis;
                 self.start_comparison(RenderSettings { estimator: Estimator::Bidirectional, ..self.session.settings });
             }

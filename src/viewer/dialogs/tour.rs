@@ -13,7 +13,7 @@ pub enum TourRequest {
     /// Compares roulette with a cap of 3 bounces.
     CompareWithCap,
     /// Compares MIS with bidirectional paths.
-    CompareBothEnds,
+    CompareBidirectional,
     /// Opens a scene with a glass ball.
     OpenGlass,
     OpenGallery,
@@ -63,7 +63,7 @@ const PAGES: [Page; 5] = [
                tracing combines all strategies, each weighted by its pdf over the sum of all pdfs. The image stays the same. \
                Caustics have less noise, but simple scenes take more time.",
         shows: Some(InstrumentTab::Compare),
-        tries: ("Compare MIS with bidirectional", TourRequest::CompareBothEnds),
+        tries: ("Compare MIS with bidirectional", TourRequest::CompareBidirectional),
         without_glass: Some((
             "Paths can also start at the lights. A strategy (s, t) takes s vertices from a light and t from the camera. Bidirectional \
              path tracing combines all strategies. This pays off for caustics, the light that glass focuses, and this scene has no \

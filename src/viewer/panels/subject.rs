@@ -86,7 +86,7 @@ impl Subject {
         })
     }
 
-    /// Whether a description has the part. A background can be selected before there is one.
+    /// Whether a description has the part. An environment can be selected before there is one.
     pub fn is_in(&self, description: &SceneDescription) -> bool {
         match self {
             Subject::Object(place) => *place < description.objects.len(),

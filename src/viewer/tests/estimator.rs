@@ -109,7 +109,9 @@ fn the_path_inspector_lists_the_strategies_of_a_sample() {
     choose(&mut window, "Estimator", "Bidirectional");
     *window.state_mut().tab_mut() = Some(InstrumentTab::Path);
     window.state_mut().path_inspector_mut().look_at([40, 30]);
-    wait(&mut window, "its sample", |app| app.path_inspector().replay().is_some_and(|(_, replay)| replay.both_ends.is_some()));
+    wait(&mut window, "its sample", |app| {
+        app.path_inspector().replay().is_some_and(|(_, replay)| replay.bidirectional.is_some())
+    });
     window.run_steps(2);
     assert!(
         shows(&window, "L = Σ w C over the strategies with t ≥ 2.") && shows(&window, "connected at") && shows(&window, "Sample")

@@ -83,7 +83,7 @@ fn a_preset_changes_its_settings_and_the_panel_marks_the_one_in_force() {
 }
 
 #[test]
-fn fastest_takes_paths_from_both_ends_where_they_are_measured_to_be_faster() {
+fn fastest_takes_bidirectional_paths_where_they_are_measured_to_be_faster() {
     let mut window = window("glass_ball_caustic");
     window.state_mut().settings_mut().estimator = Estimator::Mis;
     restarts(&mut window, "the fastest one", |w| click(w, "Fastest"));

@@ -221,7 +221,7 @@ fn assert_terms(vertex: &Vertex, settings: &RenderSettings, what: &str) {
         assert!((0.0..=1.0).contains(&light.weight));
         let seen = light.outcome == LightOutcome::Seen;
         assert!(seen || light.contribution == [0.0; 3]);
-        // The shadow ray ends at the light or at an occluder. Backgrounds have no position.
+        // The shadow ray ends at the light or at an occluder. Environments have no position.
         let ends = if seen { light.object.is_some() } else { light.outcome == LightOutcome::Hidden };
         let has_end = light.distance.is_some_and(|distance| distance > 0.0);
         // A punctual light may be infinitely far away.

@@ -40,7 +40,7 @@ impl Document {
         (with_material(new_material, Edit::insert_tree(path.clone(), Tree::of(&mut object))), path)
     }
 
-    /// The edit that makes an equirectangular image the background.
+    /// The edit that makes an equirectangular image the environment.
     pub fn set_sky(&self, file: &str) -> Edit {
         let path = Path::of("environment");
         let mut sky = EnvironmentDescription::from(Image { path: file.to_owned(), ..Image::default() });

@@ -60,9 +60,9 @@ impl Colors<'_> {
         Some(PunctualLightDescription { name: punctual_light.name.clone(), kind: kind?, transform: Vec::new() })
     }
 
-    /// The radiance of a constant background in place of another one: its mean.
+    /// The radiance of a constant environment in place of another one: its mean.
     pub fn environment_substitute(&self, environment: &EnvironmentDescription, notes: &mut Notes) -> [f64; 3] {
-        let found = format!("a background `{}`", environment.name());
+        let found = format!("an environment `{}`", environment.name());
         notes.add(found, "its mean colour", "light comes from all directions alike");
         let compiled = environment.compile(self.compiler().resources).ok().flatten();
         compiled.map_or([0.0; 3], |environment| environment.mean().map(f64::from))
@@ -120,7 +120,7 @@ mod tests {
     }
 
     #[test]
-    fn a_light_becomes_a_point_light_and_a_background_its_mean() {
+    fn a_light_becomes_a_point_light_and_an_environment_its_mean() {
         let spot = PunctualLightDescription { name: "desk".to_owned(), kind: Spot::default().into(), transform: Vec::new() };
         let (punctual_light, remarks) = substituted(|colors, notes| colors.punctual_substitute(&spot, notes));
         let punctual_light = punctual_light.expect("it can be compiled");
@@ -131,6 +131,6 @@ mod tests {
         assert!(remarks.len() == 1 && remarks[0].contains("a light `spot`") && remarks[0].contains("`point`"), "{remarks:?}");
         let (radiance, remarks) = substituted(|colors, notes| colors.environment_substitute(&Sky::default().into(), notes));
         assert!(radiance.iter().all(|x| *x > 0.0), "{radiance:?}");
-        assert!(remarks.len() == 1 && remarks[0].contains("a background `sky`"), "{remarks:?}");
+        assert!(remarks.len() == 1 && remarks[0].contains("an environment `sky`"), "{remarks:?}");
     }
 }

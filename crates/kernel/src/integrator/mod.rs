@@ -63,8 +63,8 @@ pub use self::{
     outliers::{Replays, Thresholds},
     profile::{CountedRays, Profile, StageCost, trace_profiled},
     replay::{
-        BothEnds, EmitterHit, End, LightOutcome, PathPoint, Reflection, Replay, SampledLight, SharedLight, StrategyTerm, Surface,
-        Vertex, pixel_samples, replay, seen_by_camera,
+        BidirectionalSample, EmitterHit, End, LightOutcome, PathPoint, Reflection, Replay, SampledLight, SharedLight,
+        StrategyTerm, Surface, Vertex, pixel_samples, replay, seen_by_camera,
     },
     series::{SHARES, TERMS, Terms, trace_series},
     slots::{BLOCK, BLOCKS, TILE},

@@ -104,7 +104,7 @@ impl<L: Lanes> Arrival<L> {
     }
 }
 
-/// Adds the background in the lanes of `sky`, weighted by multiple importance sampling if there are `previous` vertices.
+/// Adds the environment in the lanes of `sky`, weighted by multiple importance sampling if there are `previous` vertices.
 #[inline(always)]
 fn add_environment<L: Lanes>(
     l: L,

@@ -72,7 +72,7 @@ mod tests {
             [Bar { name: "0".to_owned(), parts: vec![1.0, 0.0, 3.0] }, Bar { name: "1 & more".to_owned(), parts: vec![2.0] }];
         assert_eq!(edges(&bars[0]), [[0.0, 1.0], [1.0, 1.0], [1.0, 4.0]]);
         let svg = stacked("time", &["rays", "film", "shading"], &bars);
-        // The background, two parts of the first bar and one of the second, and three of the legend.
+        // The environment, two parts of the first bar and one of the second, and three of the legend.
         assert_eq!(svg.matches("<rect").count(), 1 + 2 + 1 + 3);
         assert!(svg.contains("y=\"40\" width=\"28\" height=\"180\"") && svg.contains("1 &amp; more"), "{svg}");
     }

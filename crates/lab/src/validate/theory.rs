@@ -11,7 +11,7 @@ const CHAPTER: [(&str, &[&str]); 5] = [
             "L(x, ω) = L_e(x, ω) + ∫_S² f(x, ω, ω′) τ(x, x′) L(x′, −ω′) |cos θ′| dω′ with x′ = x_M(x, ω′), the first surface point seen \
              from x along ω′. An opaque surface has f = 0 unless ω and ω′ lie on the same side: there the integral is over the hemisphere \
              of n. Glass transmits light, so ω′ ranges over the whole sphere S² and the cosine enters as |cos θ′|. For smooth mirrors and glass f contains delta functions; their part of the integral is a sum over one or two directions.",
-            "A ray that hits nothing returns the background, L(x′, −ω′) = L_b(ω′), which is counted as a part of L_e below. The medium transmits τ(x, x′) = t^|x − x′|, where t is the transmittance of one metre (Beer’s law); it does not scatter. At an interface from index n_i to n_o the solid angle of a beam changes, and its radiance by the factor (n_o/n_i)²: the conserved quantity is L/n², not L. The f of glass contains this factor.",
+            "A ray that hits nothing returns the environment, L(x′, −ω′) = L_b(ω′), which is counted as a part of L_e below. The medium transmits τ(x, x′) = t^|x − x′|, where t is the transmittance of one metre (Beer’s law); it does not scatter. At an interface from index n_i to n_o the solid angle of a beam changes, and its radiance by the factor (n_o/n_i)²: the conserved quantity is L/n², not L. The f of glass contains this factor.",
         ],
     ),
     (

@@ -105,7 +105,7 @@ mod tests {
 
     /// Hardly any path from the camera finds the light through the ball of glass: images without its caustic agree with each other.
     #[test]
-    fn paths_from_both_ends_are_chosen_for_a_caustic_and_not_for_a_diffuse_room() {
+    fn bidirectional_paths_are_chosen_for_a_caustic_and_not_for_a_diffuse_room() {
         for (name, best) in [("glass_ball_caustic", Estimator::Bidirectional), ("cornell_spheres", Estimator::Mis)] {
             let path = format!("{}/../../scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"));
             let scene = load(path.as_ref()).expect("a shipped scene compiles");

@@ -1,10 +1,10 @@
 //! The bidirectional paths of a sample as text, with what each strategy finds.
 use super::path_words::{number, place, three};
-use noisefall_kernel::integrator::{BothEnds, PathPoint, StrategyTerm};
+use noisefall_kernel::integrator::{BidirectionalSample, PathPoint, StrategyTerm};
 use noisefall_scene::scene::Scene;
 
 /// The vertices of both paths, and a line for each strategy.
-pub fn text(scene: &Scene, BothEnds { light, camera, strategies }: &BothEnds) -> String {
+pub fn text(scene: &Scene, BidirectionalSample { light, camera, strategies }: &BidirectionalSample) -> String {
     let mut text = String::from("\n\nfrom the light");
     for (index, point) in light.iter().enumerate() {
         text += &format!("\n  y{index:<14} {}", at(scene, point));

@@ -28,8 +28,8 @@ pub fn text(id: &PathId, replay: &Replay) -> String {
         text += &format!("{}\n", block(id.scene, vertex));
     }
     text += &format!("\nThe path {}.", replay.end.name());
-    if let Some(both_ends) = &replay.both_ends {
-        text += &path_strategies::text(id.scene, both_ends);
+    if let Some(bidirectional) = &replay.bidirectional {
+        text += &path_strategies::text(id.scene, bidirectional);
     } else if let Some(alone) = replay.alone {
         let reason = if id.scene.merges(id.settings) {
             "vertices are merged with those of other pixels' paths (--merging off lists all strategies)"
@@ -45,7 +45,7 @@ pub fn text(id: &PathId, replay: &Replay) -> String {
 pub fn latex(id: &PathId, replay: &Replay) -> String {
     let heading = heading(id, replay);
     let comments: String = heading.lines().map(|line| format!("% {line}\n")).collect();
-    let shared = match (&replay.both_ends, replay.alone) {
+    let shared = match (&replay.bidirectional, replay.alone) {
         (Some(_), _) => "% There are light paths, too: the sum is that of the camera path as MIS weights it.\n",
         (None, Some(_)) => "% Pixels share light with their neighbours: the sum is that of this path alone.\n",
         (None, None) => "",
@@ -105,7 +105,7 @@ fn title(scene: &Scene, vertex: &Vertex) -> String {
 }
 
 fn light_sample(scene: &Scene, light: &SampledLight, term: &mut impl FnMut(&str, &str)) {
-    let aim = light.object.map_or("the background", |id| name(scene, id));
+    let aim = light.object.map_or("the environment", |id| name(scene, id));
     let aim = light.punctual_light.as_deref().unwrap_or(aim);
     term("light sample", &format!("{aim}, p {}", number(light.pdf)));
     term("", &format!("ω {}", place(light.direction)));

@@ -1,4 +1,4 @@
-//! Light sources: surfaces that emit, punctual lights, and the background.
+//! Light sources: surfaces that emit, punctual lights, and the environment.
 //!
 //! | type | file | description |
 //! |---|---|---|

@@ -120,7 +120,7 @@ fn directions_to_lights_are_distributed_as_their_pdf() {
 }
 
 #[test]
-fn the_luminance_of_a_background_is_that_of_its_colour() {
+fn the_luminance_of_an_environment_is_that_of_its_colour() {
     let found = Environment::Constant(ConstantRadiance([0.5, 0.25, 0.125])).luminance();
     assert!((found - (0.2126 * 0.5 + 0.7152 * 0.25 + 0.0722 * 0.125)).abs() < 1e-6, "{found}");
 }

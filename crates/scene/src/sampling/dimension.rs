@@ -24,7 +24,7 @@ impl Dimension {
     pub const LIGHT_TABLE: Dimension = Dimension(Dimension::PER_BOUNCE * Dimension::LIGHT_PATH + 6);
     /// The direction in which it starts (two).
     pub const LIGHT_DIRECTION: Dimension = Dimension(Dimension::PER_BOUNCE * Dimension::LIGHT_PATH + 8);
-    /// The cell of an image background where it starts (two).
+    /// The cell of an image environment where it starts (two).
     pub const LIGHT_CELL: Dimension = Dimension(Dimension::PER_BOUNCE * Dimension::LIGHT_PATH + 10);
 
     /// Whether the coordinate belongs to the camera or one of the first three surfaces.
@@ -57,7 +57,7 @@ impl Dimension {
         Dimension(Self::PER_BOUNCE * bounce + 6)
     }
 
-    /// The cell of an image background (two).
+    /// The cell of an image environment (two).
     pub fn cell(bounce: u32) -> Dimension {
         Dimension(Self::PER_BOUNCE * bounce + 8)
     }

@@ -40,7 +40,7 @@ mod tests {
             format!("[[objects]]\nname = '{name}'\nshape.sphere = {{ center = [0.0, 0.0, 0.0], radius = {radius:?} }}\n{more}\n")
         };
         let text = format!(
-            "format = 1\ncamera = {{ eye = [0, 0, 0], look_at = [0, 0, 1], fov = 60, resolution = [8, 8] }}\nbackground.radiance = 1\n\
+            "format = 1\ncamera = {{ eye = [0, 0, 0], look_at = [0, 0, 1], fov = 60, resolution = [8, 8] }}\nenvironment.radiance = 1\n\
              materials.white.lambertian.albedo = 0.5\nmaterials.glass.dielectric.ior = 1.5\n{}",
             balls.iter().map(ball).collect::<String>()
         );

@@ -186,7 +186,7 @@ impl Scene {
         self.surfaces.plain && !self.lights.emitters.vary() && self.shapes.are_simple()
     }
 
-    /// Whether all lights are the background or surfaces in lists, so that any other surface on the way to one hides it.
+    /// Whether all lights are the environment or surfaces in lists, so that any other surface on the way to one hides it.
     pub fn lights_are_listed(&self) -> bool {
         self.lights.punctual_lights.is_empty() && self.lights.emitters.len() <= self.shapes.first_unlisted() as usize
     }

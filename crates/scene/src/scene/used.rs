@@ -24,7 +24,7 @@ pub fn used_textures(scene: &SceneDescription) -> BTreeSet<String> {
     let mut surfaces: Vec<_> = scene.objects.iter().map(|object| (object.material.clone(), object.emission.clone())).collect();
     let mut used = Used::default();
     surfaces.iter_mut().for_each(|(material, emission)| used.number_surface(material, emission));
-    used.number_background(&mut scene.environment.clone());
+    used.number_environment(&mut scene.environment.clone());
     used.follow(&scene.materials, &scene.textures);
     used.textures.into_keys().collect()
 }
@@ -34,7 +34,7 @@ pub fn used_textures(scene: &SceneDescription) -> BTreeSet<String> {
 pub fn number_names(scene: &mut SceneDescription) {
     let mut used = Used::default();
     scene.objects.iter_mut().for_each(|object| used.number_surface(&mut object.material, &mut object.emission));
-    used.number_background(&mut scene.environment);
+    used.number_environment(&mut scene.environment);
     (scene.materials, scene.textures) = used.follow(&scene.materials, &scene.textures);
 }
 
@@ -44,7 +44,7 @@ impl Used {
         emission.iter_mut().for_each(|emission| emission.parameters(self));
     }
 
-    fn number_background(&mut self, environment: &mut Option<EnvironmentDescription>) {
+    fn number_environment(&mut self, environment: &mut Option<EnvironmentDescription>) {
         environment.iter_mut().for_each(|environment| environment.parameters(self));
     }
 

@@ -1,7 +1,7 @@
 //! Draws a path over the image.
 use egui::{Align2, Color32, FontId, Painter, Pos2, Shape, Stroke, Ui, vec2};
 use glam::Vec3;
-use noisefall_kernel::integrator::{BothEnds, LightOutcome, PathPoint};
+use noisefall_kernel::integrator::{BidirectionalSample, LightOutcome, PathPoint};
 use noisefall_scene::scene::Camera;
 
 use super::{inspector::PathInspector, table::MOST_VERTICES};
@@ -63,7 +63,7 @@ pub fn draw(ui: &Ui, area: &PictureArea, inspector: &PathInspector, camera: &Cam
         painter.text(at + vec2(7.0, -7.0), Align2::LEFT_BOTTOM, number, FontId::proportional(13.0), Color32::WHITE);
         before = at;
     }
-    if let Some(both) = &replay.both_ends {
+    if let Some(both) = &replay.bidirectional {
         draw_light_path(&painter, both, &screen, &dashed);
     }
 }
@@ -71,7 +71,7 @@ pub fn draw(ui: &Ui, area: &PictureArea, inspector: &PathInspector, camera: &Cam
 /// Draws the light path, and its connections with the camera path.
 fn draw_light_path(
     painter: &Painter,
-    BothEnds { light, camera, strategies }: &BothEnds,
+    BidirectionalSample { light, camera, strategies }: &BidirectionalSample,
     screen: &dyn Fn([f32; 3]) -> Option<Pos2>,
     dashed: &dyn Fn([Pos2; 2], Stroke, f32),
 ) {

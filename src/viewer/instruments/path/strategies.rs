@@ -1,6 +1,6 @@
 //! The table of the strategies of bidirectional paths: what each finds with s vertices from the light and t from the camera.
 use egui::{Grid, RichText, Ui};
-use noisefall_kernel::integrator::{BothEnds, PathPoint, StrategyTerm};
+use noisefall_kernel::integrator::{BidirectionalSample, PathPoint, StrategyTerm};
 use noisefall_scene::scene::Object;
 
 use super::cells::{Channel, TEXT, VERTEX_WIDTH, cell, colour, name, short};
@@ -20,7 +20,7 @@ const COLUMNS: [(&str, &str); 6] = [
 ];
 
 /// Shows the strategies that add up to the sample, their sum, and those that bring light to other places of the image.
-pub fn show(ui: &mut Ui, both: &BothEnds, radiance: [f32; 3], objects: &[Object], channel: Channel) {
+pub fn show(ui: &mut Ui, both: &BidirectionalSample, radiance: [f32; 3], objects: &[Object], channel: Channel) {
     let channel = channel as usize;
     let mut terms: Vec<&StrategyTerm> = both.strategies.iter().collect();
     terms.sort_by_key(|term| (term.t, term.s));
@@ -45,7 +45,7 @@ pub fn show(ui: &mut Ui, both: &BothEnds, radiance: [f32; 3], objects: &[Object]
     });
 }
 
-fn row(ui: &mut Ui, both: &BothEnds, term: &StrategyTerm, objects: &[Object], channel: usize) {
+fn row(ui: &mut Ui, both: &BidirectionalSample, term: &StrategyTerm, objects: &[Object], channel: usize) {
     let vertices = vertices(both, term, objects);
     cell(ui, format!("{}, {}", term.s, term.t), false).on_hover_text(&vertices);
     elided(ui, 2.0 * VERTEX_WIDTH, RichText::new(joint(both, term, objects)).size(TEXT)).on_hover_text(&vertices);
@@ -64,7 +64,7 @@ fn row(ui: &mut Ui, both: &BothEnds, term: &StrategyTerm, objects: &[Object], ch
 }
 
 /// The last vertices of both paths, or the place of the image.
-fn joint(both: &BothEnds, term: &StrategyTerm, objects: &[Object]) -> String {
+fn joint(both: &BidirectionalSample, term: &StrategyTerm, objects: &[Object]) -> String {
     let light = both.light.get((term.s as usize).wrapping_sub(1));
     let camera = both.camera.get((term.t as usize).wrapping_sub(2));
     let (y, z) = (format!("y{}", term.s.wrapping_sub(1)), format!("z{}", term.t - 1));
@@ -80,7 +80,7 @@ fn joint(both: &BothEnds, term: &StrategyTerm, objects: &[Object]) -> String {
 }
 
 /// All vertices, from the light to the camera.
-fn vertices(both: &BothEnds, term: &StrategyTerm, objects: &[Object]) -> String {
+fn vertices(both: &BidirectionalSample, term: &StrategyTerm, objects: &[Object]) -> String {
     let mut lines = Vec::new();
     if term.s == 1 {
         lines.push("a light sample".to_owned());
@@ -99,7 +99,7 @@ fn vertices(both: &BothEnds, term: &StrategyTerm, objects: &[Object]) -> String 
 fn at(point: Option<&PathPoint>, objects: &[Object]) -> String {
     match point {
         Some(PathPoint { object: Some(object), .. }) => name(objects, *object),
-        Some(PathPoint { object: None, .. }) => "light or background".to_owned(),
+        Some(PathPoint { object: None, .. }) => "light or environment".to_owned(),
         None => "environment".to_owned(),
     }
 }
@@ -117,9 +117,9 @@ mod tests {
         StrategyTerm { s, t, pdf: Some(0.25), unweighted, weight: 0.5, visible: true, place, contribution: grey(contribution) }
     }
 
-    fn both() -> BothEnds {
+    fn both() -> BidirectionalSample {
         let point = |object| PathPoint { position: [0.0; 3], object };
-        BothEnds {
+        BidirectionalSample {
             light: vec![point(None), point(Some(0))],
             camera: vec![point(Some(1)), point(Some(0))],
             strategies: vec![
@@ -165,6 +165,6 @@ mod tests {
         let objects = built_in().objects.clone();
         let [first, second] = [0, 1].map(|object: usize| objects[object].name.clone());
         let told = vertices(&both(), &term(2, 3, 1.0), &objects);
-        assert_eq!(told, format!("y0 light or background\ny1 {first}\nz2 {first}\nz1 {second}\nz0 the camera"));
+        assert_eq!(told, format!("y0 light or environment\ny1 {first}\nz2 {first}\nz1 {second}\nz0 the camera"));
     }
 }

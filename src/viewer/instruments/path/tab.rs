@@ -99,7 +99,7 @@ fn path(
 
 /// Shows the terms of a sample in a width: of its strategies if there are light paths, or else of its vertices.
 fn terms(ui: &mut Ui, replay: &Replay, objects: &[Object], channel: Channel, room: f32) {
-    match &replay.both_ends {
+    match &replay.bidirectional {
         Some(both) => strategies::show(ui, both, replay.radiance, objects, channel),
         None => table::show(ui, replay, objects, channel, room),
     }

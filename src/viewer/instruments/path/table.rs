@@ -50,7 +50,7 @@ pub fn heading(ui: &mut Ui, sample: u32, replay: &Replay, channel: &mut Channel)
             .on_hover_text("Radiance of the sample: linear red, green and blue.");
         choices(ui, channel, &CHANNELS);
     });
-    match &replay.both_ends {
+    match &replay.bidirectional {
         Some(_) => ui.weak("L = Σ w C over the strategies with t ≥ 2."),
         // Nothing is shared, and yet the path alone is not the sample.
         None if replay.alone.is_some() && replay.shared.is_none() => ui.weak(

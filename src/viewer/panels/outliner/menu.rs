@@ -29,7 +29,7 @@ pub enum Action {
     AssignMaterial(Option<String>),
     /// Make a texture the colour of its material.
     AssignTexture(String),
-    /// Give the scene a background.
+    /// Give the scene an environment.
     AddEnvironment,
 }
 

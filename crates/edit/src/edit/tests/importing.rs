@@ -55,7 +55,7 @@ fn at_a_wall_it_stands_before_it_on_the_floor_and_in_the_air_below() {
 }
 
 #[test]
-fn a_sky_replaces_the_background_or_is_added() {
+fn a_sky_replaces_the_environment_or_is_added() {
     let mut document = room();
     for path in ["sky.hdr", "other.exr"] {
         let start = document.text();

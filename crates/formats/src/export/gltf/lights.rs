@@ -25,7 +25,7 @@ const WIDEST: f64 = 90.0;
 /// The format wants the inner angle of a cone to be smaller than the outer one.
 const SHARPEST: f64 = 1.0 - 1e-9;
 
-/// Adds all lights, and remarks on the background.
+/// Adds all lights, and remarks on the environment.
 pub fn all(export: &mut Export) -> Result<(), ExportError> {
     let description = export.description;
     for (number, punctual_light) in description.punctual_lights.iter().enumerate() {
@@ -33,7 +33,7 @@ pub fn all(export: &mut Export) -> Result<(), ExportError> {
     }
     if let Some(environment) = description.environment.as_ref().filter(|environment| !is_black(environment)) {
         export.at("environment".to_owned(), |export| {
-            let found = format!("a background `{}`", environment.name());
+            let found = format!("an environment `{}`", environment.name());
             export.remark(found, "nothing", "its light is missing, and what is seen behind objects is the choice of the program");
         });
     }

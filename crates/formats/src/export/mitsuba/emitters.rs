@@ -1,4 +1,4 @@
-//! Punctual lights, and the background.
+//! Punctual lights, and the environment.
 use std::f64::consts::PI;
 
 use glam::{DAffine3, DQuat, DVec3};
@@ -22,7 +22,7 @@ use noisefall_scene::{
     texture::image as texture,
 };
 
-/// Adds all lights and the background.
+/// Adds all lights and the environment.
 pub fn all(export: &mut Export) {
     let description = export.description;
     for (number, punctual_light) in description.punctual_lights.iter().enumerate() {
@@ -142,7 +142,7 @@ impl Export<'_> {
     }
 }
 
-/// The turn of a background. Mitsuba's images have their centre at +z, and ours at −z.
+/// The turn of an environment. Mitsuba's images have their centre at +z, and ours at −z.
 fn turn(image: &Image) -> DAffine3 {
     let map = product(&image.transform).unwrap_or(DAffine3::IDENTITY);
     let degrees = image.rotate - 180.0;

@@ -10,7 +10,7 @@
 //! | `shapes.rs` | shapes and the light that they emit |
 //! | `bsdfs.rs`, `glossy.rs`, `layered.rs` | materials |
 //! | `textures.rs` | colours, numbers and textures |
-//! | `emitters.rs` | lights and backgrounds |
+//! | `emitters.rs` | lights and environments |
 //! | `sensor.rs` | camera, film, sampler and integrator |
 mod bsdfs;
 mod context;

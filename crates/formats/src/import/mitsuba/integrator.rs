@@ -33,7 +33,7 @@ impl Import {
             return self.nested(element, |import| import.integrator(*inner));
         }
         if element.flag("hide_emitters", false)? {
-            self.remark_value(element, "hide_emitters", "visible lights", "the camera sees emitters and the background")?;
+            self.remark_value(element, "hide_emitters", "visible lights", "the camera sees emitters and the environment")?;
         }
         let known = estimator(element.kind());
         if known.is_none() {
@@ -50,9 +50,9 @@ impl Import {
             self.remark_value(element, "max_depth", "1", "emitters are visible")?;
         }
         self.description.render.settings.max_bounces = depth.map(|depth| depth.saturating_sub(1));
-        let both_ends = estimator.connects();
+        let bidirectional = estimator.connects();
         // The volumetric ones do not count the passage through masks, and our bidirectional paths cannot.
-        let counts = depth.is_some() && !both_ends && !element.kind().contains("vol");
+        let counts = depth.is_some() && !bidirectional && !element.kind().contains("vol");
         self.description.render.settings.count_crossings = counts;
         self.description.render.settings.estimator = estimator;
         self.description.render.settings.merging = merging;
@@ -60,7 +60,7 @@ impl Import {
             let start = u32::try_from(start).unwrap_or(0).min(1 << 16);
             self.description.render.settings.roulette = Roulette::by_throughput_from(start);
         }
-        if both_ends {
+        if bidirectional {
             // Numbers of photons, radii and mutations: how, not what.
             unread::skip(element);
         }

@@ -39,5 +39,5 @@ mod viewed_normal;
 pub(super) use self::{
     observer::{Observer, PathStart, Term},
     scatter::Scattered,
-    trace::trace_both_ends,
+    trace::trace_bidirectional,
 };

@@ -21,7 +21,7 @@ pub(in crate::integrator) struct Term<L: Lanes> {
     pub weight: F<L>,
     /// The lanes where some light arrives.
     pub seen: M<L>,
-    /// Pdf of the light sample if s = 1, per area on surfaces, per solid angle towards the background; of lights, a probability.
+    /// Pdf of the light sample if s = 1, per area on surfaces, per solid angle towards the environment; of lights, a probability.
     pub light_pdf: F<L>,
 }
 

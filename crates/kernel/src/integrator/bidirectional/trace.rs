@@ -19,7 +19,7 @@ use noisefall_base::math::Lanes;
 use noisefall_scene::light::LightRays;
 
 /// Traces one sample of every pixel of a tile from camera and light. The result is [`Batch::radiance`] and [`Batch::splats`].
-pub(in crate::integrator) fn trace_both_ends<L: Lanes, O: Observer<L>>(
+pub(in crate::integrator) fn trace_bidirectional<L: Lanes, O: Observer<L>>(
     l: L,
     work: &Work,
     rays: &LightRays,

@@ -3,7 +3,7 @@
 //!
 //! The path is traced with one lane, and a [`Follower`] reads the queues between the stages. It computes all other terms with the
 //! functions of the stages, so every term is that of the estimator, bit for bit.
-mod both_ends;
+mod bidirectional;
 mod follower;
 mod light;
 mod path_reuse;
@@ -14,9 +14,9 @@ mod visible;
 
 use serde::Serialize;
 
-use self::{both_ends::both_ends, follower::Follower};
+use self::{bidirectional::bidirectional, follower::Follower};
 pub use self::{
-    both_ends::{BothEnds, PathPoint, StrategyTerm},
+    bidirectional::{BidirectionalSample, PathPoint, StrategyTerm},
     samples::pixel_samples,
     terms::{EmitterHit, End, LightOutcome, Reflection, SampledLight, SharedLight, Surface, Vertex},
     visible::seen_by_camera,
@@ -41,7 +41,7 @@ pub struct Replay {
     /// The paths that pixels share in this sample, if they do.
     pub shared: Option<SharedLight>,
     /// The bidirectional paths, if there are light paths and nothing is merged.
-    pub both_ends: Option<BothEnds>,
+    pub bidirectional: Option<BidirectionalSample>,
     /// Vertices of the camera path in order. The contributions of their emission and of their light samples add up to the
     /// radiance, or to `alone` if there is one.
     pub vertices: Vec<Vertex>,
@@ -56,8 +56,8 @@ pub fn replay(scene: &Scene, rays: &CameraRays, settings: &RenderSettings, pixel
         let replay = replay(scene, rays, &from_camera, pixel, sample);
         let (work, place) = work_of(scene, rays, settings, pixel, sample);
         let mut batch = Batch::default();
-        let both_ends = both_ends(&work, &mut batch);
-        return Replay { radiance: radiance_at(&batch, place), alone: Some(replay.radiance), both_ends, ..replay };
+        let bidirectional = bidirectional(&work, &mut batch);
+        return Replay { radiance: radiance_at(&batch, place), alone: Some(replay.radiance), bidirectional, ..replay };
     }
     let one = Work::tile(scene, rays, settings, pixel, [1, 1], sample);
     let work = if one.shares() { one.whole_tile() } else { one };
@@ -78,7 +78,7 @@ pub fn replay(scene: &Scene, rays: &CameraRays, settings: &RenderSettings, pixel
         let from_neighbours = [0, 1, 2].map(|c| (radiance[c] - unshared[c] - kept[c]).max(0.0));
         SharedLight { unshared, kept, from_neighbours }
     });
-    let mut replay = Replay { radiance, alone, shared, both_ends: None, vertices: follower.vertices, end };
+    let mut replay = Replay { radiance, alone, shared, bidirectional: None, vertices: follower.vertices, end };
     if let Ok(Some(thresholds)) = thresholds(SimdLevel::best(), &one.whole_tile(), &mut batch, &|| false) {
         path_reuse::share(&mut replay, &thresholds, scene, rays, settings, (pixel, sample));
     }

@@ -129,7 +129,7 @@ pub struct SharedLight {
 pub struct SampledLight {
     /// Unit direction towards the light.
     pub direction: [f32; 3],
-    /// Index of the sampled object; `None` for the background and for punctual lights.
+    /// Index of the sampled object; `None` for the environment and for punctual lights.
     pub object: Option<u32>,
     /// Name of the sampled punctual light.
     pub punctual_light: Option<String>,

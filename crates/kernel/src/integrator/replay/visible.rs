@@ -54,7 +54,7 @@ mod tests {
     use noisefall_scene::scene::{Projection, parse};
 
     /// A wall behind a small screen, both seen from the front, and light from everywhere.
-    const SCENE: &str = "format = 1\nbackground.radiance = 1\n\
+    const SCENE: &str = "format = 1\nenvironment.radiance = 1\n\
         [camera]\neye = [0, 0, 4]\nlook_at = [0, 0, 0]\nfov = 60\nresolution = [32, 32]\n\
         [materials.white]\nlambertian.albedo = 0.8\n\
         [[objects]]\nshape.rectangle = { origin = [-9, -9, 0], edge_u = [18, 0, 0], edge_v = [0, 18, 0] }\nmaterial = \"white\"\n\

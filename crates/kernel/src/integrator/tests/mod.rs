@@ -12,7 +12,7 @@ use noisefall_scene::{
     scene::{Estimator, RenderSettings, Reuse, Roulette, Scene, parse},
 };
 
-/// A scene that samples everything: a lens, motion, lobes, opacity, blends, lights and a background image.
+/// A scene that samples everything: a lens, motion, lobes, opacity, blends, lights and an environment image.
 fn scene() -> Scene {
     let text = format!(
         "format = 1

@@ -8,7 +8,7 @@ use noisefall_scene::scene::parse;
 fn a_blend_by_side_shows_each_side_its_material() {
     let radiance = |z: f64, flip: bool| {
         let text = format!(
-            "format = 1\nbackground.radiance = 1\n\
+            "format = 1\nenvironment.radiance = 1\n\
              camera = {{ eye = [0, 0, {z}], look_at = [0, 0, 0], fov = 5, resolution = [8, 8] }}\n\
              materials.dark.lambertian.albedo = 0.25\nmaterials.gold.conductor.reflectance = 0.75\n\
              materials.top.blend = {{ first = 'dark', second = 'gold', by_side = true }}\n\

@@ -116,7 +116,7 @@ impl Exhibits<'_> {
             ]
         };
         Table {
-            name: format!("equal_time_{}", setting.name()),
+            name: format!("equal_time_{}", setting.name().replace(' ', "_")),
             caption: self.caption_of_equal_time(setting, findings, time),
             columns: columns(setting, &["samples after T", "error after T, %", "efficiency", "from", "to"]),
             rows: findings.outcomes.iter().map(row).collect(),

@@ -77,7 +77,7 @@ pub fn section(validation: &Validation) -> Section {
         title: "Energy",
         claim: "A surface that absorbs nothing is invisible in a uniform field: it neither gains nor loses light at any angle or roughness. The BSDF is reciprocal.",
         derivation: &[
-            "In a uniform field of radiance 1 a lossless surface has L/n² = 1 in every direction, so the radiance is 1 outside and n² inside glass. A ball of any lossless material is invisible against the background. At the edge of the ball it is seen at grazing \
+            "In a uniform field of radiance 1 a lossless surface has L/n² = 1 in every direction, so the radiance is 1 outside and n² inside glass. A ball of any lossless material is invisible against the environment. At the edge of the ball it is seen at grazing \
              angles. Light is reflected and refracted many times in a glass ball; all contributions add up to 1.",
             "Rough surfaces lose the light that scatters more than once between microfacets, unless energy compensation restores it from interpolated tables. The interpolation changes the light of a metal by up to 3 · 10⁻⁴. Renders of rough surfaces therefore allow an error of 10⁻³ besides the noise, and detect nothing smaller. Rows by quadrature, which has no noise, state the actual error. Smooth surfaces allow rounding only.",
             "Helmholtz reciprocity: f(ω_i, ω_o) = f(ω_o, ω_i) for every pair of directions on the same side.",

@@ -108,7 +108,7 @@ fn render(
         _ => 1.0,
     };
     if scene.traces_light_paths(settings) {
-        return render_both_ends(scene, settings, rays, trial_scene, exact, start);
+        return render_bidirectional(scene, settings, rays, trial_scene, exact, start);
     }
     for sample in 0..trial_scene.spp {
         let work = Work::tile(scene, rays, settings, [0, 0], size, sample);
@@ -141,7 +141,7 @@ fn render(
 
 /// Renders the scene with light paths, too. Only means are known, and that of an image is a single value, as its pixels depend on
 /// each other.
-fn render_both_ends(
+fn render_bidirectional(
     scene: &Scene,
     settings: &RenderSettings,
     rays: &CameraRays,

@@ -1,6 +1,6 @@
 //! Vertex merging of the estimator `bidirectional`.
 use super::{
-    both_ends::{BALL, SETTINGS, mean, scene},
+    bidirectional::{BALL, SETTINGS, mean, scene},
     noise::shipped,
 };
 use crate::render::{
@@ -62,7 +62,7 @@ fn a_replayed_sample_has_the_light_of_its_tile() {
     let rays = scene.rays(&scene.camera);
     let pixel = [TILE + 2, 5];
     let [merged, connected] = [MERGED, CONNECTED].map(|settings| replay(&scene, &rays, &settings, pixel, 2));
-    assert!(merged.both_ends.is_none() && connected.both_ends.is_some());
+    assert!(merged.bidirectional.is_none() && connected.bidirectional.is_some());
     assert!(merged.radiance != connected.radiance && merged.alone == connected.alone);
 }
 

@@ -1,5 +1,5 @@
 //! Film, frames and their noise estimates, with known samples.
-mod both_ends;
+mod bidirectional;
 mod denoise;
 mod film;
 mod frame;

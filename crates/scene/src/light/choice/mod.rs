@@ -62,7 +62,7 @@ pub struct LightSample<L: Lanes> {
     /// Pdf of `wi` per solid angle, including the probability of choosing the light; 0 if there is no light. For a light without
     /// surface, that probability alone.
     pub pdf: F<L>,
-    /// The light, or [`MISS`] for the background: see [`Lights::arrives`].
+    /// The light, or [`MISS`] for the environment: see [`Lights::arrives`].
     pub target: U<L>,
 }
 
@@ -110,7 +110,7 @@ impl Lights {
         lights
     }
 
-    /// The number of the light at a triangle of a primitive, [`MISS`] for the background. A primitive that does not emit has a number
+    /// The number of the light at a triangle of a primitive, [`MISS`] for the environment. A primitive that does not emit has a number
     /// that no light has: its own could be that of a punctual light.
     #[inline(always)]
     pub fn light_at<L: Lanes>(&self, l: L, primitive: U<L>, element: U<L>) -> U<L> {
@@ -159,7 +159,7 @@ impl Lights {
         !self.can_be_hit() && self.punctual_lights.is_empty()
     }
 
-    /// Whether rays can hit a light: an emitting surface or the background.
+    /// Whether rays can hit a light: an emitting surface or the environment.
     pub fn can_be_hit(&self) -> bool {
         self.count > 0 || self.environment.is_some()
     }
@@ -174,12 +174,12 @@ impl Lights {
         (self.are_several() || self.have_even_sky()) && self.selection.is_without_tree()
     }
 
-    /// Whether the background is sampled by cells.
+    /// Whether the environment is sampled by cells.
     pub fn have_cells(&self) -> bool {
         self.environment.as_ref().is_some_and(Environment::has_cells)
     }
 
-    /// Whether the background is sampled like a diffuse surface, and not at all at narrow lobes.
+    /// Whether the environment is sampled like a diffuse surface, and not at all at narrow lobes.
     pub fn have_even_sky(&self) -> bool {
         self.environment.as_ref().is_some_and(Environment::is_even)
     }
@@ -228,7 +228,7 @@ impl Lights {
     }
 
     /// The pdf of [`Lights::sample`] for the direction `wi` per solid angle. `target` is the first hit along `wi`, with the
-    /// primitive [`MISS`] for the background.
+    /// primitive [`MISS`] for the environment.
     #[inline(always)]
     pub fn pdf<L: Lanes>(&self, l: L, shapes: &Shapes, at: &ReferencePoint<L>, wi: V<L>, target: &PrimitiveRef<L>) -> F<L> {
         let sky = target.primitive.is(MISS);

@@ -1,7 +1,7 @@
 //! Light that leaves its source: a light, a point of it, and a direction.
 //!
 //! A light is chosen in proportion to an estimate of its flux. Points of surfaces are sampled by area and their directions by the cosine.
-//! Light from far away, of backgrounds and directional lights, enters through a disk that is as large as the scene.
+//! Light from far away, of environments and directional lights, enters through a disk that is as large as the scene.
 use std::f32::consts::FRAC_1_PI;
 
 use fearless_simd_macros::simd;
@@ -34,9 +34,9 @@ pub struct RayCoordinates<L: Lanes> {
     pub choice: (F<L>, F<L>),
     /// The point of the surface or of the disk.
     pub place: (F<L>, F<L>),
-    /// The direction, of image backgrounds within its cell.
+    /// The direction, of image environments within its cell.
     pub direction: (F<L>, F<L>),
-    /// The cell of an image background.
+    /// The cell of an image environment.
     pub cell: (F<L>, F<L>),
     /// The side of a surface that emits on both.
     pub side: F<L>,
@@ -73,7 +73,7 @@ impl LightRays {
     const MOST: usize = 1 << 23;
 
     /// Builds the table for a scene with this bounding sphere. `starts` are the media around all lights with a surface, all lights without
-    /// one and the background, as paths carry them; `None` where no path starts. `None` if no path starts at any light, or if there are too many.
+    /// one and the environment, as paths carry them; `None` where no path starts. `None` if no path starts at any light, or if there are too many.
     pub fn new(lights: &Lights, starts: &[Option<u32>], center: DVec3, radius: f64) -> Option<LightRays> {
         let disk = std::f64::consts::PI * radius * radius;
         let punctual_light = |number: usize| {
@@ -220,7 +220,7 @@ impl LightRays {
         self.surface_density(l, lights, shapes, chance, &place, point).0
     }
 
-    /// The light density of the background in the direction `d` towards it.
+    /// The light density of the environment in the direction `d` towards it.
     #[simd]
     pub fn density_of_environment<L: Lanes>(&self, l: L, lights: &Lights, d: V<L>) -> F<L> {
         let Some(environment) = &lights.environment else { return l.f(0.0) };

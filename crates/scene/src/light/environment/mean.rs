@@ -1,4 +1,4 @@
-//! The mean colour of a background.
+//! The mean colour of an environment.
 use std::f64::consts::{PI, TAU};
 
 use glam::DVec3;

@@ -1,6 +1,6 @@
-//! The background: radiance along rays that hit no surface.
+//! The environment: radiance along rays that hit no surface.
 //!
-//! A background is one file and one line of the catalogue below. Its file holds the description, with its parameters, and the
+//! An environment is one file and one line of the catalogue below. Its file holds the description, with its parameters, and the
 //! [`Radiant`] that the renderer looks up.
 pub mod constant;
 pub mod image;
@@ -13,15 +13,15 @@ use noisefall_base::{
     math::{F, Lanes, V},
 };
 
-macro_rules! backgrounds {
+macro_rules! environments {
     ($($module:ident::$Kind:ident),+ $(,)?) => {
         noisefall_base::declare::catalogue! {
-            /// The background as a scene describes it.
+            /// The environment as a scene describes it.
             pub enum EnvironmentDescription: Declare, "environment" { $($module::$Kind),+ }
         }
 
         impl EnvironmentDescription {
-            /// The background as the renderer looks it up; `None` if it is black.
+            /// The environment as the renderer looks it up; `None` if it is black.
             pub fn compile(&self, resources: &Resources) -> Result<Option<Environment>, Problem> {
                 match self {
                     $(EnvironmentDescription::$Kind(kind) => kind.compile(resources).map(|found| found.map(Environment::$Kind))),+
@@ -29,10 +29,10 @@ macro_rules! backgrounds {
             }
         }
 
-        /// The background as the renderer looks it up. Radiance in W·sr⁻¹·m⁻², linear Rec. 709.
+        /// The environment as the renderer looks it up. Radiance in W·sr⁻¹·m⁻², linear Rec. 709.
         pub enum Environment {
             $(
-                #[doc = concat!("The background in `", stringify!($module), ".rs`.")]
+                #[doc = concat!("The environment in `", stringify!($module), ".rs`.")]
                 $Kind(<$module::$Kind as Surrounding>::Radiant)
             ),+
         }
@@ -47,7 +47,7 @@ macro_rules! backgrounds {
             }
         }
 
-        macro_rules! in_background {
+        macro_rules! in_environment {
             ($environment:expr, $radiant:ident => $call:expr) => {
                 match $environment {
                     $(Environment::$Kind($radiant) => $call),+
@@ -57,7 +57,7 @@ macro_rules! backgrounds {
     };
 }
 
-backgrounds! {
+environments! {
     constant::Constant,
     image::Image,
     sky::Sky,
@@ -68,7 +68,7 @@ pub trait Surrounding: Kind {
     /// The form that the renderer looks up.
     type Radiant: Radiant;
 
-    /// The background as the renderer looks it up; `None` if it is black.
+    /// The environment as the renderer looks it up; `None` if it is black.
     fn compile(&self, resources: &Resources) -> Result<Option<Self::Radiant>, Problem>;
 }
 
@@ -106,37 +106,37 @@ impl Environment {
     /// Radiance from the unit direction `d`.
     #[inline(always)]
     pub fn radiance<L: Lanes>(&self, l: L, d: V<L>) -> V<L> {
-        in_background!(self, environment => Radiant::radiance(environment, l, d))
+        in_environment!(self, environment => Radiant::radiance(environment, l, d))
     }
 
-    /// Samples a unit direction, and returns it with its pdf per solid angle. Only backgrounds that [have cells](Self::has_cells) read
+    /// Samples a unit direction, and returns it with its pdf per solid angle. Only environments that [have cells](Self::has_cells) read
     /// `cell`.
     #[inline(always)]
     pub(super) fn sample<L: Lanes>(&self, l: L, at: &ReferencePoint<L>, cell: (F<L>, F<L>), u: (F<L>, F<L>)) -> (V<L>, F<L>) {
-        in_background!(self, environment => Radiant::sample(environment, l, at, cell, u))
+        in_environment!(self, environment => Radiant::sample(environment, l, at, cell, u))
     }
 
     /// The pdf of [`Background::sample`] at the unit direction `wi`, per solid angle.
     #[inline(always)]
     pub(super) fn pdf<L: Lanes>(&self, l: L, at: &ReferencePoint<L>, wi: V<L>) -> F<L> {
-        in_background!(self, environment => Radiant::pdf(environment, l, at, wi))
+        in_environment!(self, environment => Radiant::pdf(environment, l, at, wi))
     }
 
     /// Samples a unit direction from which light enters the scene, and returns it with its pdf per solid angle.
     #[inline(always)]
     pub(super) fn sample_inwards<L: Lanes>(&self, l: L, cell: (F<L>, F<L>), u: (F<L>, F<L>)) -> (V<L>, F<L>) {
-        in_background!(self, environment => Radiant::sample_inwards(environment, l, cell, u))
+        in_environment!(self, environment => Radiant::sample_inwards(environment, l, cell, u))
     }
 
     /// The pdf of [`Background::sample_inwards`] at the unit direction `d`, per solid angle.
     #[inline(always)]
     pub(super) fn pdf_inwards<L: Lanes>(&self, l: L, d: V<L>) -> F<L> {
-        in_background!(self, environment => Radiant::pdf_inwards(environment, l, d))
+        in_environment!(self, environment => Radiant::pdf_inwards(environment, l, d))
     }
 
     /// Mean luminance over all directions.
     pub fn luminance(&self) -> f32 {
-        in_background!(self, environment => environment.luminance())
+        in_environment!(self, environment => environment.luminance())
     }
 
     /// Whether samples read the coordinates of a cell.
@@ -144,7 +144,7 @@ impl Environment {
         fn has_cells<R: Radiant>(_: &R) -> bool {
             R::HAS_CELLS
         }
-        in_background!(self, environment => has_cells(environment))
+        in_environment!(self, environment => has_cells(environment))
     }
 
     /// Whether samples are distributed like those of a diffuse surface; narrow lobes then take none.
@@ -152,7 +152,7 @@ impl Environment {
         fn is_even<R: Radiant>(_: &R) -> bool {
             R::IS_EVEN
         }
-        in_background!(self, environment => is_even(environment))
+        in_environment!(self, environment => is_even(environment))
     }
 }
 

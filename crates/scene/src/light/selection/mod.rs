@@ -36,7 +36,7 @@ const MOST_CANDIDATES: usize = if FEW > LARGE + HEADS { FEW } else { LARGE + HEA
 /// The tree needs some heads beside the lights that are weighted one by one.
 const _: () = assert!(LARGE + MOST_DIRECTIONAL + 8 <= MOST_CANDIDATES);
 
-/// The background, as a light.
+/// The environment, as a light.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Sky {
     /// Its mean luminance.
@@ -45,7 +45,7 @@ pub(super) struct Sky {
     pub is_even: bool,
 }
 
-/// The candidates of a choice: the background, the lights that are weighted one by one, and the heads of the tree.
+/// The candidates of a choice: the environment, the lights that are weighted one by one, and the heads of the tree.
 #[derive(Default)]
 pub(super) struct Selection {
     sky: Sky,
@@ -94,7 +94,7 @@ impl Selection {
         self.tree.is_empty()
     }
 
-    /// The weight of the background.
+    /// The weight of the environment.
     #[inline(always)]
     fn sky<L: Lanes>(&self, l: L, at: &ReferencePoint<L>) -> F<L> {
         let Sky { luminance, is_even } = self.sky;
@@ -103,7 +103,7 @@ impl Selection {
         if is_even { lobe.is_narrow().pick(l.f(0.0), weight) } else { weight }
     }
 
-    /// Chooses a light, or [`MISS`] for the background, and returns it with its probability.
+    /// Chooses a light, or [`MISS`] for the environment, and returns it with its probability.
     #[simd]
     pub fn choose<L: Lanes>(&self, l: L, at: &ReferencePoint<L>, u: &LightCoordinates<L>) -> (U<L>, F<L>) {
         let chosen = if self.words.len() <= VERY_FEW {
@@ -144,7 +144,7 @@ impl Selection {
         LightChoice { word, pmf, u: ((place - begin) / chosen).max(l.f(0.0)).min(l.f(1.0 - f32::EPSILON)) }
     }
 
-    /// The probability that [`Selection::choose`] chooses the light `target` in the lanes of `emits`, and the background in the
+    /// The probability that [`Selection::choose`] chooses the light `target` in the lanes of `emits`, and the environment in the
     /// others.
     #[simd]
     pub fn probability<L: Lanes>(&self, l: L, at: &ReferencePoint<L>, emits: M<L>, target: U<L>) -> F<L> {
@@ -175,7 +175,7 @@ impl Selection {
 
 /// A chosen candidate.
 struct LightChoice<L: Lanes> {
-    /// [`MISS`] for the background.
+    /// [`MISS`] for the environment.
     word: U<L>,
     pmf: F<L>,
     /// The remainder of the random number, uniform in (0, 1).

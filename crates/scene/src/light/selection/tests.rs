@@ -58,12 +58,12 @@ impl Set {
         Selection::new(&lights, &self.punctual_lights, self.sky, DVec3::ZERO)
     }
 
-    /// Number of lights without the background.
+    /// Number of lights without the environment.
     fn count(&self) -> usize {
         self.shapes.len() + self.punctual_lights.len()
     }
 
-    /// Probabilities of all lights, and last of the background.
+    /// Probabilities of all lights, and last of the environment.
     fn pmf(&self, selection: &Selection, at: &ReferencePoint<One>) -> Vec<f64> {
         let lights = (0..self.count() as u32).map(|light| selection.probability(One, at, M(true), U(light)));
         lights.chain([selection.probability(One, at, M(false), U(MISS))]).map(|pmf| f64::from(pmf.0)).collect()

@@ -140,7 +140,7 @@ mod tests {
 
     fn scene(materials: &str) -> Result<Scene, SceneError> {
         let text = format!(
-            "format = 1\nbackground.radiance = 1\n\
+            "format = 1\nenvironment.radiance = 1\n\
              camera = {{ eye = [0, 0, 9], look_at = [0, 0, 0], fov = 60, resolution = [8, 8] }}\n{materials}\n\
              [[objects]]\nshape.sphere = {{ center = [0, 0, 0], radius = 1 }}\nmaterial = 'top'"
         );

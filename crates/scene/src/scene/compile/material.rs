@@ -105,7 +105,7 @@ mod tests {
     fn a_sheet_may_not_scatter_more_than_it_receives() {
         let refused = |material: &str| {
             let text = format!(
-                "format = 1\nbackground.radiance = 1\n\
+                "format = 1\nenvironment.radiance = 1\n\
                  camera = {{ eye = [0, 0, 9], look_at = [0, 0, 0], fov = 60, resolution = [8, 8] }}\n\
                  textures.squares.checker = {{ even = 0.2, odd = 0.6, scale = 2 }}\nmaterials.leaf.diffuse_transmission = {material}"
             );

@@ -73,7 +73,7 @@ mod tests {
     /// A ball of the material `top`.
     fn scene(materials: &str) -> Scene {
         let text = format!(
-            "format = 1\nbackground.radiance = 1\n\
+            "format = 1\nenvironment.radiance = 1\n\
              camera = {{ eye = [0, 0, 9], look_at = [0, 0, 0], fov = 60, resolution = [8, 8] }}\n\
              textures.squares.checker = {{ even = 0.25, odd = 0.75, scale = 4 }}\n\
              textures.noise.noise = {{ scale = 3.0, octaves = 2, low = 0.1, high = 0.9 }}\n\

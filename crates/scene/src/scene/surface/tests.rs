@@ -16,7 +16,7 @@ fn scene(balls: &[(&str, &str)]) -> Scene {
         )
     };
     let text = format!(
-        "format = 1\ncamera = {{ eye = [0, 0, 9], look_at = [0, 0, 0], fov = 60, resolution = [8, 8] }}\nbackground.radiance = 1\n\
+        "format = 1\ncamera = {{ eye = [0, 0, 9], look_at = [0, 0, 0], fov = 60, resolution = [8, 8] }}\nenvironment.radiance = 1\n\
          textures.squares.checker = {{ even = 0.2, odd = 0.4, scale = 2 }}\n{}",
         balls.iter().enumerate().map(ball).collect::<String>()
     );

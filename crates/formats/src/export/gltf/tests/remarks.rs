@@ -82,7 +82,7 @@ fn each_loss_of_shapes_light_and_camera_is_a_remark() {
                 .to_owned(),
             "textures of a mesh without coordinates",
         ),
-        (object(square) + "[environment]\nsky = { sun = [1, 1, 1] }\n", "a background `sky`"),
+        (object(square) + "[environment]\nsky = { sun = [1, 1, 1] }\n", "an environment `sky`"),
         (object(square) + "[render]\nmax_bounces = 3\n", "`max_bounces` 3"),
         (object(square) + "[camera.lens]\nradius = 0.1\nfocus = 4\n", "`lens`"),
     ] {

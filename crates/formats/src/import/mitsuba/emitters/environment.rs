@@ -22,7 +22,7 @@ use noisefall_scene::{
 
 fn set(import: &mut Import, element: Element, environment: impl Into<EnvironmentDescription>) {
     if import.description.environment.is_some() {
-        import.remark(element, "this background alone", "the light of the first background is missing");
+        import.remark(element, "this environment alone", "the light of the first environment is missing");
     }
     import.description.environment = Some(environment.into());
 }
@@ -30,7 +30,7 @@ fn set(import: &mut Import, element: Element, environment: impl Into<Environment
 pub fn constant(import: &mut Import, element: Element) -> Result<(), SceneError> {
     element.ignore(&["to_world"]);
     let Textured::Constant(radiance) = import.colour(element, "radiance", 1.0, Role::Emission)? else {
-        return Err(element.error("the radiance of a constant background cannot be a texture", "use an `envmap`"));
+        return Err(element.error("the radiance of a constant environment cannot be a texture", "use an `envmap`"));
     };
     if radiance == [0.0; 3] {
         dark::leave_out(import, element);

@@ -1,4 +1,4 @@
-//! Lights, backgrounds and surfaces that emit.
+//! Lights, environments and surfaces that emit.
 use glam::DVec3;
 
 use super::{SENSOR, object, read_with, remarks, scene};

@@ -129,7 +129,7 @@ fn the_depth_of_paths_counts_edges() {
 }
 
 #[test]
-fn photons_become_merged_vertices_and_mutations_paths_from_both_ends() {
+fn photons_become_merged_vertices_and_mutations_bidirectional_paths() {
     let settings = |kind: &str| {
         let found =
             scene(&format!("<integrator type=\"{kind}\"><integer name=\"photonCount\" value=\"9\"/></integrator>{SENSOR}"));

@@ -29,7 +29,7 @@ use noisefall_scene::{
 pub const SIZE: u32 = 8;
 /// The file of the scenes.
 pub const FILE: &str = "covering.toml";
-/// The key of the background.
+/// The key of the environment.
 const ENVIRONMENT: &str = "environment";
 /// Factor of the emitter's radiance.
 const BRIGHT: f64 = 6.0;
@@ -105,17 +105,17 @@ impl Frame {
         describe(&self.description, &self.factors, &self.materials, row)
     }
 
-    /// A scene that compiled without a background, and the tables of many.
+    /// A scene that compiled without an environment, and the tables of many.
     pub fn known(&self) -> Arc<Scene> {
         self.known.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
-    /// The levels that make the background, which takes longer to compile than the rest.
+    /// The levels that make the environment, which takes longer to compile than the rest.
     pub fn levels_of_environment(&self, row: &Row) -> Row {
         self.factors.iter().zip(row).map(|(factor, level)| level.filter(|_| is_of_environment(factor))).collect()
     }
 
-    /// Whether the scene of a row is refused. The background can be combined with everything.
+    /// Whether the scene of a row is refused. The environment can be combined with everything.
     fn refuses(&self, row: &Row) -> bool {
         let description = SceneDescription { environment: None, ..self.describe(row) };
         let built = Arc::new(description).rebuild(Path::new(""), &self.known(), Precision::Exact);

@@ -26,7 +26,7 @@ pub fn section(strength: Strength, message: &(dyn Fn(&str) + Sync)) -> (Section,
         },
         derivation: &[
             "What can vary in a scene is read from the declarations: the kinds of materials, textures, shapes, transforms, lights, \
-             emission, backgrounds and cameras, every parameter that may be a texture, every option of the render. A covering array has \
+             emission, environments and cameras, every parameter that may be a texture, every option of the render. A covering array has \
              few scenes in which all pairs, or all triples, of their levels appear. Numbers are changed by chance. What cannot be combined, \
              such as a lens and parallel rays, is found by compiling the scene, and listed.",
             "Each scene has the same image at every SIMD level. Its samples are those of their replays, and add up to the pixel. Edits are \

@@ -93,7 +93,7 @@ fn bright(dice: &mut Dice) -> TrialScene {
     let camera = camera_at(dice, eye, 3.0);
     let estimator = dice.pick(&Estimator::ALL).name();
     let text = format!(
-        "camera = {{ {camera} }}\nrender.estimator = '{estimator}'\nbackground.radiance = {:?}\n\
+        "camera = {{ {camera} }}\nrender.estimator = '{estimator}'\nenvironment.radiance = {:?}\n\
          materials.grey.lambertian.albedo = 0.9\nmaterials.gold.conductor = {{ f0 = [1.0, 0.8, 0.3], alpha = {:?} }}\n\
          [[objects]]\n{}\nmaterial = '{}'\n{punctual_lights}",
         dice.pick(&[0.0, 1e-9, 1e9]),

@@ -73,7 +73,7 @@ fn declared(dice: &mut Dice) -> TrialScene {
     let settings = drawn::settings(dice);
     let objects: String = (0..1 + dice.below(8)).map(|_| object(dice, drawn::shape, "kind", count)).collect();
     let text = format!(
-        "camera = {{ {} }}\nrender = {settings}\nbackground.radiance = 1.0\n{TEXTURES}{materials}{objects}",
+        "camera = {{ {} }}\nrender = {settings}\nenvironment.radiance = 1.0\n{TEXTURES}{materials}{objects}",
         camera(dice)
     );
     TrialScene { spp: 4, ..TrialScene::of(text, Expected::Valid) }

@@ -34,7 +34,7 @@ const CASES: [(&str, &[&str]); 26] = [
         "camera = { CAMERA, fov = 40.0, resolution = [8, 8], filter = { gaussian = { sigma = X } } }",
         &["0.0", "-1.0", "1e3", "nan"],
     ),
-    ("VIEW\nbackground.radiance = X", &["-1.0", "1e16", "nan", "inf", "'white'"]),
+    ("VIEW\nenvironment.radiance = X", &["-1.0", "1e16", "nan", "inf", "'white'"]),
     ("VIEW\nmaterials.m.lambertian.albedo = X", &["-0.1", "1.000001", "nan", "inf", "[1.0, 1.0]", "{ texture = 'none' }"]),
     ("VIEW\nmaterials.m.mirror.reflectance = X", &["-0.1", "2.0", "nan"]),
     ("VIEW\nmaterials.m.dielectric.ior = X", &["0.0", "-1.5", "1e9", "nan", "inf"]),

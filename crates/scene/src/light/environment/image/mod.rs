@@ -1,4 +1,4 @@
-//! The background as an equirectangular image of all directions: columns are azimuths, rows are polar angles.
+//! The environment as an equirectangular image of all directions: columns are azimuths, rows are polar angles.
 //!
 //! World space has y up. The top edge (v = 0) is straight up, the bottom edge straight down, and the middle column (u = ½) faces
 //! −z with +x to its right, as seen by a camera that looks along −z. An alias table over equal cells of u and v samples a cell by
@@ -98,7 +98,7 @@ impl Surrounding for Image {
                 resources.reserve("image", "the texels and cells of a sky", bytes)?;
                 let tables = SkyTables::new(picture, self.scale as f32, self.pole_rows);
                 if tables.mean_luminance() == 0.0 {
-                    return Err(Problem::at("image", "a background of zero power: the image is black", "it emits nothing"));
+                    return Err(Problem::at("image", "an environment of zero power: the image is black", "it emits nothing"));
                 }
                 Ok(tables)
             })?;

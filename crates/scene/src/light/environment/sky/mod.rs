@@ -2,7 +2,7 @@
 //!
 //! A. Preetham, P. Shirley and B. Smits, "A Practical Analytic Model for Daylight", SIGGRAPH 1999: of a sun at the horizon, only the part
 //! of the disk above it shines. The sky of a sun below the horizon is that of a sun on the horizon: the model knows no twilight. It is
-//! meant for turbidities from 2 to 6; smaller ones count as 2. Hosek and Wilkie: see `hosek.rs`. Below the horizon the background is
+//! meant for turbidities from 2 to 6; smaller ones count as 2. Hosek and Wilkie: see `hosek.rs`. Below the horizon the environment is
 //! black.
 //!
 //! | file | holds |

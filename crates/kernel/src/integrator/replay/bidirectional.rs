@@ -3,7 +3,7 @@ use serde::Serialize;
 
 use crate::integrator::{
     batch::Batch,
-    bidirectional::{Observer, PathStart, Scattered, Term, trace_both_ends},
+    bidirectional::{Observer, PathStart, Scattered, Term, trace_bidirectional},
     interaction::SurfaceInteraction,
     surface::Arrival,
     work::Work,
@@ -16,7 +16,7 @@ use noisefall_scene::{
 
 /// The paths of a sample from its light and from the camera, and the light that their strategies find.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
-pub struct BothEnds {
+pub struct BidirectionalSample {
     /// y₀, where light starts, and the surfaces after it; empty if no light leaves.
     pub light: Vec<PathPoint>,
     /// z₁, the first surface that the camera sees, and those after it.
@@ -30,7 +30,7 @@ pub struct BothEnds {
 pub struct PathPoint {
     /// Metres. Of light from far away, a point outside of the scene.
     pub position: [f32; 3],
-    /// Index of the object; `None` for the background and for punctual lights.
+    /// Index of the object; `None` for the environment and for punctual lights.
     pub object: Option<u32>,
 }
 
@@ -42,7 +42,7 @@ pub struct StrategyTerm {
     /// Number of vertices from the camera, z₀ at its lens included.
     pub t: u32,
     /// Pdf of the vertices with respect to area, in m⁻² each, and per steradian for light from far away, summed over the paths of all pixels
-    /// that could find the same. Delta directions, roulette, opacity and blends count as 1. `None` for a background that the camera sees.
+    /// that could find the same. Delta directions, roulette, opacity and blends count as 1. `None` for an environment that the camera sees.
     pub pdf: Option<f64>,
     /// Unweighted contribution of this strategy, f/p.
     pub unweighted: [f32; 3],
@@ -58,15 +58,15 @@ pub struct StrategyTerm {
 
 /// Replays the bidirectional paths of a batch of one pixel; `None` if there are no light paths. Merges take over light of other
 /// pixels: with them only the batch is traced.
-pub(super) fn both_ends(work: &Work, batch: &mut Batch) -> Option<BothEnds> {
+pub(super) fn bidirectional(work: &Work, batch: &mut Batch) -> Option<BidirectionalSample> {
     let rays = work.scene.light_rays(work.settings)?;
     if work.scene.merges(work.settings) {
-        let finished = trace_both_ends(One, work, rays, batch, &|| false, &mut ());
+        let finished = trace_bidirectional(One, work, rays, batch, &|| false, &mut ());
         debug_assert_eq!(finished, Ok(()));
         return None;
     }
-    let mut recorder = Recorder { work, rays, both: BothEnds::default(), ends: Default::default() };
-    let finished = trace_both_ends(One, work, rays, batch, &|| false, &mut recorder);
+    let mut recorder = Recorder { work, rays, both: BidirectionalSample::default(), ends: Default::default() };
+    let finished = trace_bidirectional(One, work, rays, batch, &|| false, &mut recorder);
     debug_assert_eq!(finished, Ok(()));
     Some(recorder.both)
 }
@@ -119,7 +119,7 @@ impl Subpath {
 struct Recorder<'a, 'w> {
     work: &'a Work<'w>,
     rays: &'a LightRays,
-    both: BothEnds,
+    both: BidirectionalSample,
     /// From the light and from the camera.
     ends: [Subpath; 2],
 }

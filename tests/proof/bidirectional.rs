@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_1_PI, PI};
 use glam::{DVec3, Vec3};
 use noisefall_base::math::SimdLevel;
 use noisefall_kernel::integrator::{
-    Batch, BothEnds, PathPoint, Replay, Splat, StrategyTerm, TILE, Work, pixel_samples, replay, trace,
+    Batch, BidirectionalSample, PathPoint, Replay, Splat, StrategyTerm, TILE, Work, pixel_samples, replay, trace,
 };
 use noisefall_scene::scene::{Camera, Estimator, RenderSettings, Reuse, Scene};
 
@@ -80,7 +80,7 @@ fn the_terms_of_the_strategies_add_up_to_the_samples_of_the_renderer_bit_for_bit
         assert_eq!(trace(SimdLevel::best(), &tile, &mut batch, &|| false), Ok(()));
         let (mut connected, mut splats) = (0, 0);
         for [x, y] in (0..TILE).step_by(3).flat_map(|y| (0..TILE).step_by(5).map(move |x| [x, y])) {
-            let Replay { radiance, both_ends: Some(both), .. } = replay(&scene, &rays, &settings, [x, y], 3) else {
+            let Replay { radiance, bidirectional: Some(both), .. } = replay(&scene, &rays, &settings, [x, y], 3) else {
                 panic!("{} traces light paths", estimator.name())
             };
             let [r, g, b, _] = batch.radiance()[(y * TILE + x) as usize];
@@ -152,7 +152,9 @@ fn pdfs_and_weights_are_those_of_the_closed_forms() {
     let mut tested = [0; 2];
     for sample in 0..20 {
         for pixel in [[4, 20], [12, 25], [16, 14], [22, 20], [28, 28]] {
-            let Some(BothEnds { light, camera, strategies }) = replay(&scene, &rays, &settings, pixel, sample).both_ends else {
+            let Some(BidirectionalSample { light, camera, strategies }) =
+                replay(&scene, &rays, &settings, pixel, sample).bidirectional
+            else {
                 panic!("it traces light paths")
             };
             for term in &strategies {
