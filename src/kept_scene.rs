@@ -5,7 +5,7 @@ use noisefall_base::progress::Progress;
 use noisefall_formats::import::{ImportOptions, Opened, Remarks, is_foreign, open};
 use noisefall_render::{
     render::checkpoint::path_of,
-    render_file::{KeptScene, SceneChoices},
+    render_file::{CheckpointScene, SceneChoices},
 };
 use noisefall_scene::scene::{SceneError, parse_watched};
 
@@ -16,7 +16,7 @@ pub fn choices(path: &Path, options: &ImportOptions) -> Option<SceneChoices> {
 }
 
 /// Opens the scene of a file again. That it may read files outside of its folder is for the user to say, and not for the file.
-pub fn reopen(kept: &KeptScene, file: &Path, allow_outside: bool, progress: &Progress) -> Result<Opened, SceneError> {
+pub fn reopen(kept: &CheckpointScene, file: &Path, allow_outside: bool, progress: &Progress) -> Result<Opened, SceneError> {
     let path = path_of(kept, file);
     match &kept.choices {
         None => {

@@ -8,7 +8,7 @@ use std::{
 
 use serde_json::Value;
 
-use crate::{Outcome, schemata::Planted};
+use crate::{Outcome, schemata::Mutated};
 
 pub struct Build {
     /// Numbers of faults that do not compile.
@@ -18,7 +18,7 @@ pub struct Build {
 }
 
 /// Runs cargo on the copy in a folder, and tells which of the mutants it refuses.
-pub fn build(folder: &Path, target: &Path, arguments: &[&str], planted: &BTreeMap<String, Planted>) -> Outcome<Build> {
+pub fn build(folder: &Path, target: &Path, arguments: &[&str], planted: &BTreeMap<String, Mutated>) -> Outcome<Build> {
     let mut command = Command::new("cargo");
     command.args(arguments).args(["--release", "--locked", "--keep-going", "--message-format=json"]).current_dir(folder);
     command.env("CARGO_TARGET_DIR", target).env("CARGO_INCREMENTAL", "0").stderr(Stdio::piped());
@@ -54,7 +54,7 @@ pub fn build(folder: &Path, target: &Path, arguments: &[&str], planted: &BTreeMa
 }
 
 /// The faults where an error lies, else the nearest one of the file.
-fn blamed(spans: &[(String, Range<usize>)], planted: &BTreeMap<String, Planted>) -> Vec<u32> {
+fn blamed(spans: &[(String, Range<usize>)], planted: &BTreeMap<String, Mutated>) -> Vec<u32> {
     let files = spans.iter().filter_map(|(file, bytes)| Some((planted.get(file)?, bytes)));
     let there: Vec<u32> = files.clone().flat_map(|(planted, bytes)| planted.at(bytes)).collect();
     if there.is_empty() { files.filter_map(|(planted, bytes)| planted.nearest(bytes.start)).take(1).collect() } else { there }

@@ -8,7 +8,7 @@ use std::{
 
 use syn::Item;
 
-use crate::{Outcome, fault::Fault, finder, schemata, schemata::Planted};
+use crate::{Outcome, fault::Fault, finder, schemata, schemata::Mutated};
 
 const SWITCH: &str = include_str!("../switch/mutant.rs");
 /// Not part of the copy.
@@ -106,8 +106,8 @@ impl Package {
     }
 
     /// Writes the copy with faults planted, which are numbered from 1 on. Files that stay the same keep their time.
-    pub fn write(&self, folder: &Path, faults: &[Fault]) -> Outcome<BTreeMap<String, Planted>> {
-        let mut planted: BTreeMap<String, Planted> = BTreeMap::new();
+    pub fn write(&self, folder: &Path, faults: &[Fault]) -> Outcome<BTreeMap<String, Mutated>> {
+        let mut planted: BTreeMap<String, Mutated> = BTreeMap::new();
         let mut by_file: BTreeMap<&str, Vec<(u32, &Fault)>> = BTreeMap::new();
         for (id, fault) in (1..).zip(faults) {
             by_file.entry(&fault.file).or_default().push((id, fault));

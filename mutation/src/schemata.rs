@@ -4,23 +4,23 @@ use std::ops::Range;
 use crate::fault::{Fault, Form};
 
 /// A file with faults in it, and where each one lies in it.
-pub struct Planted {
+pub struct Mutated {
     pub text: String,
     pub places: Vec<(Range<usize>, u32)>,
 }
 
 /// Plants faults, each with its number, in the text of their file. `switch` is the path of the function that tells whether a
 /// number is on.
-pub fn plant(source: &str, faults: &[(u32, &Fault)], switch: &str) -> Planted {
+pub fn plant(source: &str, faults: &[(u32, &Fault)], switch: &str) -> Mutated {
     let mut faults = faults.to_vec();
     faults.sort_by_key(|(id, fault)| (fault.range.start, usize::MAX - fault.range.end, *id));
-    let mut planted = Planted { text: String::new(), places: Vec::new() };
+    let mut planted = Mutated { text: String::new(), places: Vec::new() };
     write(source, 0..source.len(), &faults, switch, &mut planted);
     planted
 }
 
 /// Writes part of the source. The faulty branch of a fault is plain text; others within its place are in the branch as it was.
-fn write(source: &str, range: Range<usize>, mut faults: &[(u32, &Fault)], switch: &str, to: &mut Planted) {
+fn write(source: &str, range: Range<usize>, mut faults: &[(u32, &Fault)], switch: &str, to: &mut Mutated) {
     let mut at = range.start;
     while let [(id, fault), rest @ ..] = faults {
         let within = rest.iter().take_while(|(_, inner)| inner.range.start < fault.range.end).count();
@@ -41,7 +41,7 @@ fn write(source: &str, range: Range<usize>, mut faults: &[(u32, &Fault)], switch
     to.text.push_str(&source[at..range.end]);
 }
 
-impl Planted {
+impl Mutated {
     /// The innermost fault at these bytes, else every fault that they touch.
     pub fn at(&self, bytes: &Range<usize>) -> Vec<u32> {
         let around = self.places.iter().filter(|(place, _)| place.start <= bytes.start && bytes.end <= place.end);

@@ -2,6 +2,7 @@
 #[cfg(feature = "reports")]
 mod bench;
 mod check;
+mod checkpointing;
 mod compare;
 mod completions;
 mod convert;
@@ -10,9 +11,8 @@ mod evidence;
 mod figures;
 mod flip;
 mod folder;
-mod frame_keeping;
+mod frame_checkpoints;
 mod headings;
-mod keeping;
 mod layers;
 #[cfg(feature = "reports")]
 mod lists;

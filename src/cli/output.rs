@@ -10,7 +10,7 @@ use std::{
 use noisefall_base::file::{WriteError, replace, save_elsewhere};
 use noisefall_render::render::{
     Display, Frame,
-    checkpoint::is_kept_file,
+    checkpoint::is_checkpoint_file,
     image_file::{Contents, Format, ImageError, check_target},
     layers::Channel,
 };
@@ -38,7 +38,7 @@ impl Output {
                 let ([name, format], path) = ([by_name, format].map(Format::name), path.display());
                 Err(format!("{path}: the name ends in .{name}, but --format says {format}; leave --format out"))
             }
-            (Err(unknown), _) if !is_kept_file(path) => Err(unknown.to_string()),
+            (Err(unknown), _) if !is_checkpoint_file(path) => Err(unknown.to_string()),
             _ => Ok(Output::File(path.to_owned())),
         }
     }

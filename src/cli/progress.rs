@@ -16,13 +16,13 @@ use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
 use noisefall_base::quote;
 use noisefall_render::render::{
     Budget, Published, RenderRequest, Status,
-    checkpoint::{KeepEvent, KeptRender},
+    checkpoint::{Checkpoint, CheckpointEvent},
     still::StillRenderer,
     threads::Threads,
 };
 
 use super::{
-    keeping::{Keeping, message},
+    checkpointing::{Checkpointing, message},
     live::LiveView,
     messages::{Failure, tell},
     output::Output,
@@ -72,9 +72,9 @@ pub struct Rendering {
 #[derive(Default)]
 struct Checkpoints {
     path: Option<PathBuf>,
-    events: Option<Receiver<KeepEvent>>,
+    events: Option<Receiver<CheckpointEvent>>,
     /// The checkpoint that the image continues from.
-    kept: Option<KeptRender>,
+    kept: Option<Checkpoint>,
     /// Render time before this run.
     earlier: Duration,
     /// How the image differs from one that was rendered in one go.
@@ -105,9 +105,9 @@ impl Rendering {
     }
 
     /// Keeps the image, and continues from what was kept of it.
-    pub fn keep(&mut self, Keeping { plan, events, kept, remarks }: Keeping) {
+    pub fn keep(&mut self, Checkpointing { plan, events, kept, remarks }: Checkpointing) {
         let path = plan.as_ref().map(|plan| plan.path.clone());
-        let earlier = kept.as_ref().map_or(Duration::ZERO, KeptRender::elapsed);
+        let earlier = kept.as_ref().map_or(Duration::ZERO, Checkpoint::elapsed);
         plan.into_iter().for_each(|plan| self.stills.set_plan(plan));
         self.checkpoints = Checkpoints { path, events, kept, earlier, remarks, failure: None };
     }
@@ -213,9 +213,9 @@ impl Checkpoints {
         for event in self.events.iter().flat_map(Receiver::try_iter) {
             message(&event).into_iter().for_each(|text| bar.suspend(|| tell(&text)));
             match event {
-                KeepEvent::Kept => self.failure = None,
-                KeepEvent::Failed(error) => self.failure = Some(error),
-                KeepEvent::Slower { .. } => {}
+                CheckpointEvent::Kept => self.failure = None,
+                CheckpointEvent::Failed(error) => self.failure = Some(error),
+                CheckpointEvent::Slower { .. } => {}
             }
         }
     }

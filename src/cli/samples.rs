@@ -13,7 +13,7 @@ use noisefall_formats::import::ImportOptions;
 use noisefall_render::{
     render::{
         Display, RenderRequest,
-        checkpoint::{counters, keep_scene, kept_header},
+        checkpoint::{checkpoint_header, counters, keep_scene},
         image_file,
         pass::Failure as RenderFailure,
         path_reuse::resolved,
@@ -141,7 +141,7 @@ impl SampleJob {
 
     fn header(&self, request: &RenderRequest) -> Result<Header, Failure> {
         let kept = keep_scene(&self.scene, &self.scene_path, choices(&self.scene_path, &self.import));
-        let header = kept_header(request, kept, self.description.as_deref(), Target::default(), &self.threads);
+        let header = checkpoint_header(request, kept, self.description.as_deref(), Target::default(), &self.threads);
         header.map_err(|error| error.report())
     }
 

@@ -5,7 +5,7 @@ use noisefall_base::quote;
 use noisefall_render::{
     render::{
         Display, Frame, Status,
-        checkpoint::is_kept_file,
+        checkpoint::is_checkpoint_file,
         settings_text::ImageOrigin,
         split::{NoSamples, SampleRanges, SplitPicture},
     },
@@ -38,7 +38,7 @@ pub struct SplitImage<'a> {
 
 /// Whether the output is a file of samples.
 pub fn is_sample_file(output: &Output) -> bool {
-    output.file().is_some_and(is_kept_file)
+    output.file().is_some_and(is_checkpoint_file)
 }
 
 impl SplitImage<'_> {

@@ -6,7 +6,7 @@ use std::{
 
 use noisefall_base::{declare::key_of_file, quote};
 use noisefall_render::render::{
-    checkpoint::is_kept_file,
+    checkpoint::is_checkpoint_file,
     split::{Join, SampleFile, SampleFileError},
 };
 
@@ -99,7 +99,7 @@ impl<'a> Watch<'a> {
 
     /// Whether a file of a folder is to be joined.
     fn is_source(&self, path: &Path) -> bool {
-        is_kept_file(path) && path != self.output
+        is_checkpoint_file(path) && path != self.output
     }
 }
 

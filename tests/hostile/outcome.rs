@@ -4,7 +4,7 @@ use std::{fs, path::Path};
 use noisefall_formats::import::{self, ImportOptions};
 use noisefall_lab::study::Store;
 use noisefall_render::render::{
-    checkpoint::KeptFile,
+    checkpoint::CheckpointFile,
     split::{Join, JoinError, SampleFile},
 };
 use noisefall_scene::{
@@ -24,7 +24,7 @@ pub fn outcome(path: &Path, reader: Reader, number: u64) -> String {
     let options = ImportOptions { time: number.is_multiple_of(2).then_some(0.5), ..ImportOptions::default() };
     match reader {
         Reader::Kept => {
-            let kept = KeptFile::open(path).and_then(KeptFile::read);
+            let kept = CheckpointFile::open(path).and_then(CheckpointFile::read);
             format!("{:?}", kept.map(|kept| kept.elapsed()).map_err(|error| error.to_string()))
         }
         Reader::Samples => format!("{:?}", joined(path).map_err(|error| error.to_string())),

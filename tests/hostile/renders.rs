@@ -6,7 +6,7 @@ use noisefall_base::math::SimdLevel;
 use noisefall_render::{
     render::{
         Budget, Display, Frame, RenderRequest,
-        checkpoint::{KeepPlan, keep_scene, kept_header},
+        checkpoint::{CheckpointPlan, checkpoint_header, keep_scene},
         image_file,
         settings_text::settings_text,
         split::{SampleFilm, write},
@@ -34,7 +34,7 @@ fn threads() -> Threads {
 fn header(folder: &Path, target: Target) -> Header {
     let request = request();
     let kept = keep_scene(&request.scene, &folder.join("a.toml"), None);
-    kept_header(&request, kept, None, target, &threads()).expect("it names no files")
+    checkpoint_header(&request, kept, None, target, &threads()).expect("it names no files")
 }
 
 /// The bytes of a file that `write` writes to a path of this name.
@@ -51,7 +51,7 @@ pub fn kept() -> Base {
         let header = header(path, Target { spp: Some(9), ..Target::default() });
         let (events, _) = unbounded();
         let mut still = StillRenderer::new(threads(), Budget { max_spp: Some(9), ..Budget::default() });
-        still.set_plan(KeepPlan { path: path.to_owned(), header, every: None, events });
+        still.set_plan(CheckpointPlan { path: path.to_owned(), header, every: None, events });
         still.picture(request(), &mut |_| ControlFlow::Continue(())).expect("it renders");
         still.keep_now().expect("it renders");
     });

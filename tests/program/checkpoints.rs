@@ -7,7 +7,7 @@ use std::{
     time::Duration,
 };
 
-use noisefall_render::render::{checkpoint::KeptFile, image_file::SETTINGS_KEY};
+use noisefall_render::render::{checkpoint::CheckpointFile, image_file::SETTINGS_KEY};
 use rand::{Rng, SeedableRng, rngs::SmallRng};
 
 use crate::command_line::{Shell, json, scene, text};
@@ -220,7 +220,7 @@ fn a_program_that_is_killed_at_any_moment_leaves_a_whole_checkpoint() {
         assert!(output.status.code().is_none(), "it ended by itself: {}", text(&output.stderr));
         match shell.path("a.nf").exists() {
             true => {
-                let file = KeptFile::open(&shell.path("a.nf")).expect("it is whole");
+                let file = CheckpointFile::open(&shell.path("a.nf")).expect("it is whole");
                 file.read().expect("it is whole");
                 whole += 1;
             }

@@ -9,7 +9,7 @@ use rand::{SeedableRng, rngs::SmallRng};
 
 use super::json_schema::fits;
 
-fn root() -> &'static Path {
+pub(super) fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 

@@ -47,6 +47,7 @@ mod textures;
 mod validate;
 mod waiting;
 mod warnings;
+mod words;
 mod worker;
 mod worker_edits;
 mod writers;

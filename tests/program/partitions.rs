@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use noisefall::{Camera, Display, PassJob, RenderRequest, RenderSettings, Scene, SimdLevel, Threads};
 use noisefall_render::{
     render::{
-        checkpoint::{keep_scene, kept_header},
+        checkpoint::{checkpoint_header, keep_scene},
         image_file::{Contents, Format},
         path_reuse::resolved,
         split::{Join, SampleFile, SampleFilm, SampleRanges, SplitPicture, write},
@@ -74,7 +74,7 @@ impl Image {
         let (scene, camera, settings) = (self.scene.clone(), self.camera, self.settings);
         let kept = keep_scene(&scene, Path::new("a.toml"), None);
         let threads = Threads::new(1, SimdLevel::best()).expect("a thread");
-        let header = kept_header(&RenderRequest { scene, camera, settings }, kept, None, Target::default(), &threads);
+        let header = checkpoint_header(&RenderRequest { scene, camera, settings }, kept, None, Target::default(), &threads);
         let image = Some(ImageFacts { shares: self.path_reuse().correlates(), ..ImageFacts::default() });
         Header { kind: Kind::Samples, samples: vec![samples], image, ..header.expect("a header") }
     }

@@ -5,8 +5,8 @@ use clap::ArgGroup;
 use noisefall_render::render::{image_file::Format, layers::Layer, tev::DEFAULT_ADDRESS};
 
 use crate::cli::{
+    checkpointing::KeepOptions,
     headings,
-    keeping::KeepOptions,
     layers::{Layers, parse as layers_of},
     live,
     options::{self as parse, DisplayOptions},

@@ -6,13 +6,13 @@ use std::{
 
 use noisefall_formats::import::{Opened, Remarks};
 use noisefall_render::{
-    render::{checkpoint::is_kept_file, settings_text::options},
+    render::{checkpoint::is_checkpoint_file, settings_text::options},
     render_file::Header,
 };
 use noisefall_scene::scene::{Camera, RenderSettings, Scene, description::SceneDescription};
 
 use super::arguments::Arguments;
-use crate::cli::{keeping::Resumed, messages::Failure};
+use crate::cli::{checkpointing::Resumed, messages::Failure};
 
 /// A scene with the camera and settings of its image, and the render of it that is continued.
 pub struct Begun {
@@ -36,7 +36,7 @@ impl Arguments {
 
     fn open(&self) -> Result<Begun, Failure> {
         let path = self.scene.as_deref().or(self.sequence.scene()).unwrap_or(Path::new("")).to_owned();
-        if is_kept_file(&path) {
+        if is_checkpoint_file(&path) {
             return Err(format!("{0}: this is a checkpoint; `render --resume {0}` continues it", path.display()));
         }
         let Opened { scene, remarks, description } = self.options.open_for(&path, self.size)?;

@@ -21,8 +21,8 @@ use noisefall_scene::scene::{Estimator, RenderSettings, Scene};
 pub use self::arguments::Arguments;
 use self::begin::Begun;
 use super::{
-    frame_keeping::FrameKeeping,
-    keeping::{Keeping, KeptImage},
+    checkpointing::{Checkpointing, KeptImage},
+    frame_checkpoints::FrameCheckpoints,
     layers::Layers,
     live::LiveView,
     messages::{Failure, tell, wrong_usage},
@@ -84,9 +84,9 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     }
     let request = RenderRequest { scene: scene.clone(), camera, settings };
     let image = KeptImage { request: &request, description: description.as_deref(), path: &path, size: arguments.size };
-    let frames = arguments.frame_keeping(image, &budget, &shots, &of_images)?;
+    let frames = arguments.frame_checkpoints(image, &budget, &shots, &of_images)?;
     let mut keeping = match frames {
-        Some(_) => Keeping::default(),
+        Some(_) => Checkpointing::default(),
         None => arguments.keep.keeping(image, &arguments.options, &budget, resumed, &of_images)?,
     };
     let job = Job {
@@ -217,18 +217,18 @@ impl Arguments {
     }
 
     /// How the frames of a sequence are kept, if they are.
-    fn frame_keeping(
+    fn frame_checkpoints(
         &self,
         image: KeptImage<'_>,
         budget: &Budget,
         shots: &[Shot],
         threads: &Threads,
-    ) -> Result<Option<FrameKeeping>, Failure> {
+    ) -> Result<Option<FrameCheckpoints>, Failure> {
         if !(self.sequence.is_asked() && self.keep.is_asked()) {
             return Ok(None);
         }
         let header = image.header(&self.options, budget, threads)?;
-        let frames = FrameKeeping { header, every: self.keep.every(), continues: self.sequence.is_continued() };
+        let frames = FrameCheckpoints { header, every: self.keep.every(), continues: self.sequence.is_continued() };
         for Shot { camera, checkpoint, .. } in shots {
             let frame = RenderRequest { camera: *camera, ..image.request.clone() };
             checkpoint.as_ref().map_or(Ok(()), |path| frames.check(&frame, path, threads))?;

@@ -1,6 +1,7 @@
 //! The window as a whole. It joins panels, instruments and dialogs with the work in the background.
 mod adding;
 mod canvas;
+mod checkpointing;
 mod commands;
 mod copying;
 mod dialogs;
@@ -18,7 +19,6 @@ mod gizmo;
 mod history;
 mod image_menu;
 mod input_order;
-mod keeping;
 mod loading;
 mod new_bump;
 mod outliner_actions;

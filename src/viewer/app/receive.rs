@@ -153,6 +153,6 @@ impl App {
         self.dialogs.remarks = !opened.remarks.is_empty();
         self.window.view.fit();
         session.opened = Some(opened);
-        self.continue_kept();
+        self.continue_checkpoint();
     }
 }

@@ -5,8 +5,8 @@ use noisefall_render::{render::RenderRequest, render_file::Target};
 
 use super::state::App;
 use crate::viewer::background::{
+    checkpoint_render::RenderToKeep,
     given_reference::GivenReference,
-    kept_render::RenderToKeep,
     reference_task::{ReferenceEnd, ReferenceRequest, ReferenceTask, settings_of_reference},
 };
 use crate::viewer::dialogs::open_reference::ReferenceDialog;

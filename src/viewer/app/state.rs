@@ -11,7 +11,7 @@ use crate::viewer::background::{
     adviser::Adviser, background_task::BackgroundTask, catalogue, catalogue::CatalogueEntry, denoiser::Denoiser,
     display_pipeline::DisplayPipeline, dropped::DropReader, exact_compile::ExactCompile, feature_finder::FeatureFinder,
     file_watcher::FileWatcher, loader::Loader, opened_scene::GivenScene, preferences::Preferences,
-    progress_keeper::ProgressKeeper, recovery_keeper::RecoveryKeeper, reference_task::ReferenceTask,
+    progress_checkpoints::ProgressCheckpoints, recovery_keeper::RecoveryKeeper, reference_task::ReferenceTask,
     render_worker::RenderWorkerHandle, saver::Saver, sequence_task::SequenceTask, tev_link::TevLink,
 };
 use crate::viewer::instruments::{convergence::history::History as ErrorHistory, path::inspector::PathInspector};
@@ -54,7 +54,7 @@ pub struct Environment {
     pub saver: Saver,
     pub files: FileWatcher,
     pub recovery: RecoveryKeeper,
-    pub progress: ProgressKeeper,
+    pub progress: ProgressCheckpoints,
     /// The image that is drawn for the clipboard.
     pub copying: Option<BackgroundTask<egui::ColorImage>>,
     pub features: FeatureFinder,
@@ -85,7 +85,7 @@ impl App {
             saver: Saver::new(ctx),
             files: FileWatcher::idle(),
             recovery: RecoveryKeeper::default(),
-            progress: ProgressKeeper::default(),
+            progress: ProgressCheckpoints::default(),
             copying: None,
             features: FeatureFinder::new(ctx),
             denoiser: Denoiser::new(ctx),
@@ -120,7 +120,7 @@ impl App {
         self.environment.recovery = RecoveryKeeper::of_user();
         if let Some(folder) = self.environment.recovery.folder() {
             self.environment.references = Some(folder.with_file_name("references"));
-            self.environment.progress = ProgressKeeper::in_folder(&self.ctx, folder);
+            self.environment.progress = ProgressCheckpoints::in_folder(&self.ctx, folder);
         }
         match FileWatcher::start(&self.ctx) {
             Ok(files) => self.environment.files = files,

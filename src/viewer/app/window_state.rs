@@ -4,7 +4,9 @@ use std::path::{Path, PathBuf};
 use noisefall_edit::edit::WindowView;
 use noisefall_render::render::Region;
 
-use crate::viewer::background::{progress_keeper::FoundRender, recovery_files::FoundRecovery, sequence_task::SequenceRequest};
+use crate::viewer::background::{
+    progress_checkpoints::FoundRender, recovery_files::FoundRecovery, sequence_task::SequenceRequest,
+};
 use crate::viewer::canvas::{interaction::Tool, picture_view::PictureView};
 use crate::viewer::dialogs::{
     choose_file::FileDialog, conflict::Conflict, connect_tev::TevDialog, gallery::Gallery, notices::Notices, open::OpenDialog,

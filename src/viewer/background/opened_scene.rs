@@ -6,12 +6,12 @@ use std::{
 
 use noisefall_edit::edit::{Document, Recovery, Template};
 use noisefall_formats::import::{self, ImportOptions, Opened, Remarks};
-use noisefall_render::render::{checkpoint::is_kept_file, reference::Reference};
+use noisefall_render::render::{checkpoint::is_checkpoint_file, reference::Reference};
 use noisefall_scene::scene::{BUILT_IN, Scene, SceneReference, ShippedScene, built_in, description::SceneDescription, parse};
 
 use super::{
     catalogue::{self, BUILT_IN_NAME},
-    kept_render::{OpenedRender, ReopenedScene, open_kept},
+    checkpoint_render::{OpenedRender, ReopenedScene, open_kept},
 };
 
 /// A scene ready to be shown.
@@ -75,7 +75,7 @@ pub type OpenResult = Result<(OpenedScene, Document), String>;
 
 /// Opens a scene file, a file of a render, or the built-in scene.
 pub fn open(scene: GivenScene) -> OpenResult {
-    if let Some(path) = scene.path.as_deref().filter(|path| is_kept_file(path)) {
+    if let Some(path) = scene.path.as_deref().filter(|path| is_checkpoint_file(path)) {
         return open_render(path, &scene.options);
     }
     let GivenScene { path: Some(path), options, strict } = scene else {

@@ -14,7 +14,7 @@ use noisefall_base::math::SimdLevel;
 use noisefall_render::{
     render::{
         Budget, Frame, Published, RenderRequest, State,
-        checkpoint::{EXTENSION, KeepPlan, KeptFile, KeptRender},
+        checkpoint::{Checkpoint, CheckpointFile, CheckpointPlan, EXTENSION},
         still::StillRenderer,
         threads::Threads,
     },
@@ -25,7 +25,7 @@ use noisefall_scene::{
     scene::{Estimator, RenderSettings, Reuse, Roulette},
 };
 
-use super::{background_task::BackgroundTask, kept_render::RenderToKeep, recovery_files::left_files};
+use super::{background_task::BackgroundTask, checkpoint_render::RenderToKeep, recovery_files::left_files};
 
 /// Time between two checkpoints.
 const PAUSE: Duration = Duration::from_secs(60);
@@ -133,7 +133,7 @@ fn render(
     let is_kept = file.is_some();
     if let Some((path, header)) = file {
         let (events, _) = unbounded();
-        stills.set_plan(KeepPlan { path, header, every: Some(PAUSE), events });
+        stills.set_plan(CheckpointPlan { path, header, every: Some(PAUSE), events });
     }
     let mut watch = |published: &Published| {
         let noise = published.status.relative_noise();
@@ -168,8 +168,8 @@ fn file_in(folder: &Path, render: &RenderToKeep) -> Option<(PathBuf, Header)> {
     Some((folder.join(name).with_extension(EXTENSION), header))
 }
 
-fn read(path: &Path) -> Option<KeptRender> {
-    KeptFile::open(path).ok()?.read().ok()
+fn read(path: &Path) -> Option<Checkpoint> {
+    CheckpointFile::open(path).ok()?.read().ok()
 }
 
 /// Leaves the files that were written last.

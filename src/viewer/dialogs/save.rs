@@ -113,7 +113,7 @@ fn other_exports(ui: &mut egui::Ui, target: SaveTarget) -> Option<OtherExport> {
     }
     ui.separator();
     let buttons = [
-        ("Save progress…", "Keeps the render in a file, from which it continues to the same bits.", OtherExport::Progress),
+        ("Save checkpoint…", "Keeps the render in a file, from which it continues to the same bits.", OtherExport::Progress),
         ("Render turntable…", "Renders numbered images around the look-at point, or along a camera path.", OtherExport::Sequence),
         ("Send to tev…", "Shows the image in the viewer tev while it is rendered.", OtherExport::Tev),
     ];

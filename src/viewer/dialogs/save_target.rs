@@ -28,7 +28,7 @@ impl SaveTarget {
             SaveTarget::Scene => "Save scene",
             SaveTarget::Picture => "Save image",
             SaveTarget::Layers => "Save image with layers",
-            SaveTarget::Progress => "Save progress",
+            SaveTarget::Progress => "Save checkpoint",
             SaveTarget::CurvesCsv => "Save curves",
             SaveTarget::CurvesSvg => "Save plot",
             SaveTarget::Path => "Save path",

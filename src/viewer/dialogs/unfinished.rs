@@ -5,7 +5,7 @@ use super::{
     question::{Choice, ask},
     recovery::in_words,
 };
-use crate::viewer::background::progress_keeper::FoundRender;
+use crate::viewer::background::progress_checkpoints::FoundRender;
 
 /// An answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,14 +1,14 @@
 //! Renders that are kept, and continued.
 use std::path::Path;
 
-use noisefall_render::render::checkpoint::KeptFile;
+use noisefall_render::render::checkpoint::CheckpointFile;
 
 use super::{exports::open_export, *};
-use crate::viewer::background::progress_keeper::ProgressKeeper;
+use crate::viewer::background::progress_checkpoints::ProgressCheckpoints;
 
 /// Whether the window continues the render of a file.
 fn continues(window: &mut Window, file: &Path) {
-    let seconds = KeptFile::open(file).expect("it is whole").header().counters.seconds;
+    let seconds = CheckpointFile::open(file).expect("it is whole").header().counters.seconds;
     assert!(seconds > 0.0);
     wait(window, "the render", |app| app.opened().is_some() && app.status().spp > 0);
     let status = &window.state().status();
@@ -26,7 +26,7 @@ fn a_render_that_was_saved_continues_when_its_file_is_opened() {
     let path = folder.path().join("spheres.nf");
     let mut window = window("cornell_spheres");
     wait(&mut window, "a while", |app| app.status().elapsed.as_secs_f64() > 0.5);
-    open_export(&mut window, "Save progress…");
+    open_export(&mut window, "Save checkpoint…");
     window.get_by_role(Role::TextInput).set_text_value_accesskit(&path.display().to_string());
     window.run_steps(3);
     click(&mut window, "Save");
@@ -40,7 +40,7 @@ fn a_render_that_was_saved_continues_when_its_file_is_opened() {
 fn a_render_without_samples_or_by_another_name_is_not_saved() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = window("furnace");
-    open_export(&mut window, "Save progress…");
+    open_export(&mut window, "Save checkpoint…");
     window.get_by_role(Role::TextInput).set_text_value_accesskit(&folder.path().join("a.png").display().to_string());
     window.run_steps(3);
     click(&mut window, "Save");
@@ -59,7 +59,7 @@ fn the_render_of_a_lost_window_is_offered_and_continues() {
     };
     let mut lost = window("cornell_spheres");
     let ctx = lost.state().ctx.clone();
-    lost.state_mut().environment.progress = ProgressKeeper::in_folder(&ctx, folder.path());
+    lost.state_mut().environment.progress = ProgressCheckpoints::in_folder(&ctx, folder.path());
     lost.run_steps(2);
     let render = lost.state().render_to_keep().expect("it has samples");
     let (worker, elapsed) = (lost.state().worker().keep_handle(), lost.state().status().elapsed);
@@ -67,7 +67,7 @@ fn the_render_of_a_lost_window_is_offered_and_continues() {
     wait(&mut lost, "the file", |_| files(folder.path()).len() == 1);
     drop(lost);
     let of_window = folder.path().to_owned();
-    let with_keeper = move |app: &mut App| app.environment.progress = ProgressKeeper::in_folder(&app.ctx, &of_window);
+    let with_keeper = move |app: &mut App| app.environment.progress = ProgressCheckpoints::in_folder(&app.ctx, &of_window);
     let mut window = open_with(None, with_keeper);
     wait(&mut window, "the question", |app| app.dialogs.unfinished.is_some());
     window.run_steps(2);

@@ -5,18 +5,18 @@ use crate::memory::Reservation;
 
 /// Slow parts by key. A key states everything that determines its part, so a reused part equals a new one.
 #[derive(Clone, Default)]
-pub struct Memo(HashMap<String, KeptPart>);
+pub struct Memo(HashMap<String, CheckpointPart>);
 
 /// A part, with the memory that it takes.
 #[derive(Clone)]
-pub(super) struct KeptPart {
+pub(super) struct CheckpointPart {
     value: Arc<dyn Any + Send + Sync>,
     _memory: Arc<Reservation>,
 }
 
-impl KeptPart {
-    pub fn new<T: Send + Sync + 'static>(value: Arc<T>, memory: Reservation) -> KeptPart {
-        KeptPart { value, _memory: Arc::new(memory) }
+impl CheckpointPart {
+    pub fn new<T: Send + Sync + 'static>(value: Arc<T>, memory: Reservation) -> CheckpointPart {
+        CheckpointPart { value, _memory: Arc::new(memory) }
     }
 
     /// The part, if it has this type.
@@ -26,11 +26,11 @@ impl KeptPart {
 }
 
 impl Memo {
-    pub(super) fn get(&self, key: &str) -> Option<&KeptPart> {
+    pub(super) fn get(&self, key: &str) -> Option<&CheckpointPart> {
         self.0.get(key)
     }
 
-    pub(super) fn insert(&mut self, key: String, kept: KeptPart) {
+    pub(super) fn insert(&mut self, key: String, kept: CheckpointPart) {
         self.0.insert(key, kept);
     }
 }

@@ -9,7 +9,7 @@ use std::{
 
 use super::{
     Assets, NamedFile, Problem,
-    memo::{KeptPart, Memo, PartReport},
+    memo::{CheckpointPart, Memo, PartReport},
 };
 use crate::{memory::Reservation, progress::Progress};
 
@@ -111,7 +111,7 @@ impl Resources {
         key: String,
         make: impl FnOnce() -> Result<T, Problem>,
     ) -> Result<Arc<T>, Problem> {
-        let known = self.now.borrow().get(&key).and_then(KeptPart::value);
+        let known = self.now.borrow().get(&key).and_then(CheckpointPart::value);
         if let Some(value) = known {
             return Ok(value);
         }
@@ -124,7 +124,7 @@ impl Resources {
         let made = make();
         let memory = self.memory.replace(around);
         let value = Arc::new(made?);
-        self.now.borrow_mut().insert(key, KeptPart::new(value.clone(), memory));
+        self.now.borrow_mut().insert(key, CheckpointPart::new(value.clone(), memory));
         Ok(value)
     }
 

@@ -4,7 +4,7 @@ use std::{ops::ControlFlow, time::Duration};
 use crossbeam_channel::{Receiver, RecvTimeoutError, bounded};
 
 use super::{
-    checkpoint::{KeepPlan, KeptRender},
+    checkpoint::{Checkpoint, CheckpointPlan},
     protocol::{Budget, Publish, Published, RenderRequest, RenderTask, State},
     threads::Threads,
     worker::Renderer,
@@ -27,7 +27,7 @@ pub struct StillRenderer {
     woken: Receiver<()>,
     budget: Budget,
     /// How the next image is kept.
-    plan: Option<KeepPlan>,
+    plan: Option<CheckpointPlan>,
     /// Number of the last image.
     image: u64,
 }
@@ -49,8 +49,8 @@ impl StillRenderer {
     }
 
     /// Continues an image from its checkpoint.
-    pub fn continued(&mut self, request: RenderRequest, kept: KeptRender, watch: Watch) -> Result<Published, RendererEnded> {
-        self.begin(|renderer, image| renderer.submit_kept(image, request, kept));
+    pub fn continued(&mut self, request: RenderRequest, kept: Checkpoint, watch: Watch) -> Result<Published, RendererEnded> {
+        self.begin(|renderer, image| renderer.submit_checkpoint(image, request, kept));
         self.finished(Renderer::latest, watch)
     }
 
@@ -64,7 +64,7 @@ impl StillRenderer {
     }
 
     /// Keeps the next image by this plan.
-    pub fn set_plan(&mut self, plan: KeepPlan) {
+    pub fn set_plan(&mut self, plan: CheckpointPlan) {
         self.plan = Some(plan);
     }
 

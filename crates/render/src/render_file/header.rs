@@ -15,7 +15,7 @@ pub struct Header {
     /// Name, version and commit of the program that wrote the file.
     pub program: String,
     /// The scene.
-    pub scene: KeptScene,
+    pub scene: CheckpointScene,
     /// The camera, with the resolution of the image.
     pub camera: Camera,
     /// The settings of the estimate.
@@ -63,7 +63,7 @@ pub enum Kind {
 
 /// A scene, and how it is opened again.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct KeptScene {
+pub struct CheckpointScene {
     /// Its text in our format.
     pub text: String,
     /// Name of the file that it was read from.

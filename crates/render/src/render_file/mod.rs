@@ -15,7 +15,7 @@ pub use self::{
     encode::Encode,
     error::RenderFileError,
     fields::Fields,
-    header::{Counters, Header, ImageFacts, KeptScene, Kind, SceneChoices, Target},
+    header::{CheckpointScene, Counters, Header, ImageFacts, Kind, SceneChoices, Target},
     named_file::{NamedFile, sha256},
     reader::Reader,
     tag::Tag,

@@ -13,7 +13,7 @@ fn header() -> Header {
     Header {
         kind: Kind::Progress,
         program: Header::PROGRAM.to_owned(),
-        scene: KeptScene { text: scene.source.clone(), name: "a.toml".to_owned(), folder: "/".to_owned(), choices: None },
+        scene: CheckpointScene { text: scene.source.clone(), name: "a.toml".to_owned(), folder: "/".to_owned(), choices: None },
         camera: scene.camera,
         settings: scene.settings,
         target: Target { noise: Some(0.01), ..Target::default() },

@@ -3,7 +3,7 @@ mod edits;
 
 use noisefall_base::math::SimdLevel;
 use noisefall_render::render::{
-    Budget, KeepHandle, Publish, Published, RenderRequest, RenderTask, Renderer, checkpoint::KeptRender, threads::Threads,
+    Budget, KeepHandle, Publish, Published, RenderRequest, RenderTask, Renderer, checkpoint::Checkpoint, threads::Threads,
 };
 
 pub use self::edits::EditedDescription;
@@ -19,7 +19,7 @@ pub struct RenderWorkerHandle {
     second_generation: u64,
     request: Option<RenderRequest>,
     /// A render of this request that continues when it is requested.
-    kept: Option<(RenderRequest, KeptRender)>,
+    kept: Option<(RenderRequest, Checkpoint)>,
     second: Option<RenderTask>,
     /// The edit that has no result yet.
     edit: Option<PendingEdit>,
@@ -78,7 +78,7 @@ impl RenderWorkerHandle {
         if is_new {
             self.generation = self.next(now);
             match self.kept.take() {
-                Some((of, kept)) if of == request => self.renderer.submit_kept(self.generation, request.clone(), kept),
+                Some((of, kept)) if of == request => self.renderer.submit_checkpoint(self.generation, request.clone(), kept),
                 _ => self.renderer.submit(self.generation, request.clone()),
             }
         }
@@ -94,7 +94,7 @@ impl RenderWorkerHandle {
     }
 
     /// Continues a render with the next request, if that is its own.
-    pub fn continue_from(&mut self, request: RenderRequest, kept: KeptRender) {
+    pub fn continue_from(&mut self, request: RenderRequest, kept: Checkpoint) {
         self.kept = Some((request, kept));
     }
 

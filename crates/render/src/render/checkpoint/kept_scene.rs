@@ -7,16 +7,16 @@ use std::{
 use super::probe::probe;
 use crate::{
     render::{protocol::RenderRequest, threads::Threads},
-    render_file::{Counters, Header, KeptScene, Kind, NamedFile, SceneChoices, Target},
+    render_file::{CheckpointScene, Counters, Header, Kind, NamedFile, SceneChoices, Target},
 };
 use noisefall_base::declare::for_each_file;
 use noisefall_scene::scene::{Scene, SceneError, describe, description::SceneDescription};
 
 /// The part of a scene that its render file keeps. `choices` are those of a scene of another program, whose file `path` is read again.
-pub fn keep_scene(scene: &Scene, path: &Path, choices: Option<SceneChoices>) -> KeptScene {
+pub fn keep_scene(scene: &Scene, path: &Path, choices: Option<SceneChoices>) -> CheckpointScene {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let folder = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
-    KeptScene {
+    CheckpointScene {
         text: scene.source.to_string(),
         name: path.file_name().unwrap_or_default().to_string_lossy().into_owned(),
         folder: folder.to_string_lossy().into_owned(),
@@ -26,9 +26,9 @@ pub fn keep_scene(scene: &Scene, path: &Path, choices: Option<SceneChoices>) -> 
 
 /// The header of the file of a render. `description` is that of a scene of another program. Reads the files that the scene names, and
 /// traces a few samples.
-pub fn kept_header(
+pub fn checkpoint_header(
     request: &RenderRequest,
-    scene: KeptScene,
+    scene: CheckpointScene,
     description: Option<&SceneDescription>,
     target: Target,
     threads: &Threads,
@@ -50,7 +50,7 @@ pub fn kept_header(
     })
 }
 
-fn named_files(scene: &Scene, kept: &KeptScene, known: Option<&SceneDescription>) -> Result<Vec<NamedFile>, SceneError> {
+fn named_files(scene: &Scene, kept: &CheckpointScene, known: Option<&SceneDescription>) -> Result<Vec<NamedFile>, SceneError> {
     let mut description = known.map_or_else(|| describe(&kept.name, kept.text.clone()), |known| Ok(known.clone()))?;
     let mut paths = BTreeSet::new();
     for_each_file(&mut description, &mut |path| _ = paths.insert(path.clone()));
@@ -73,12 +73,12 @@ pub fn file_differences(header: &Header, file: &Path) -> Vec<String> {
 }
 
 /// Path of the scene file.
-pub fn path_of(kept: &KeptScene, file: &Path) -> PathBuf {
+pub fn path_of(kept: &CheckpointScene, file: &Path) -> PathBuf {
     folder_of(kept, file).join(&kept.name)
 }
 
 /// The folder of the files that a scene names: where it was, or else that of the render file.
-fn folder_of(kept: &KeptScene, file: &Path) -> PathBuf {
+fn folder_of(kept: &CheckpointScene, file: &Path) -> PathBuf {
     let was = PathBuf::from(&kept.folder);
     let beside = || file.parent().unwrap_or(Path::new("")).to_owned();
     if was.is_absolute() && was.is_dir() { was } else { beside() }

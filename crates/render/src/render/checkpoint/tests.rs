@@ -18,7 +18,7 @@ pub(in crate::render) fn small_render(resolution: [u32; 2], folder: &Path) -> (H
     let request = RenderRequest { settings: scene.settings, camera, scene };
     let threads = Threads::new(1, SimdLevel::best()).expect("a thread can be had");
     let kept = keep_scene(&request.scene, &folder.join("a.toml"), None);
-    let header = kept_header(&request, kept, None, Target::default(), &threads).expect("it names no files");
+    let header = checkpoint_header(&request, kept, None, Target::default(), &threads).expect("it names no files");
     (header, threads)
 }
 
@@ -29,21 +29,22 @@ fn a_disk_that_fails_at_any_moment_leaves_the_checkpoint_before() {
     let resolution = [8, 4];
     let (header, threads) = small_render(resolution, folder.path());
     let (events, received) = unbounded();
-    let mut keeper = CheckpointWriter::new(KeepPlan { path: path.clone(), header, every: None, events }).expect("memory for it");
+    let mut keeper =
+        CheckpointWriter::new(CheckpointPlan { path: path.clone(), header, every: None, events }).expect("memory for it");
     let mut keep = |rays| {
         keeper.keep(&Film::new(resolution), Counters { rays, ..Counters::default() }, &threads);
         keeper.report();
         match received.try_recv().expect("an event") {
-            KeepEvent::Failed(error) => Err(error),
+            CheckpointEvent::Failed(error) => Err(error),
             event => {
-                assert_eq!(event, KeepEvent::Kept);
+                assert_eq!(event, CheckpointEvent::Kept);
                 Ok(())
             }
         }
     };
     keep(1).expect("it is written");
     lose_nothing(&path, &mut || keep(2));
-    let before = KeptFile::open(&path).expect("it is whole");
+    let before = CheckpointFile::open(&path).expect("it is whole");
     assert_eq!(before.header().counters.rays, 1);
     before.read().expect("it is whole");
 }

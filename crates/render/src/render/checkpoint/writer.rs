@@ -23,7 +23,7 @@ const SHARE: u32 = 100;
 
 /// Where and how often a render is kept.
 #[derive(Clone)]
-pub struct KeepPlan {
+pub struct CheckpointPlan {
     /// The file.
     pub path: PathBuf,
     /// Metadata of the file about the image.
@@ -31,12 +31,12 @@ pub struct KeepPlan {
     /// Time between two checkpoints. It is longer if they would take more than 1 % of the time. `None` keeps on request only.
     pub every: Option<Duration>,
     /// Receives what becomes of the checkpoints.
-    pub events: Sender<KeepEvent>,
+    pub events: Sender<CheckpointEvent>,
 }
 
 /// Result of a checkpoint.
 #[derive(Clone, Debug, PartialEq)]
-pub enum KeepEvent {
+pub enum CheckpointEvent {
     /// It is on the disk.
     Kept,
     /// Checkpoints take so long that the time between them is this.
@@ -59,7 +59,7 @@ pub fn reserve([width, height]: [u32; 2]) -> Result<Reservation, TooMuch> {
 
 /// Writes the checkpoints of one image.
 pub struct CheckpointWriter {
-    plan: KeepPlan,
+    plan: CheckpointPlan,
     /// End of the last checkpoint, or the start.
     last: Instant,
     /// Shortest time until the next one.
@@ -71,7 +71,7 @@ pub struct CheckpointWriter {
 }
 
 impl CheckpointWriter {
-    pub fn new(plan: KeepPlan) -> Result<CheckpointWriter, TooMuch> {
+    pub fn new(plan: CheckpointPlan) -> Result<CheckpointWriter, TooMuch> {
         let memory = reserve(plan.header.camera.resolution)?;
         let pause = plan.every.unwrap_or(Duration::MAX);
         Ok(CheckpointWriter { plan, last: Instant::now(), pause, writing: None, is_slower: false, _memory: memory })
@@ -96,7 +96,7 @@ impl CheckpointWriter {
         let write = move || write(&path, &header, &sections);
         match std::thread::Builder::new().name("checkpoint".to_owned()).spawn(write) {
             Ok(writing) => self.writing = Some(writing),
-            Err(error) => self.tell(KeepEvent::Failed(error.to_string())),
+            Err(error) => self.tell(CheckpointEvent::Failed(error.to_string())),
         }
         self.last = Instant::now();
         self.wait_longer(start.elapsed());
@@ -106,7 +106,7 @@ impl CheckpointWriter {
     pub fn report(&mut self) {
         let Some(writing) = self.writing.take() else { return };
         let written = writing.join().unwrap_or_else(|panic| Err(panic_message(&*panic)));
-        self.tell(written.map_or_else(KeepEvent::Failed, |()| KeepEvent::Kept));
+        self.tell(written.map_or_else(CheckpointEvent::Failed, |()| CheckpointEvent::Kept));
     }
 
     fn wait_longer(&mut self, took: Duration) {
@@ -114,12 +114,12 @@ impl CheckpointWriter {
         let pause = every.max(SHARE * took);
         if pause > every && !self.is_slower {
             self.is_slower = true;
-            self.tell(KeepEvent::Slower { took, every: pause });
+            self.tell(CheckpointEvent::Slower { took, every: pause });
         }
         self.pause = pause;
     }
 
-    fn tell(&self, event: KeepEvent) {
+    fn tell(&self, event: CheckpointEvent) {
         let _ = self.plan.events.send(event);
     }
 }

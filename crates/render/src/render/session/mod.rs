@@ -1,6 +1,6 @@
 //! The render of one image: its films, from coarse to full, and the size of the next pass.
 mod cache;
-mod keeping;
+mod checkpointing;
 mod publishing;
 
 use std::time::{Duration, Instant};

@@ -11,7 +11,7 @@ use crossbeam_channel::{Receiver, Sender, bounded, unbounded};
 
 use super::{Message, Shared, Worker, lock};
 use crate::render::{
-    checkpoint::{KeepPlan, KeptRender},
+    checkpoint::{Checkpoint, CheckpointPlan},
     protocol::{Budget, Publish, Published, RenderRequest, RenderTask},
     scene_edit::{EditResult, SceneEdit},
     threads::Threads,
@@ -26,7 +26,7 @@ pub struct KeepHandle {
 
 impl KeepHandle {
     /// Keeps the first image once, if it has this number still. The events of the plan have the result.
-    pub fn keep_once(&self, generation: u64, plan: KeepPlan) {
+    pub fn keep_once(&self, generation: u64, plan: CheckpointPlan) {
         send(&self.sender, &self.shared, Message::KeepOnce(generation, Box::new(plan)));
     }
 }
@@ -62,12 +62,12 @@ impl Renderer {
     }
 
     /// Continues a render from its checkpoint instead of earlier requests.
-    pub fn submit_kept(&self, generation: u64, request: RenderRequest, kept: KeptRender) {
+    pub fn submit_checkpoint(&self, generation: u64, request: RenderRequest, kept: Checkpoint) {
         self.send(Message::Continue(generation, Box::new((request, kept))));
     }
 
     /// Keeps the first image by this plan from now on, or no longer.
-    pub fn set_plan(&self, plan: Option<KeepPlan>) {
+    pub fn set_plan(&self, plan: Option<CheckpointPlan>) {
         self.send(Message::Keep(plan.map(Box::new)));
     }
 

@@ -8,8 +8,8 @@
 //! An image that was rendered before continues with its samples; the image that is being rendered starts over if it is requested
 //! again. A second image can be rendered beside the first. The one that had less time is next. A series by bounces, which is not compared,
 //! does not catch up with the time before it.
+mod checkpointing;
 mod handle;
-mod keeping;
 mod start;
 
 use std::{
@@ -24,7 +24,7 @@ use crossbeam_channel::{Receiver, Sender};
 
 pub use self::handle::{KeepHandle, Renderer};
 use super::{
-    checkpoint::{CheckpointWriter, KeepPlan, KeptRender},
+    checkpoint::{Checkpoint, CheckpointPlan, CheckpointWriter},
     protocol::{Budget, Publish, Published, RenderRequest, RenderTask, State},
     scene_edit::{SceneEdit, SceneEdits},
     session::{Session, SessionCache},
@@ -34,17 +34,17 @@ use super::{
 enum Message {
     First(u64, Box<RenderRequest>),
     /// The first image, from its checkpoint.
-    Continue(u64, Box<(RenderRequest, KeptRender)>),
+    Continue(u64, Box<(RenderRequest, Checkpoint)>),
     Edit(u64, Box<SceneEdit>),
     Second(u64, Box<RenderTask>),
     StopSecond,
     Budget(Budget),
     /// Keeps the first image from now on, or no longer.
-    Keep(Option<Box<KeepPlan>>),
+    Keep(Option<Box<CheckpointPlan>>),
     /// Keeps it now, and answers when the file is there.
     KeepNow(Sender<()>),
     /// Keeps the first image once, if it has this number.
-    KeepOnce(u64, Box<KeepPlan>),
+    KeepOnce(u64, Box<CheckpointPlan>),
     Threads(Threads),
     Quit,
 }
@@ -178,7 +178,7 @@ impl Worker {
             }
             Message::Continue(generation, render) => {
                 self.edits.set(None);
-                self.start_kept(generation, *render);
+                self.start_checkpoint(generation, *render);
             }
             Message::Keep(plan) => self.set_plan(plan.map(|plan| *plan)),
             Message::KeepNow(kept) => self.keep_now(&kept),

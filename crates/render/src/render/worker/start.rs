@@ -3,7 +3,7 @@ use std::time::Duration;
 
 use super::Worker;
 use crate::render::{
-    checkpoint::KeptRender,
+    checkpoint::Checkpoint,
     film::Film,
     protocol::{RenderRequest, RenderTask},
     session::Session,
@@ -55,7 +55,7 @@ impl Worker {
     }
 
     /// Continues an image from its checkpoint.
-    pub(super) fn start_kept(&mut self, generation: u64, (request, kept): (RenderRequest, KeptRender)) {
+    pub(super) fn start_checkpoint(&mut self, generation: u64, (request, kept): (RenderRequest, Checkpoint)) {
         self.kept.retain_scene(&request.scene);
         let old = self.sessions[0].take();
         old.into_iter().for_each(|old| drop(self.kept.keep(old)));

@@ -1,7 +1,7 @@
 //! Checkpoints of a session, and sessions that continue from one.
 use super::Session;
 use crate::render::{
-    checkpoint::{CheckpointWriter, KeptState, counters},
+    checkpoint::{CheckpointState, CheckpointWriter, counters},
     error_estimator::rel_mse_estimate,
     pass::PassCount,
     protocol::{Budget, Publish, RenderRequest},
@@ -10,10 +10,10 @@ use crate::render::{
 
 impl Session {
     /// Continues a render from its checkpoint.
-    pub fn of_kept(generation: u64, request: RenderRequest, budget: &Budget, kept: KeptState) -> Session {
+    pub fn of_kept(generation: u64, request: RenderRequest, budget: &Budget, kept: CheckpointState) -> Session {
         let mut session = Session::new(generation, request, Publish::Sparse, None, budget, None);
         let failure = session.count.failure.take();
-        let KeptState { film, count, elapsed, is_mixed } = kept;
+        let CheckpointState { film, count, elapsed, is_mixed } = kept;
         // The budget may be reached already.
         session.rel_mse_estimate = rel_mse_estimate(&film);
         session.path_reuse = film.path_reuse;

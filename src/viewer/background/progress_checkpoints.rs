@@ -4,12 +4,12 @@ use std::{
     time::{Duration, Instant},
 };
 
-use noisefall_render::render::{KeepHandle, checkpoint::KeptFile};
+use noisefall_render::render::{KeepHandle, checkpoint::CheckpointFile};
 
 use super::{
     background_task::BackgroundTask,
     catalogue::name_in,
-    kept_render::RenderToKeep,
+    checkpoint_render::RenderToKeep,
     recovery_files::{OwnFile, begin, is_in_use, left_files, remove},
 };
 
@@ -39,7 +39,7 @@ pub struct FoundRender {
 
 /// Keeps the render of this window. A folder that cannot be read or written is not reported.
 #[derive(Default)]
-pub struct ProgressKeeper {
+pub struct ProgressCheckpoints {
     /// The folder of the files; without one, nothing is kept.
     folder: Option<PathBuf>,
     own: Option<OwnFile>,
@@ -51,12 +51,12 @@ pub struct ProgressKeeper {
     superseded: Option<PathBuf>,
 }
 
-impl ProgressKeeper {
+impl ProgressCheckpoints {
     /// Keeps renders in this folder, and looks for one that was left there.
-    pub fn in_folder(ctx: &egui::Context, folder: &Path) -> ProgressKeeper {
+    pub fn in_folder(ctx: &egui::Context, folder: &Path) -> ProgressCheckpoints {
         let of_search = folder.to_owned();
         let search = BackgroundTask::start(ctx, move |cancelled| find_patiently(&of_search, cancelled));
-        ProgressKeeper { folder: Some(folder.to_owned()), search: Some(search), ..ProgressKeeper::default() }
+        ProgressCheckpoints { folder: Some(folder.to_owned()), search: Some(search), ..ProgressCheckpoints::default() }
     }
 
     /// Whether an image should be kept now. The file of an image that is no longer rendered is removed.
@@ -127,7 +127,7 @@ fn find_patiently(folder: &Path, cancelled: &dyn Fn() -> bool) -> Option<FoundRe
 /// The latest render that no window has open.
 fn find(folder: &Path) -> Option<FoundRender> {
     let found = left_files(folder, EXTENSION).filter(|file| !is_in_use(file)).filter_map(|file| {
-        let header = KeptFile::open(&file).ok()?.header().clone();
+        let header = CheckpointFile::open(&file).ok()?.header().clone();
         let age = file.metadata().and_then(|metadata| metadata.modified()).ok()?.elapsed().unwrap_or_default();
         let rendered = Duration::try_from_secs_f64(header.counters.seconds).ok()?;
         Some(FoundRender { file, scene: name_in(header.scene.text.as_bytes(), &header.scene.name), rendered, age })
@@ -142,20 +142,20 @@ mod tests {
     #[test]
     fn a_render_is_kept_after_a_minute_and_then_as_often_as_its_file_allows() {
         let folder = tempfile::tempdir().expect("a folder");
-        let mut keeper = ProgressKeeper::in_folder(&egui::Context::default(), folder.path());
+        let mut keeper = ProgressCheckpoints::in_folder(&egui::Context::default(), folder.path());
         let seconds = Duration::from_secs;
         assert!(!keeper.is_due(1, seconds(59)) && keeper.is_due(1, seconds(60)));
         keeper.last = (1, seconds(60), seconds(2));
         assert!(!keeper.is_due(1, seconds(259)) && keeper.is_due(1, seconds(260)));
         assert!(!keeper.is_due(2, seconds(59)), "another image");
-        assert!(!ProgressKeeper::default().is_due(1, seconds(600)), "without a folder");
+        assert!(!ProgressCheckpoints::default().is_due(1, seconds(600)), "without a folder");
     }
 
     #[test]
     fn the_file_goes_with_its_image_and_when_the_window_ends_in_order() {
         let folder = tempfile::tempdir().expect("a folder");
         let keeper = || {
-            let mut keeper = ProgressKeeper { folder: Some(folder.path().to_owned()), ..ProgressKeeper::default() };
+            let mut keeper = ProgressCheckpoints { folder: Some(folder.path().to_owned()), ..ProgressCheckpoints::default() };
             keeper.last.0 = 1;
             let own = begin(folder.path(), PREFIX, EXTENSION).expect("it can be written");
             std::fs::write(&own.path, "a render").expect("it is written");

@@ -11,7 +11,10 @@ use noisefall_formats::import::{ImportOptions, Opened, Remarks};
 use noisefall_render::{
     render::{
         KeepHandle, RenderRequest,
-        checkpoint::{KeepEvent, KeepPlan, KeptFile, KeptRender, file_differences, keep_scene, kept_header, probe_difference},
+        checkpoint::{
+            Checkpoint, CheckpointEvent, CheckpointFile, CheckpointPlan, checkpoint_header, file_differences, keep_scene,
+            probe_difference,
+        },
         threads::Threads,
     },
     render_file::{Header, Target},
@@ -22,7 +25,7 @@ use noisefall_scene::scene::{Scene, description::SceneDescription};
 pub struct OpenedRender {
     pub file: PathBuf,
     pub header: Header,
-    pub render: KeptRender,
+    pub render: Checkpoint,
 }
 
 /// The scene of a render that continues.
@@ -36,7 +39,7 @@ pub struct ReopenedScene {
 
 /// Opens the scene of a file, and what is rendered of it.
 pub fn open_kept(path: &Path, options: &ImportOptions) -> Result<ReopenedScene, String> {
-    let file = KeptFile::open(path).map_err(|error| error.to_string())?;
+    let file = CheckpointFile::open(path).map_err(|error| error.to_string())?;
     let header = file.header().clone();
     let refused = |differences: &[String]| {
         let lines: String = differences.iter().map(|line| format!("\n  {line}")).collect();
@@ -78,16 +81,16 @@ impl RenderToKeep {
         let (path, options) = &self.scene;
         let kept = keep_scene(&self.request.scene, path, choices(path, options));
         let threads = Threads::new(1, SimdLevel::best()).map_err(|error| error.to_string())?;
-        let header = kept_header(&self.request, kept, Some(&self.description), self.target, &threads);
+        let header = checkpoint_header(&self.request, kept, Some(&self.description), self.target, &threads);
         Ok(Header { remarks: self.remarks.clone(), ..header.map_err(|error| error.report())? })
     }
 
     /// Writes the file, and waits until it is on the disk.
     pub fn save(&self, worker: &KeepHandle, path: &Path) -> Result<(), String> {
         let (events, received) = unbounded();
-        worker.keep_once(self.generation, KeepPlan { path: path.to_owned(), header: self.header()?, every: None, events });
+        worker.keep_once(self.generation, CheckpointPlan { path: path.to_owned(), header: self.header()?, every: None, events });
         match received.recv() {
-            Ok(KeepEvent::Failed(error)) => Err(error),
+            Ok(CheckpointEvent::Failed(error)) => Err(error),
             Ok(_) => Ok(()),
             Err(_) => Err("the render has ended".to_owned()),
         }

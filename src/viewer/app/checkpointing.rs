@@ -9,7 +9,7 @@ use noisefall_render::{
 use super::state::App;
 use crate::viewer::{
     background::{
-        kept_render::{OpenedRender, RenderToKeep},
+        checkpoint_render::{OpenedRender, RenderToKeep},
         recovery_files::remove,
     },
     dialogs::{
@@ -20,7 +20,7 @@ use crate::viewer::{
 
 impl App {
     /// Continues the render from whose file the scene was opened.
-    pub fn continue_kept(&mut self) {
+    pub fn continue_checkpoint(&mut self) {
         let kept = self.session.opened.as_mut().and_then(|opened| opened.kept.take());
         self.session.mixed.clear();
         self.environment.progress.begin(kept.as_ref().map(|kept| kept.file.as_path()));

@@ -15,8 +15,8 @@ use noisefall_render::{
     render::{
         Budget, RenderRequest,
         checkpoint::{
-            EXTENSION, KeepEvent, KeepPlan, KeptFile, KeptRender, file_differences, is_kept_file, keep_scene, kept_header,
-            probe_difference,
+            Checkpoint, CheckpointEvent, CheckpointFile, CheckpointPlan, EXTENSION, checkpoint_header, file_differences,
+            is_checkpoint_file, keep_scene, probe_difference,
         },
         threads::Threads,
     },
@@ -56,7 +56,7 @@ pub struct KeepOptions {
 /// A render that is continued.
 pub struct Resumed {
     path: PathBuf,
-    file: KeptFile,
+    file: CheckpointFile,
     /// Files that are not what they were.
     differences: Vec<String>,
 }
@@ -76,17 +76,17 @@ impl KeptImage<'_> {
     pub fn header(&self, options: &SceneOptions, budget: &Budget, threads: &Threads) -> Result<Header, Failure> {
         let choices = choices(self.path, &options.import_options(self.size));
         let scene = keep_scene(&self.request.scene, self.path, choices);
-        let header = kept_header(self.request, scene, self.description, target(budget), threads);
+        let header = checkpoint_header(self.request, scene, self.description, target(budget), threads);
         header.map_err(|error| error.report())
     }
 }
 
 /// The plan of the checkpoints, and the one that the render continues from.
 #[derive(Default)]
-pub struct Keeping {
-    pub plan: Option<KeepPlan>,
-    pub events: Option<Receiver<KeepEvent>>,
-    pub kept: Option<KeptRender>,
+pub struct Checkpointing {
+    pub plan: Option<CheckpointPlan>,
+    pub events: Option<Receiver<CheckpointEvent>>,
+    pub kept: Option<Checkpoint>,
     /// How the image differs from one that was rendered in one go.
     pub remarks: Vec<String>,
 }
@@ -114,7 +114,7 @@ impl KeepOptions {
                 "{path}: the frames of a sequence need checkpoints with a number, such as --checkpoint frame-####.nf"
             ));
         }
-        let is_other = |path: &PathBuf| !is_kept_file(path);
+        let is_other = |path: &PathBuf| !is_checkpoint_file(path);
         if let Some(other) = self.checkpoint.as_ref().filter(|path| is_other(path)) {
             return Some(format!("{}: the name of a checkpoint must end in .{EXTENSION}", other.display()));
         }
@@ -126,7 +126,7 @@ impl KeepOptions {
 
     /// Opens the file of a render. Fails if files of its scene have changed.
     pub fn resume(&self, path: &Path) -> Result<Resumed, Failure> {
-        let file = KeptFile::open(path).map_err(|error| error.to_string())?;
+        let file = CheckpointFile::open(path).map_err(|error| error.to_string())?;
         let differences = file_differences(file.header(), path);
         let resumed = Resumed { path: path.to_owned(), file, differences };
         match resumed.differences.is_empty() || self.anyway {
@@ -143,11 +143,11 @@ impl KeepOptions {
         budget: &Budget,
         resumed: Option<Resumed>,
         threads: &Threads,
-    ) -> Result<Keeping, Failure> {
+    ) -> Result<Checkpointing, Failure> {
         let Some(resumed) = resumed else {
-            let Some(checkpoint) = &self.checkpoint else { return Ok(Keeping::default()) };
+            let Some(checkpoint) = &self.checkpoint else { return Ok(Checkpointing::default()) };
             check_new(checkpoint, &continuation(checkpoint))?;
-            return Ok(Keeping::new(checkpoint, self.every(), image.header(options, budget, threads)?, None));
+            return Ok(Checkpointing::new(checkpoint, self.every(), image.header(options, budget, threads)?, None));
         };
         let KeptImage { request, description, .. } = image;
         let target = target(budget);
@@ -158,7 +158,7 @@ impl KeepOptions {
             true => Header { target, program: Header::PROGRAM.to_owned(), ..before },
             false if !self.anyway => return Err(resumed.refusal(&differences)),
             false => {
-                let now = kept_header(request, before.scene, description, target, threads);
+                let now = checkpoint_header(request, before.scene, description, target, threads);
                 let remarks = [before.remarks, vec![differences.join("; ")]].concat();
                 Header { remarks, ..now.map_err(|error| error.report())? }
             }
@@ -173,17 +173,17 @@ impl KeepOptions {
         file::check(checkpoint).map_err(|error| error.to_string())?;
         let kept = resumed.file.read().map_err(|error| error.to_string())?;
         let kept = if header.remarks.is_empty() { kept } else { kept.mixed() };
-        Ok(Keeping::new(checkpoint, self.every(), header, Some(kept)))
+        Ok(Checkpointing::new(checkpoint, self.every(), header, Some(kept)))
     }
 }
 
-impl Keeping {
+impl Checkpointing {
     /// Keeps a render in a file with this header.
-    pub fn new(checkpoint: &Path, every: Duration, header: Header, kept: Option<KeptRender>) -> Keeping {
+    pub fn new(checkpoint: &Path, every: Duration, header: Header, kept: Option<Checkpoint>) -> Checkpointing {
         let (events, received) = unbounded();
         let remarks = header.remarks.clone();
-        let plan = KeepPlan { path: checkpoint.to_owned(), header, every: Some(every), events };
-        Keeping { plan: Some(plan), events: Some(received), kept, remarks }
+        let plan = CheckpointPlan { path: checkpoint.to_owned(), header, every: Some(every), events };
+        Checkpointing { plan: Some(plan), events: Some(received), kept, remarks }
     }
 }
 
@@ -235,14 +235,14 @@ fn target(budget: &Budget) -> Target {
 }
 
 /// The text about what became of a checkpoint; `None` if there is nothing to say.
-pub fn message(event: &KeepEvent) -> Option<String> {
+pub fn message(event: &CheckpointEvent) -> Option<String> {
     match event {
-        KeepEvent::Kept => None,
-        KeepEvent::Slower { took, every } => {
+        CheckpointEvent::Kept => None,
+        CheckpointEvent::Slower { took, every } => {
             let (took, every) = (took.as_secs_f64(), every.as_secs_f64());
             let often = format!("a checkpoint takes {took:.2} s, so they are at least {every:.0} s apart");
             Some(format!("warning: {often}: together they take 1 % of the time at most"))
         }
-        KeepEvent::Failed(error) => Some(format!("warning: no checkpoint was written: {error}; the render continues")),
+        CheckpointEvent::Failed(error) => Some(format!("warning: no checkpoint was written: {error}; the render continues")),
     }
 }

@@ -5,19 +5,19 @@ use noisefall_base::{file, quote};
 use noisefall_render::{
     render::{
         RenderRequest,
-        checkpoint::{KeptFile, probe},
+        checkpoint::{CheckpointFile, probe},
         threads::Threads,
     },
     render_file::Header,
 };
 
 use super::{
-    keeping::{Keeping, check_new},
+    checkpointing::{Checkpointing, check_new},
     messages::Failure,
 };
 
 /// How the frames of a sequence are kept.
-pub struct FrameKeeping {
+pub struct FrameCheckpoints {
     /// The header of a frame. Others differ in camera and probe.
     pub header: Header,
     pub every: Duration,
@@ -25,7 +25,7 @@ pub struct FrameKeeping {
     pub continues: bool,
 }
 
-impl FrameKeeping {
+impl FrameCheckpoints {
     /// Checks before the first frame that a frame can be kept, and continued if it has a checkpoint.
     pub fn check(&self, frame: &RenderRequest, checkpoint: &Path, threads: &Threads) -> Result<(), Failure> {
         if !(self.continues && checkpoint.exists()) {
@@ -36,15 +36,15 @@ impl FrameKeeping {
     }
 
     /// How a frame is kept, and what it continues from.
-    pub fn keeping(&self, frame: &RenderRequest, checkpoint: &Path, threads: &Threads) -> Result<Keeping, Failure> {
+    pub fn keeping(&self, frame: &RenderRequest, checkpoint: &Path, threads: &Threads) -> Result<Checkpointing, Failure> {
         let header = self.header(frame, threads);
         if !(self.continues && checkpoint.exists()) {
-            return Ok(Keeping::new(checkpoint, self.every, header, None));
+            return Ok(Checkpointing::new(checkpoint, self.every, header, None));
         }
         let file = self.open(checkpoint, &header)?;
         let header = Header { remarks: file.header().remarks.clone(), ..header };
         let kept = file.read().map_err(|error| error.to_string())?;
-        Ok(Keeping::new(checkpoint, self.every, header, Some(kept)))
+        Ok(Checkpointing::new(checkpoint, self.every, header, Some(kept)))
     }
 
     fn header(&self, frame: &RenderRequest, threads: &Threads) -> Header {
@@ -52,8 +52,8 @@ impl FrameKeeping {
     }
 
     /// Opens the checkpoint of the frame with this header.
-    fn open(&self, checkpoint: &Path, header: &Header) -> Result<KeptFile, Failure> {
-        let file = KeptFile::open(checkpoint).map_err(|error| error.to_string())?;
+    fn open(&self, checkpoint: &Path, header: &Header) -> Result<CheckpointFile, Failure> {
+        let file = CheckpointFile::open(checkpoint).map_err(|error| error.to_string())?;
         // Another program may continue a render if its samples have the same bits.
         let before = Header { program: header.program.clone(), ..file.header().clone() };
         match before.difference(header) {

@@ -2,17 +2,17 @@
 use crossbeam_channel::Sender;
 
 use super::Worker;
-use crate::render::checkpoint::{CheckpointWriter, KeepEvent, KeepPlan};
+use crate::render::checkpoint::{CheckpointEvent, CheckpointPlan, CheckpointWriter};
 
 impl Worker {
     /// Keeps the first image by this plan from now on, or no longer. A checkpoint that is being written is finished first.
-    pub(super) fn set_plan(&mut self, plan: Option<KeepPlan>) {
+    pub(super) fn set_plan(&mut self, plan: Option<CheckpointPlan>) {
         self.keeper = None;
         let Some(plan) = plan else { return };
         let events = plan.events.clone();
         match CheckpointWriter::new(plan) {
             Ok(keeper) => self.keeper = Some(keeper),
-            Err(error) => _ = events.send(KeepEvent::Failed(error.to_string())),
+            Err(error) => _ = events.send(CheckpointEvent::Failed(error.to_string())),
         }
     }
 
@@ -31,7 +31,7 @@ impl Worker {
     }
 
     /// Writes the image of this number by a plan of its own. The events have the result.
-    pub(super) fn keep_once(&mut self, generation: u64, plan: KeepPlan) {
+    pub(super) fn keep_once(&mut self, generation: u64, plan: CheckpointPlan) {
         let events = plan.events.clone();
         let first = self.sessions[0].as_ref().filter(|first| first.generation() == generation && first.can_be_kept());
         let kept = match first {
@@ -41,7 +41,7 @@ impl Worker {
                 .map_err(|error| error.to_string()),
         };
         // A keeper reports when it is dropped.
-        kept.err().into_iter().for_each(|error| _ = events.send(KeepEvent::Failed(error)));
+        kept.err().into_iter().for_each(|error| _ = events.send(CheckpointEvent::Failed(error)));
     }
 
     fn keep(&mut self) {

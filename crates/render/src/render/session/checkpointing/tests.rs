@@ -14,7 +14,10 @@ use super::{super::tests::threads, *};
 use crate::{
     render::{
         Display, Frame, State,
-        checkpoint::{KeepEvent, KeepPlan, KeptFile, file_differences, keep_scene, kept_header, path_of, probe_difference},
+        checkpoint::{
+            CheckpointEvent, CheckpointFile, CheckpointPlan, checkpoint_header, file_differences, keep_scene, path_of,
+            probe_difference,
+        },
         halves::Halves,
         image_file::{Contents, Format},
         settings_text::settings_text,
@@ -50,18 +53,18 @@ fn fresh(request: RenderRequest) -> Session {
 
 fn header(request: &RenderRequest) -> Header {
     let scene = keep_scene(&request.scene, Path::new("scenes/a.toml"), None);
-    kept_header(request, scene, None, Target::default(), &threads()).expect("its files are there")
+    checkpoint_header(request, scene, None, Target::default(), &threads()).expect("its files are there")
 }
 
 /// Writes a session to a file, and reads it again.
 fn through_a_file(session: &Session, header: &Header, path: &Path) -> Session {
     let (events, received) = unbounded();
-    let plan = KeepPlan { path: path.to_owned(), header: header.clone(), every: None, events };
+    let plan = CheckpointPlan { path: path.to_owned(), header: header.clone(), every: None, events };
     let mut keeper = CheckpointWriter::new(plan).expect("there is memory");
     session.checkpoint(&mut keeper, &threads());
     keeper.report();
-    assert_eq!(received.try_recv(), Ok(KeepEvent::Kept));
-    let file = KeptFile::open(path).expect("it is whole");
+    assert_eq!(received.try_recv(), Ok(CheckpointEvent::Kept));
+    let file = CheckpointFile::open(path).expect("it is whole");
     let (request, kept) = (session.request.clone(), file.read().expect("it is whole"));
     let continued = Session::of_kept(1, request, &Budget::default(), kept.into_state());
     assert_eq!((continued.elapsed, &continued.count), (session.elapsed, &session.count));
@@ -132,7 +135,7 @@ fn a_scene_is_opened_again_from_the_file_and_changes_are_noticed() {
     let settings = scene.settings;
     let request = request(&scene, settings);
     let kept = keep_scene(&scene, &scene_path, None);
-    let header = kept_header(&request, kept, None, Target::default(), &threads()).expect("its files are there");
+    let header = checkpoint_header(&request, kept, None, Target::default(), &threads()).expect("its files are there");
     assert_eq!(header.files.len(), 1);
     let nf = folder.path().join("a.nf");
     let path = path_of(&header.scene, &nf).display().to_string();

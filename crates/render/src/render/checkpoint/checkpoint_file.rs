@@ -20,7 +20,7 @@ use noisefall_base::{declare::check, file::open_regular, memory::Reservation, qu
 pub const EXTENSION: &str = "nf";
 
 /// Whether a path has the extension of render files.
-pub fn is_kept_file(path: &Path) -> bool {
+pub fn is_checkpoint_file(path: &Path) -> bool {
     path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case(EXTENSION))
 }
 
@@ -33,19 +33,19 @@ pub struct UnreadableFile {
 }
 
 /// A file whose header is read.
-pub struct KeptFile {
+pub struct CheckpointFile {
     path: PathBuf,
     reader: Reader<BufReader<File>>,
 }
 
 /// The state of a render, to continue from.
-pub struct KeptRender {
-    state: KeptState,
+pub struct Checkpoint {
+    state: CheckpointState,
     _memory: Reservation,
 }
 
 /// Film and figures of a render.
-pub(in crate::render) struct KeptState {
+pub(in crate::render) struct CheckpointState {
     pub film: Film,
     pub count: PassCount,
     pub elapsed: Duration,
@@ -53,31 +53,31 @@ pub(in crate::render) struct KeptState {
     pub is_mixed: bool,
 }
 
-impl KeptRender {
+impl Checkpoint {
     /// Render time so far.
     pub fn elapsed(&self) -> Duration {
         self.state.elapsed
     }
 
     /// Marks the render as one that continues with another scene or program.
-    pub fn mixed(self) -> KeptRender {
-        KeptRender { state: KeptState { is_mixed: true, ..self.state }, ..self }
+    pub fn mixed(self) -> Checkpoint {
+        Checkpoint { state: CheckpointState { is_mixed: true, ..self.state }, ..self }
     }
 
     /// The state. Its memory is no longer reserved.
-    pub(in crate::render) fn into_state(self) -> KeptState {
+    pub(in crate::render) fn into_state(self) -> CheckpointState {
         self.state
     }
 }
 
-impl KeptFile {
+impl CheckpointFile {
     /// Opens a file, and checks that its header can be used.
-    pub fn open(path: &Path) -> Result<KeptFile, UnreadableFile> {
+    pub fn open(path: &Path) -> Result<CheckpointFile, UnreadableFile> {
         let unreadable = |error| UnreadableFile { path: path.to_owned(), error };
         let file = open_regular(path).map_err(|error| unreadable(error.into()))?;
         let reader = Reader::new(BufReader::new(file)).map_err(unreadable)?;
         check_header(reader.header()).map_err(unreadable)?;
-        Ok(KeptFile { path: path.to_owned(), reader })
+        Ok(CheckpointFile { path: path.to_owned(), reader })
     }
 
     /// Returns the file's metadata about its image.
@@ -86,19 +86,19 @@ impl KeptFile {
     }
 
     /// Reads the state of the render.
-    pub fn read(mut self) -> Result<KeptRender, UnreadableFile> {
+    pub fn read(mut self) -> Result<Checkpoint, UnreadableFile> {
         let path = self.path.clone();
         self.read_state().map_err(|error| UnreadableFile { path, error })
     }
 
-    fn read_state(&mut self) -> Result<KeptRender, RenderFileError> {
+    fn read_state(&mut self) -> Result<Checkpoint, RenderFileError> {
         let Header { camera, counters, remarks, .. } = self.reader.header();
         let (counters, resolution, is_mixed) = (*counters, camera.resolution, !remarks.is_empty());
         // The worker reserves the memory of its films itself; until then it is this.
         let memory = Film::reserve_kept(resolution)?;
         let film = film_sections::read(&mut self.reader, resolution)?;
         let (count, elapsed) = figures(&counters)?;
-        Ok(KeptRender { state: KeptState { film, count, elapsed, is_mixed }, _memory: memory })
+        Ok(Checkpoint { state: CheckpointState { film, count, elapsed, is_mixed }, _memory: memory })
     }
 }
 
