@@ -95,7 +95,7 @@ fn a_click_in_the_legend_hides_a_curve_and_a_menu_renames_and_removes_it() {
     *window.state_mut().tab_mut() = Some(InstrumentTab::Convergence);
     wait(&mut window, "a curve", |app| app.curves().curves.first().is_some_and(|curve| curve.moments.len() > 1));
     window.run_steps(2);
-    assert!(said(&window, "estimated error") || said(&window, "Noise"), "nothing is measured");
+    assert!(said(&window, "estimated error") || said(&window, "estimated error "), "nothing is measured");
     let name = |window: &Window| {
         let history = &window.state().curves();
         history.name(&history.curves[0])

@@ -56,8 +56,7 @@ fn figures_column(ui: &mut Ui, history: &mut History, latest: [Option<u64>; 2], 
 
 fn axis_choice(ui: &mut Ui, history: &mut History) {
     ui.horizontal(|ui| {
-        let name = if history.is_measured() { "Error" } else { "Estimated error" };
-        ui.selectable_value(&mut history.what, Quantity::Error, name).on_hover_text(
+        ui.selectable_value(&mut history.what, Quantity::Error, "Error").on_hover_text(
             "Lines are the estimated error: the root of relMSE, estimated from the samples. It does not include bias. Points are the error \
              against the reference. Long dashes are the bias of a cap.",
         );

@@ -12,7 +12,7 @@ impl Weighting for Mis {
     const WORD: Word = Word {
         name: "mis",
         title: "MIS",
-        doc: "Combines path and light sampling, weighted by their pdfs (multiple importance sampling).",
+        doc: "Combines BSDF and light sampling, weighted by their pdfs (multiple importance sampling).",
     };
     const STRATEGIES: &'static str = "camera paths that hit a light and samples of lights, weighted by the power heuristic";
     const COMPARES: bool = true;
