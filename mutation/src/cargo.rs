@@ -1,4 +1,4 @@
-//! Cargo on the copy: which faults do not compile, and where the tests are.
+//! Cargo on the copy: which mutants do not compile, and where the tests are.
 use std::{
     collections::{BTreeMap, BTreeSet},
     ops::Range,
@@ -11,14 +11,14 @@ use serde_json::Value;
 use crate::{Outcome, schemata::Mutated};
 
 pub struct Build {
-    /// Numbers of faults that do not compile.
+    /// Numbers of mutants that do not compile.
     pub rejected: BTreeSet<u32>,
     /// Executables with tests, by the name of their target.
     pub tests: Vec<(String, PathBuf)>,
 }
 
 /// Runs cargo on the copy in a folder, and tells which of the mutants it refuses.
-pub fn build(folder: &Path, target: &Path, arguments: &[&str], planted: &BTreeMap<String, Mutated>) -> Outcome<Build> {
+pub fn build(folder: &Path, target: &Path, arguments: &[&str], inserted: &BTreeMap<String, Mutated>) -> Outcome<Build> {
     let mut command = Command::new("cargo");
     command.args(arguments).args(["--release", "--locked", "--keep-going", "--message-format=json"]).current_dir(folder);
     command.env("CARGO_TARGET_DIR", target).env("CARGO_INCREMENTAL", "0").stderr(Stdio::piped());
@@ -29,10 +29,10 @@ pub fn build(folder: &Path, target: &Path, arguments: &[&str], planted: &BTreeMa
         match message["reason"].as_str() {
             Some("compiler-message") if message["message"]["level"] == "error" => {
                 let spans = spans(&message["message"]);
-                let found = blamed(&spans, planted);
+                let found = blamed(&spans, inserted);
                 if found.is_empty() && !spans.is_empty() {
                     let text = message["message"]["rendered"].as_str().unwrap_or_default();
-                    return Err(format!("the copy does not compile, and no fault is to blame:\n{text}"));
+                    return Err(format!("the copy does not compile, and no mutant is to blame:\n{text}"));
                 }
                 build.rejected.extend(found);
             }
@@ -53,11 +53,11 @@ pub fn build(folder: &Path, target: &Path, arguments: &[&str], planted: &BTreeMa
     Ok(build)
 }
 
-/// The faults where an error lies, else the nearest one of the file.
-fn blamed(spans: &[(String, Range<usize>)], planted: &BTreeMap<String, Mutated>) -> Vec<u32> {
-    let files = spans.iter().filter_map(|(file, bytes)| Some((planted.get(file)?, bytes)));
-    let there: Vec<u32> = files.clone().flat_map(|(planted, bytes)| planted.at(bytes)).collect();
-    if there.is_empty() { files.filter_map(|(planted, bytes)| planted.nearest(bytes.start)).take(1).collect() } else { there }
+/// The mutants where an error lies, else the nearest one of the file.
+fn blamed(spans: &[(String, Range<usize>)], inserted: &BTreeMap<String, Mutated>) -> Vec<u32> {
+    let files = spans.iter().filter_map(|(file, bytes)| Some((inserted.get(file)?, bytes)));
+    let there: Vec<u32> = files.clone().flat_map(|(inserted, bytes)| inserted.at(bytes)).collect();
+    if there.is_empty() { files.filter_map(|(inserted, bytes)| inserted.nearest(bytes.start)).take(1).collect() } else { there }
 }
 
 /// Where an error lies: its primary places, and those of the macros that they come from.

@@ -1,4 +1,4 @@
-//! Faults that somebody wrote by hand, so that they can always be made again.
+//! Mutants that somebody wrote by hand, so that they can always be made again.
 use serde::Deserialize;
 use syn::{
     Expr, Stmt,
@@ -8,14 +8,14 @@ use syn::{
 
 use crate::{
     Outcome,
-    fault::{Fault, Form},
+    mutant::{Mutant, Form},
     package::Package,
 };
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Table {
-    fault: Vec<Given>,
+    mutant: Vec<Given>,
 }
 
 #[derive(Deserialize)]
@@ -26,19 +26,19 @@ struct Given {
     file: String,
     /// A whole expression or statement that the file has once.
     original: String,
-    faulty: String,
+    changed: String,
 }
 
-/// Reads the faults of a TOML text, of a table with this name, and finds their places.
-pub fn read(text: &str, table: &str, package: &Package) -> Outcome<Vec<Fault>> {
-    let faults: Table = toml::from_str(text).map_err(|error| format!("{table}: {error}"))?;
-    let found: Vec<Outcome<Fault>> = faults.fault.iter().map(|given| find(given, package.text(&given.file))).collect();
-    let errors: Vec<String> = found.iter().filter_map(|fault| Some(format!("{table}, {}", fault.as_ref().err()?))).collect();
+/// Reads the mutants of a TOML text, of a table with this name, and finds their places.
+pub fn read(text: &str, table: &str, package: &Package) -> Outcome<Vec<Mutant>> {
+    let mutants: Table = toml::from_str(text).map_err(|error| format!("{table}: {error}"))?;
+    let found: Vec<Outcome<Mutant>> = mutants.mutant.iter().map(|given| find(given, package.text(&given.file))).collect();
+    let errors: Vec<String> = found.iter().filter_map(|mutant| Some(format!("{table}, {}", mutant.as_ref().err()?))).collect();
     if errors.is_empty() { found.into_iter().collect() } else { Err(errors.join("\n")) }
 }
 
-fn find(given: &Given, source: &str) -> Outcome<Fault> {
-    let Given { name, file, original, faulty } = given;
+fn find(given: &Given, source: &str) -> Outcome<Mutant> {
+    let Given { name, file, original, changed } = given;
     let original = original.trim();
     let wrong = |reason: &str| format!("\"{name}\": {file} {reason}: {original}");
     let mut places = source.match_indices(original).map(|(at, _)| at..at + original.len());
@@ -50,10 +50,10 @@ fn find(given: &Given, source: &str) -> Outcome<Fault> {
     let mut whole = Whole { range, form: None };
     whole.visit_file(&parsed);
     let form = whole.form.ok_or_else(|| wrong("has this text, but it is not a whole expression or statement"))?;
-    let is_value = form == Form::Place && !syn::parse_str(faulty).is_ok_and(|faulty| is_place(&faulty));
+    let is_value = form == Form::Place && !syn::parse_str(changed).is_ok_and(|changed| is_place(&changed));
     let form = if is_value { Form::Value } else { form };
     let start = source[..whole.range.start].rfind('\n').map_or(0, |at| at + 1);
-    Ok(Fault {
+    Ok(Mutant {
         file: file.clone(),
         line: source[..whole.range.start].matches('\n').count() + 1,
         source: source[start..].lines().next().unwrap_or_default().trim().to_owned(),
@@ -61,7 +61,7 @@ fn find(given: &Given, source: &str) -> Outcome<Fault> {
         operator: "given",
         form,
         original: original.to_owned(),
-        faulty: faulty.trim().to_owned(),
+        changed: changed.trim().to_owned(),
         repeat: 0,
         range: whole.range,
     })
@@ -98,14 +98,14 @@ impl<'ast> Visit<'ast> for Whole {
 mod tests {
     use super::*;
 
-    fn found(original: &str) -> Outcome<Fault> {
-        let given = Given { name: "n".to_owned(), file: "f".to_owned(), original: original.to_owned(), faulty: "x.y".to_owned() };
+    fn found(original: &str) -> Outcome<Mutant> {
+        let given = Given { name: "n".to_owned(), file: "f".to_owned(), original: original.to_owned(), changed: "x.y".to_owned() };
         find(&given, "fn f() {\n    g(a * 2 + b);\n    h(b);\n    c.d\n}")
     }
 
     #[test]
     fn whole_expressions_and_statements_are_found() {
-        let forms = ["a * 2", "a * 2 + b", "h(b);", "c.d"].map(|text| found(text).map(|fault| (fault.line, fault.form)));
+        let forms = ["a * 2", "a * 2 + b", "h(b);", "c.d"].map(|text| found(text).map(|mutant| (mutant.line, mutant.form)));
         assert_eq!(forms, [Ok((2, Form::Value)), Ok((2, Form::Value)), Ok((3, Form::Statement)), Ok((4, Form::Place))]);
     }
 

@@ -1,9 +1,9 @@
-//! Plants faults in a copy of the package, runs the tests against one after the other, and lists those that no test notices.
+//! Plants mutants in a copy of the package, runs the tests against one after the other, and lists those that no test notices.
 //!
-//! All faults are in one build, and an environment variable turns one on (mutant schemata: Untch, Offutt and Harrold 1993).
+//! All mutants are in one build, and an environment variable turns one on (mutant schemata: Untch, Offutt and Harrold 1993).
 mod cargo;
 mod draw;
-mod fault;
+mod mutant;
 mod finder;
 mod given;
 mod hunt;
@@ -28,53 +28,53 @@ use std::{
 use clap::Parser;
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 
-use crate::{draw::Draw, fault::Fault, hunt::Verdict, journal::Journal, pace::Pace, package::Package, suite::Test};
+use crate::{draw::Draw, mutant::Mutant, hunt::Verdict, journal::Journal, pace::Pace, package::Package, suite::Test};
 
 /// A result whose error is a sentence.
 type Outcome<T> = Result<T, String>;
 
-/// Plants faults in the source, one at a time, and lists those that no test notices.
+/// Plants mutants in the source, one at a time, and lists those that no test notices.
 ///
 /// Start it at the top of the repository. Results are kept in target/mutation: stop it at any time, and the same command goes on.
 #[derive(Parser)]
 struct Options {
-    /// How many faults to draw, besides those of mutation/faults.toml.
+    /// How many mutants to draw, besides those of mutation/mutants.toml.
     #[arg(long, default_value_t = 240)]
     count: usize,
-    /// Decides which faults are drawn.
+    /// Decides which mutants are drawn.
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Every fault of a file or folder, such as crates/render/src/render/film.rs, in place of those that are drawn.
+    /// Every mutant of a file or folder, such as crates/render/src/render/film.rs, in place of those that are drawn.
     #[arg(long, value_name = "PATH", conflicts_with = "given")]
     all_in: Option<String>,
-    /// The faults of mutation/faults.toml alone.
+    /// The mutants of mutation/mutants.toml alone.
     #[arg(long)]
     given: bool,
-    /// A table of faults in the place of mutation/faults.toml.
+    /// A table of mutants in the place of mutation/mutants.toml.
     #[arg(long, value_name = "FILE", requires = "given")]
-    faults: Option<PathBuf>,
+    mutants: Option<PathBuf>,
     /// Run only the tests whose name contains this text. Their verdicts are kept apart from those of all tests.
     #[arg(long, value_name = "TEXT")]
     tests: Option<String>,
-    /// Of the faults, only those that survived when they were tried last, with the tests of now.
+    /// Of the mutants, only those that survived when they were tried last, with the tests of now.
     #[arg(long)]
     survivors: bool,
-    /// Try only the faults of these numbers, again if they were tried before.
+    /// Try only the mutants of these numbers, again if they were tried before.
     #[arg(long, value_name = "N,N", value_delimiter = ',')]
     only: Vec<u32>,
-    /// List the faults and stop.
+    /// List the mutants and stop.
     #[arg(long)]
     list: bool,
-    /// Faults to try at a time; as many as there are processors if absent.
+    /// Mutants to try at a time; as many as there are processors if absent.
     #[arg(long)]
     jobs: Option<usize>,
     /// Compile for AVX2 and one lane only, in half of the time.
     #[arg(long)]
     few_levels: bool,
-    /// Leave out tests that take longer than so many seconds: a fault that only they notice seems to survive.
+    /// Leave out tests that take longer than so many seconds: a mutant that only they notice seems to survive.
     #[arg(long, value_name = "SECONDS", default_value_t = f64::INFINITY)]
     longest: f64,
-    /// Try faults that SURVIVORS.md explains, too.
+    /// Try mutants that SURVIVORS.md explains, too.
     #[arg(long)]
     explained: bool,
     /// Stop after this long (the build is not interrupted).
@@ -105,22 +105,22 @@ fn run(options: &Options) -> Outcome<()> {
     let run = Run { options, package, own: top.join("mutation"), workplace: top.join("target/mutation"), start: Instant::now() };
     let verdicts = run.journal(&run.named("results", "jsonl"), run.package.hash());
     let candidates = run.package.candidates()?;
-    run.say(&format!("{} places for faults", candidates.len()));
+    run.say(&format!("{} places for mutants", candidates.len()));
     let given = run.given()?;
     let explained = survivors::read(&read(&run.own.join("SURVIVORS.md"))?)?;
-    for row in explained.iter().filter(|row| !candidates.iter().chain(&given).any(|fault| row.is(fault))) {
-        eprintln!("SURVIVORS.md explains a fault that cannot be made any more: {}", row.name());
+    for row in explained.iter().filter(|row| !candidates.iter().chain(&given).any(|mutant| row.is(mutant))) {
+        eprintln!("SURVIVORS.md explains a mutant that cannot be made any more: {}", row.name());
     }
-    let faults = run.choose(candidates, given, &verdicts)?;
+    let mutants = run.choose(candidates, given, &verdicts)?;
     if options.list {
-        for (id, fault) in (1..).zip(&faults) {
-            println!("{id:4} {}:{} {} [{}] {}", fault.file, fault.line, fault.function, fault.operator, fault.change());
+        for (id, mutant) in (1..).zip(&mutants) {
+            println!("{id:4} {}:{} {} [{}] {}", mutant.file, mutant.line, mutant.function, mutant.operator, mutant.change());
         }
         return Ok(());
     }
-    let is_explained = |fault: &Fault| !options.explained && explained.iter().any(|row| row.is(fault));
-    let tests = run.try_all(&faults, &verdicts, is_explained, &pace)?;
-    let (text, summary) = report::report(&faults, &verdicts.read(), &explained, &tests);
+    let is_explained = |mutant: &Mutant| !options.explained && explained.iter().any(|row| row.is(mutant));
+    let tests = run.try_all(&mutants, &verdicts, is_explained, &pace)?;
+    let (text, summary) = report::report(&mutants, &verdicts.read(), &explained, &tests);
     let path = run.workplace.join(run.named("report", "md"));
     fs::write(&path, text).map_err(|error| format!("{}: {error}", path.display()))?;
     println!("{summary}\n{}", path.display());
@@ -150,13 +150,13 @@ impl Run<'_> {
         }
     }
 
-    /// The table of faults that somebody wrote by hand.
+    /// The table of mutants that somebody wrote by hand.
     fn table(&self) -> PathBuf {
-        self.options.faults.clone().unwrap_or_else(|| self.own.join("faults.toml"))
+        self.options.mutants.clone().unwrap_or_else(|| self.own.join("mutants.toml"))
     }
 
-    /// The faults of that table.
-    fn given(&self) -> Outcome<Vec<Fault>> {
+    /// The mutants of that table.
+    fn given(&self) -> Outcome<Vec<Mutant>> {
         let table = self.table();
         given::read(&read(&table)?, &table.display().to_string(), &self.package)
     }
@@ -165,23 +165,23 @@ impl Run<'_> {
         Journal::new(self.workplace.join(name), sources)
     }
 
-    /// The faults that were asked for, without those that do not compile.
-    fn choose(&self, mut candidates: Vec<Fault>, given: Vec<Fault>, verdicts: &Journal<Verdict>) -> Outcome<Vec<Fault>> {
+    /// The mutants that were asked for, without those that do not compile.
+    fn choose(&self, mut candidates: Vec<Mutant>, given: Vec<Mutant>, verdicts: &Journal<Verdict>) -> Outcome<Vec<Mutant>> {
         let options = self.options;
         if options.given {
             candidates = given.clone();
         }
         if let Some(path) = &options.all_in {
             let path = path.trim_end_matches('/');
-            candidates.retain(|fault| fault.file == path || fault.file.starts_with(&format!("{path}/")));
+            candidates.retain(|mutant| mutant.file == path || mutant.file.starts_with(&format!("{path}/")));
         }
         if options.survivors {
             let last = verdicts.read_all().into_iter().map(|verdict| (verdict.key, verdict.caught_by.is_none()));
             let last: HashMap<String, bool> = last.collect();
-            candidates.retain(|fault| last.get(&fault.key()) == Some(&true));
+            candidates.retain(|mutant| last.get(&mutant.key()) == Some(&true));
         }
         if candidates.is_empty() {
-            return Err("there are no such faults".to_owned());
+            return Err("there are no such mutants".to_owned());
         }
         let takes_all = options.given || options.survivors || options.all_in.is_some();
         let mut draw = if takes_all { Draw::all(candidates) } else { Draw::new(candidates, options.count, options.seed) };
@@ -191,41 +191,41 @@ impl Run<'_> {
         // A copy of its own, so that the one that was built stays as it is.
         let copy = self.workplace.join("check");
         loop {
-            let faults = draw.faults(true);
-            let planted = self.package.write(&copy, &faults)?;
+            let mutants = draw.mutants(true);
+            let inserted = self.package.write(&copy, &mutants)?;
             let rejected =
-                cargo::build(&copy, &self.workplace.join("build"), &["check", "--lib", "--bins", "--tests"], &planted)?.rejected;
-            self.say(&format!("{} of {} faults do not compile", rejected.len(), faults.len()));
+                cargo::build(&copy, &self.workplace.join("build"), &["check", "--lib", "--bins", "--tests"], &inserted)?.rejected;
+            self.say(&format!("{} of {} mutants do not compile", rejected.len(), mutants.len()));
             if rejected.is_empty() {
-                return Ok(draw.faults(false));
+                return Ok(draw.mutants(false));
             }
-            let rejected: Vec<&Fault> = rejected.into_iter().map(|id| &faults[id as usize - 1]).collect();
-            // Others are drawn in place of faults that were drawn.
-            let wrong: Vec<String> = rejected.iter().filter(|fault| given.contains(fault)).map(|fault| fault.key()).collect();
+            let rejected: Vec<&Mutant> = rejected.into_iter().map(|id| &mutants[id as usize - 1]).collect();
+            // Others are drawn in place of mutants that were drawn.
+            let wrong: Vec<String> = rejected.iter().filter(|mutant| given.contains(mutant)).map(|mutant| mutant.key()).collect();
             if !wrong.is_empty() {
-                return Err(format!("faults of {} do not compile:\n{}", self.table().display(), wrong.join("\n")));
+                return Err(format!("mutants of {} do not compile:\n{}", self.table().display(), wrong.join("\n")));
             }
-            for fault in rejected {
-                let rejected = Rejected { key: fault.key() };
+            for mutant in rejected {
+                let rejected = Rejected { key: mutant.key() };
                 rejections.append(&rejected)?;
                 draw.rejected.insert(rejected.key);
             }
         }
     }
 
-    /// Builds the tests, learns what each reaches, and tries the faults that are not explained and were not tried before.
+    /// Builds the tests, learns what each reaches, and tries the mutants that are not explained and were not tried before.
     fn try_all(
         &self,
-        faults: &[Fault],
+        mutants: &[Mutant],
         verdicts: &Journal<Verdict>,
-        is_explained: impl Fn(&Fault) -> bool,
+        is_explained: impl Fn(&Mutant) -> bool,
         pace: &Pace,
     ) -> Outcome<Vec<Test>> {
         let copy = self.workplace.join("tree");
-        let planted = self.package.write(&copy, faults)?;
-        let build = cargo::build(&copy, &self.workplace.join("build"), &["build", "--tests"], &planted)?;
+        let inserted = self.package.write(&copy, mutants)?;
+        let build = cargo::build(&copy, &self.workplace.join("build"), &["build", "--tests"], &inserted)?;
         if !build.rejected.is_empty() {
-            return Err(format!("faults that passed the check do not compile: {:?}", build.rejected));
+            return Err(format!("mutants that passed the check do not compile: {:?}", build.rejected));
         }
         self.say("the tests are built");
         let baselines = self.journal("baseline.jsonl", Package::read(&copy)?.hash());
@@ -236,18 +236,18 @@ impl Run<'_> {
         self.say("every test has run once");
         tests.retain(|test| test.baseline.seconds <= self.options.longest);
         let known: HashSet<String> = verdicts.read().into_iter().map(|verdict| verdict.key).collect();
-        let is_left = |id: u32, fault: &Fault| match self.options.only.as_slice() {
-            [] => !known.contains(&fault.key()) && !is_explained(fault),
+        let is_left = |id: u32, mutant: &Mutant| match self.options.only.as_slice() {
+            [] => !known.contains(&mutant.key()) && !is_explained(mutant),
             only => only.contains(&id),
         };
-        let left: Vec<(u32, &Fault)> = (1..).zip(faults).filter(|(id, fault)| is_left(*id, fault)).collect();
+        let left: Vec<(u32, &Mutant)> = (1..).zip(mutants).filter(|(id, mutant)| is_left(*id, mutant)).collect();
         hunt::hunt(&left, &tests, &copy, verdicts, pace)?;
         self.say("done");
         Ok(tests)
     }
 }
 
-/// The key of a fault that does not compile.
+/// The key of a mutant that does not compile.
 #[derive(Serialize, Deserialize)]
 struct Rejected {
     key: String,
@@ -277,10 +277,10 @@ mod tests {
     }
 
     #[test]
-    fn another_table_stands_for_the_given_faults_only() {
+    fn another_table_stands_for_the_given_mutants_only() {
         let parse = |arguments: &[&str]| Options::try_parse_from([&["mutation"], arguments].concat());
-        assert!(parse(&["--faults", "a.toml"]).is_err());
-        let options = parse(&["--given", "--faults", "a.toml", "--tests", "b"]).expect("it is allowed");
-        assert_eq!((options.faults, options.tests), (Some("a.toml".into()), Some("b".to_owned())));
+        assert!(parse(&["--mutants", "a.toml"]).is_err());
+        let options = parse(&["--given", "--mutants", "a.toml", "--tests", "b"]).expect("it is allowed");
+        assert_eq!((options.mutants, options.tests), (Some("a.toml".into()), Some("b".to_owned())));
     }
 }

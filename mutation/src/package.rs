@@ -1,4 +1,4 @@
-//! The source of the package and the copy of it in which faults are planted.
+//! The source of the package and the copy of it in which mutants are inserted.
 use std::{
     collections::{BTreeMap, BTreeSet},
     fs,
@@ -8,7 +8,7 @@ use std::{
 
 use syn::Item;
 
-use crate::{Outcome, fault::Fault, finder, schemata, schemata::Mutated};
+use crate::{Outcome, mutant::Mutant, finder, schemata, schemata::Mutated};
 
 const SWITCH: &str = include_str!("../switch/mutant.rs");
 /// Not part of the copy.
@@ -66,15 +66,15 @@ impl Package {
             tests.extend(modules.map(|name| format!("{}/{name}", folder_of_modules(file))));
         }
         let is_test = |file: &str| tests.iter().any(|test| file == format!("{test}.rs") || file.starts_with(&format!("{test}/")));
-        // Faults that tests ask for are in no program.
-        Ok(all.into_iter().filter(|file| !is_test(file) && !file.ends_with("/fault.rs")).collect())
+        // Mutants that tests ask for are in no program.
+        Ok(all.into_iter().filter(|file| !is_test(file) && !file.ends_with("/mutant.rs")).collect())
     }
 
-    /// Every fault that could be made.
-    pub fn candidates(&self) -> Outcome<Vec<Fault>> {
+    /// Every mutant that could be made.
+    pub fn candidates(&self) -> Outcome<Vec<Mutant>> {
         let sources = self.sources()?;
-        let faults = sources.iter().map(|file| finder::faults(file, self.text(file)).map_err(|error| format!("{file}: {error}")));
-        Ok(faults.collect::<Outcome<Vec<_>>>()?.concat())
+        let mutants = sources.iter().map(|file| finder::mutants(file, self.text(file)).map_err(|error| format!("{file}: {error}")));
+        Ok(mutants.collect::<Outcome<Vec<_>>>()?.concat())
     }
 
     /// Leaves all levels of vector instructions out but AVX2 and one lane, which halves the time of the build.
@@ -105,19 +105,19 @@ impl Package {
         hasher.finish()
     }
 
-    /// Writes the copy with faults planted, which are numbered from 1 on. Files that stay the same keep their time.
-    pub fn write(&self, folder: &Path, faults: &[Fault]) -> Outcome<BTreeMap<String, Mutated>> {
-        let mut planted: BTreeMap<String, Mutated> = BTreeMap::new();
-        let mut by_file: BTreeMap<&str, Vec<(u32, &Fault)>> = BTreeMap::new();
-        for (id, fault) in (1..).zip(faults) {
-            by_file.entry(&fault.file).or_default().push((id, fault));
+    /// Writes the copy with mutants inserted, which are numbered from 1 on. Files that stay the same keep their time.
+    pub fn write(&self, folder: &Path, mutants: &[Mutant]) -> Outcome<BTreeMap<String, Mutated>> {
+        let mut inserted: BTreeMap<String, Mutated> = BTreeMap::new();
+        let mut by_file: BTreeMap<&str, Vec<(u32, &Mutant)>> = BTreeMap::new();
+        for (id, mutant) in (1..).zip(mutants) {
+            by_file.entry(&mutant.file).or_default().push((id, mutant));
         }
-        for (file, faults) in by_file {
+        for (file, mutants) in by_file {
             let switch = if file.starts_with("crates/base/") { "crate::mutant::on" } else { "noisefall_base::mutant::on" };
-            planted.insert(file.to_owned(), schemata::plant(self.text(file), &faults, switch));
+            inserted.insert(file.to_owned(), schemata::insert(self.text(file), &mutants, switch));
         }
         for (name, bytes) in &self.files {
-            let text = planted.get(name).map_or(bytes.as_slice(), |planted| planted.text.as_bytes());
+            let text = inserted.get(name).map_or(bytes.as_slice(), |inserted| inserted.text.as_bytes());
             match name.as_str() {
                 "crates/base/src/lib.rs" => write_if_new(&folder.join(name), &[text, b"\npub mod mutant;\n"].concat())?,
                 _ => write_if_new(&folder.join(name), text)?,
@@ -125,7 +125,7 @@ impl Package {
         }
         write_if_new(&folder.join("crates/base/src/mutant.rs"), SWITCH.as_bytes())?;
         self.remove_others(folder)?;
-        Ok(planted)
+        Ok(inserted)
     }
 
     /// Removes source files of an earlier copy that the package does not have any more.

@@ -9,7 +9,7 @@ use std::{
 
 use crate::Outcome;
 
-/// A fault may ask for any amount of memory, in KiB.
+/// A mutant may ask for any amount of memory, in KiB.
 const MEMORY: u64 = 10 << 20;
 const STEP: Duration = Duration::from_millis(2);
 

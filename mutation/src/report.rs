@@ -1,17 +1,17 @@
-//! The report: what became of every fault, and how many were caught in every folder.
+//! The report: what became of every mutant, and how many were caught in every folder.
 use std::{
     collections::{BTreeMap, HashMap},
     fmt::Write,
 };
 
 use crate::{
-    fault::Fault,
+    mutant::Mutant,
     hunt::Verdict,
     suite::Test,
     survivors::{self, Explained},
 };
 
-/// The end of a fault in the report.
+/// The end of a mutant in the report.
 enum End<'a> {
     Caught(&'a str, f64),
     Explained(&'a str),
@@ -20,7 +20,7 @@ enum End<'a> {
     Unknown,
 }
 
-/// How many faults came to each end.
+/// How many mutants came to each end.
 #[derive(Default)]
 struct Count {
     caught: usize,
@@ -51,9 +51,9 @@ impl Count {
 }
 
 /// Writes the report as Markdown, and a summary of few lines.
-pub fn report(faults: &[Fault], verdicts: &[Verdict], explained: &[Explained], tests: &[Test]) -> (String, String) {
+pub fn report(mutants: &[Mutant], verdicts: &[Verdict], explained: &[Explained], tests: &[Test]) -> (String, String) {
     let verdicts: HashMap<&str, &Verdict> = verdicts.iter().map(|verdict| (verdict.key.as_str(), verdict)).collect();
-    let end = |fault: &Fault| match (verdicts.get(fault.key().as_str()), explained.iter().find(|row| row.is(fault))) {
+    let end = |mutant: &Mutant| match (verdicts.get(mutant.key().as_str()), explained.iter().find(|row| row.is(mutant))) {
         (Some(Verdict { caught_by: Some(test), seconds, .. }), _) => End::Caught(test, *seconds),
         (_, Some(row)) => End::Explained(&row.reason),
         (Some(verdict), None) => End::Survived(verdict.tests),
@@ -61,10 +61,10 @@ pub fn report(faults: &[Fault], verdicts: &[Verdict], explained: &[Explained], t
     };
     let (mut rows, mut all, mut open) = (String::new(), Count::default(), String::new());
     let mut folders: BTreeMap<&str, Count> = BTreeMap::new();
-    for (id, fault) in (1..).zip(faults) {
-        let end = end(fault);
+    for (id, mutant) in (1..).zip(mutants) {
+        let end = end(mutant);
         all.add(&end);
-        folders.entry(fault.folder()).or_default().add(&end);
+        folders.entry(mutant.folder()).or_default().add(&end);
         let what = match &end {
             End::Caught(test, seconds) => format!("{test}, {seconds:.1} s"),
             End::Explained(reason) => format!("explained: {reason}"),
@@ -73,22 +73,22 @@ pub fn report(faults: &[Fault], verdicts: &[Verdict], explained: &[Explained], t
             End::Unknown => "not tried yet".to_owned(),
         };
         if matches!(end, End::Survived(_)) {
-            open.push_str(&survivors::row_of(fault, ""));
+            open.push_str(&survivors::row_of(mutant, ""));
             open.push('\n');
         }
-        let change = survivors::code(&fault.change());
-        let Fault { file, line, function, .. } = fault;
+        let change = survivors::code(&mutant.change());
+        let Mutant { file, line, function, .. } = mutant;
         let _ = writeln!(rows, "| {id} | {file}:{line} | {function} | {change} | {what} |");
     }
     let head =
-        "| folder | faults | caught | | explained | survived | equivalent | not tried |\n|---|---|---|---|---|---|---|---|\n";
+        "| folder | mutants | caught | | explained | survived | equivalent | not tried |\n|---|---|---|---|---|---|---|---|\n";
     let by_folder: String = folders.iter().map(|(folder, count)| format!("{}\n", count.row(folder))).collect();
     let summary = format!("{head}{by_folder}{}\n", all.row("**all**"));
     let mut text = format!("# Mutation run\n\n{summary}");
     for test in tests.iter().filter(|test| !test.baseline.passed) {
-        let _ = writeln!(text, "\nLeft out, for it fails without a fault: `{}`", test.baseline.test);
+        let _ = writeln!(text, "\nLeft out, for it fails without a mutant: `{}`", test.baseline.test);
     }
-    let _ = write!(text, "\n## Faults\n\n| | place | function | change | caught by |\n|---|---|---|---|---|\n{rows}");
+    let _ = write!(text, "\n## Mutants\n\n| | place | function | change | caught by |\n|---|---|---|---|---|\n{rows}");
     if !open.is_empty() {
         let _ = write!(text, "\n## Rows for SURVIVORS.md\n\nWrite a test, or else the reason.\n\n{open}");
     }
@@ -102,25 +102,25 @@ mod tests {
 
     #[test]
     fn every_end_is_counted_and_open_rows_can_be_pasted() {
-        let faults = finder::faults("src/a/b.rs", "fn f() { g(p + 1 < q, r) }").expect("it is Rust");
-        let verdict = |fault: &Fault, test: Option<&str>| Verdict {
-            key: fault.key(),
+        let mutants = finder::mutants("src/a/b.rs", "fn f() { g(p + 1 < q, r) }").expect("it is Rust");
+        let verdict = |mutant: &Mutant, test: Option<&str>| Verdict {
+            key: mutant.key(),
             caught_by: test.map(str::to_owned),
             seconds: 0.1,
             tests: 2,
         };
-        let row = |fault, reason| survivors::row_of(fault, reason);
-        let table = format!("||\n||\n{}\n{}\n", row(&faults[1], "equivalent: both"), row(&faults[2], "too slow"));
+        let row = |mutant, reason| survivors::row_of(mutant, reason);
+        let table = format!("||\n||\n{}\n{}\n", row(&mutants[1], "equivalent: both"), row(&mutants[2], "too slow"));
         let explained = survivors::read(&table).expect("it is a table");
         let verdicts = [
-            verdict(&faults[0], Some("lib::a::t")),
-            verdict(&faults[1], None),
-            verdict(&faults[2], None),
-            verdict(&faults[3], None),
+            verdict(&mutants[0], Some("lib::a::t")),
+            verdict(&mutants[1], None),
+            verdict(&mutants[2], None),
+            verdict(&mutants[3], None),
         ];
-        let (text, summary) = report(&faults, &verdicts, &explained, &[]);
-        let untried = faults.len() - 4;
+        let (text, summary) = report(&mutants, &verdicts, &explained, &[]);
+        let untried = mutants.len() - 4;
         assert!(summary.contains(&format!("| src/a | 3 | 1 | 33.3 % | 1 | 1 | 1 | {untried} |")), "{summary}");
-        assert!(text.ends_with(&format!("{}\n", row(&faults[3], ""))) && text.contains("lib::a::t, 0.1 s"), "{text}");
+        assert!(text.ends_with(&format!("{}\n", row(&mutants[3], ""))) && text.contains("lib::a::t, 0.1 s"), "{text}");
     }
 }

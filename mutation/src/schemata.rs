@@ -1,48 +1,48 @@
-//! Rewrites a file so that numbers switch its faults: one build serves all of them.
+//! Rewrites a file so that numbers switch its mutants: one build serves all of them.
 use std::ops::Range;
 
-use crate::fault::{Fault, Form};
+use crate::mutant::{Mutant, Form};
 
-/// A file with faults in it, and where each one lies in it.
+/// A file with mutants in it, and where each one lies in it.
 pub struct Mutated {
     pub text: String,
     pub places: Vec<(Range<usize>, u32)>,
 }
 
-/// Plants faults, each with its number, in the text of their file. `switch` is the path of the function that tells whether a
+/// Plants mutants, each with its number, in the text of their file. `switch` is the path of the function that tells whether a
 /// number is on.
-pub fn plant(source: &str, faults: &[(u32, &Fault)], switch: &str) -> Mutated {
-    let mut faults = faults.to_vec();
-    faults.sort_by_key(|(id, fault)| (fault.range.start, usize::MAX - fault.range.end, *id));
-    let mut planted = Mutated { text: String::new(), places: Vec::new() };
-    write(source, 0..source.len(), &faults, switch, &mut planted);
-    planted
+pub fn insert(source: &str, mutants: &[(u32, &Mutant)], switch: &str) -> Mutated {
+    let mut mutants = mutants.to_vec();
+    mutants.sort_by_key(|(id, mutant)| (mutant.range.start, usize::MAX - mutant.range.end, *id));
+    let mut inserted = Mutated { text: String::new(), places: Vec::new() };
+    write(source, 0..source.len(), &mutants, switch, &mut inserted);
+    inserted
 }
 
-/// Writes part of the source. The faulty branch of a fault is plain text; others within its place are in the branch as it was.
-fn write(source: &str, range: Range<usize>, mut faults: &[(u32, &Fault)], switch: &str, to: &mut Mutated) {
+/// Writes part of the source. The changed branch of a mutant is plain text; others within its place are in the branch as it was.
+fn write(source: &str, range: Range<usize>, mut mutants: &[(u32, &Mutant)], switch: &str, to: &mut Mutated) {
     let mut at = range.start;
-    while let [(id, fault), rest @ ..] = faults {
-        let within = rest.iter().take_while(|(_, inner)| inner.range.start < fault.range.end).count();
-        to.text.push_str(&source[at..fault.range.start]);
+    while let [(id, mutant), rest @ ..] = mutants {
+        let within = rest.iter().take_while(|(_, inner)| inner.range.start < mutant.range.end).count();
+        to.text.push_str(&source[at..mutant.range.start]);
         let start = to.text.len();
-        let (before, after) = match fault.form {
-            Form::Value => (format!("(if {switch}({id}) {{ {} }} else {{ ", fault.faulty), " })"),
-            Form::Place => (format!("(*if {switch}({id}) {{ &{} }} else {{ &", fault.faulty), " })"),
-            Form::Statement => (format!("if {switch}({id}) {{ {} }} else {{ ", fault.faulty), " }"),
+        let (before, after) = match mutant.form {
+            Form::Value => (format!("(if {switch}({id}) {{ {} }} else {{ ", mutant.changed), " })"),
+            Form::Place => (format!("(*if {switch}({id}) {{ &{} }} else {{ &", mutant.changed), " })"),
+            Form::Statement => (format!("if {switch}({id}) {{ {} }} else {{ ", mutant.changed), " }"),
         };
         to.text.push_str(&before);
-        write(source, fault.range.clone(), &rest[..within], switch, to);
+        write(source, mutant.range.clone(), &rest[..within], switch, to);
         to.text.push_str(after);
         to.places.push((start..to.text.len(), *id));
-        at = fault.range.end;
-        faults = &rest[within..];
+        at = mutant.range.end;
+        mutants = &rest[within..];
     }
     to.text.push_str(&source[at..range.end]);
 }
 
 impl Mutated {
-    /// The innermost fault at these bytes, else every fault that they touch.
+    /// The innermost mutant at these bytes, else every mutant that they touch.
     pub fn at(&self, bytes: &Range<usize>) -> Vec<u32> {
         let around = self.places.iter().filter(|(place, _)| place.start <= bytes.start && bytes.end <= place.end);
         match around.min_by_key(|(place, _)| place.len()) {
@@ -54,7 +54,7 @@ impl Mutated {
         }
     }
 
-    /// The fault that is nearest to a byte. What it changes of types may come out elsewhere in the function.
+    /// The mutant that is nearest to a byte. What it changes of types may come out elsewhere in the function.
     pub fn nearest(&self, byte: usize) -> Option<u32> {
         let distance = |place: &Range<usize>| place.start.saturating_sub(byte) + byte.saturating_sub(place.end);
         self.places.iter().min_by_key(|(place, _)| distance(place)).map(|(_, id)| *id)
@@ -67,29 +67,29 @@ mod tests {
     use crate::finder;
 
     #[test]
-    fn faults_within_faults_are_switched_one_by_one() {
+    fn faults_within_mutants_are_switched_one_by_one() {
         let source = "fn f() { g(a + b.x); }";
-        let all = finder::faults("src/a.rs", source).expect("it is Rust");
+        let all = finder::mutants("src/a.rs", source).expect("it is Rust");
         let numbered: Vec<_> = (1..).zip(&all).collect();
-        let planted = plant(source, &numbered, "on");
+        let inserted = insert(source, &numbered, "on");
         assert_eq!(
-            planted.text,
+            inserted.text,
             "fn f() { if on(1) {  } else { g((if on(2) { a - b.x } else { a + (*if on(3) { &b.y } else { &b.x }) })); } }"
         );
         let at = |text: &str| {
-            let start = planted.text.find(text).expect("it is there");
-            planted.at(&(start..start + text.len()))
+            let start = inserted.text.find(text).expect("it is there");
+            inserted.at(&(start..start + text.len()))
         };
         assert_eq!((at("b.y"), at("a - b.x"), at("g(")), (vec![3], vec![2], vec![1]));
-        assert_eq!(planted.at(&(0..planted.text.len())).len(), 3);
-        assert_eq!((planted.at(&(0..2)), planted.nearest(1)), (Vec::new(), Some(1)));
+        assert_eq!(inserted.at(&(0..inserted.text.len())).len(), 3);
+        assert_eq!((inserted.at(&(0..2)), inserted.nearest(1)), (Vec::new(), Some(1)));
     }
 
     #[test]
-    fn several_faults_of_one_place_are_switched_one_by_one() {
+    fn several_mutants_of_one_place_are_switched_one_by_one() {
         let source = "fn f() { a < b }";
-        let all = finder::faults("src/a.rs", source).expect("it is Rust");
-        let planted = plant(source, &(1..).zip(&all).collect::<Vec<_>>(), "on");
-        assert_eq!(planted.text, "fn f() { (if on(1) { a <= b } else { (if on(2) { a > b } else { a < b }) }) }");
+        let all = finder::mutants("src/a.rs", source).expect("it is Rust");
+        let inserted = insert(source, &(1..).zip(&all).collect::<Vec<_>>(), "on");
+        assert_eq!(inserted.text, "fn f() { (if on(1) { a <= b } else { (if on(2) { a > b } else { a < b }) }) }");
     }
 }

@@ -21,13 +21,13 @@ use crate::{
 /// No test takes longer by itself.
 const LONGEST: Duration = Duration::from_secs(600);
 
-/// The result of a test when no fault is on.
+/// The result of a test when no mutant is on.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Baseline {
     pub test: String,
     pub seconds: f64,
     pub passed: bool,
-    /// Numbers of the faults that it reaches.
+    /// Numbers of the mutants that it reaches.
     pub reached: BTreeSet<u32>,
 }
 
@@ -35,15 +35,15 @@ pub struct Test {
     pub baseline: Baseline,
     executable: PathBuf,
     name: String,
-    /// How many faults it has caught: such tests are tried early.
+    /// How many mutants it has caught: such tests are tried early.
     pub caught: AtomicUsize,
 }
 
 impl Test {
-    /// Runs it with a fault on. It fails if it takes much longer than without.
-    pub fn run(&self, folder: &Path, fault: u32) -> Outcome<process::Run> {
+    /// Runs it with a mutant on. It fails if it takes much longer than without.
+    pub fn run(&self, folder: &Path, mutant: u32) -> Outcome<process::Run> {
         let limit = Duration::from_secs_f64(3.0 * self.baseline.seconds + 20.0);
-        process::run(&self.executable, &[&self.name, "--exact"], folder, ("NOISEFALL_MUTANT", &fault.to_string()), limit)
+        process::run(&self.executable, &[&self.name, "--exact"], folder, ("NOISEFALL_MUTANT", &mutant.to_string()), limit)
     }
 
     /// Whether it is a test of this folder of the library or the program.
@@ -79,7 +79,7 @@ pub fn learn(
     let tests = list(executables, wanted)?;
     let known: HashMap<String, Baseline> = journal.read().into_iter().map(|known| (known.test.clone(), known)).collect();
     let missing = tests.iter().filter(|(target, _, name)| !known.contains_key(&format!("{target}::{name}"))).count();
-    eprintln!("{} tests, {missing} of them to run once without a fault", tests.len());
+    eprintln!("{} tests, {missing} of them to run once without a mutant", tests.len());
     let traces = folder.with_file_name("traces");
     fs::create_dir_all(&traces).map_err(|error| format!("{}: {error}", traces.display()))?;
     let done = AtomicUsize::new(0);

@@ -1,7 +1,7 @@
 //! The committed table of survivors that are explained.
-use crate::{Outcome, fault::Fault};
+use crate::{Outcome, mutant::Mutant};
 
-/// A row of the table: a fault that no test is to catch.
+/// A row of the table: a mutant that no test is to catch.
 pub struct Explained {
     file: String,
     source: String,
@@ -10,8 +10,8 @@ pub struct Explained {
 }
 
 impl Explained {
-    pub fn is(&self, fault: &Fault) -> bool {
-        (&self.file, &self.source, &self.change) == (&fault.file, &fault.source, &fault.change())
+    pub fn is(&self, mutant: &Mutant) -> bool {
+        (&self.file, &self.source, &self.change) == (&mutant.file, &mutant.source, &mutant.change())
     }
 
     pub fn name(&self) -> String {
@@ -45,9 +45,9 @@ pub fn code(text: &str) -> String {
     format!("{quote}{}{quote}", text.replace('|', "\\|"))
 }
 
-/// The row that explains a fault, once its reason is written.
-pub fn row_of(fault: &Fault, reason: &str) -> String {
-    format!("| {} | {} | {} | {reason} |", code(&fault.file), code(&fault.source), code(&fault.change()))
+/// The row that explains a mutant, once its reason is written.
+pub fn row_of(mutant: &Mutant, reason: &str) -> String {
+    format!("| {} | {} | {} | {reason} |", code(&mutant.file), code(&mutant.source), code(&mutant.change()))
 }
 
 #[cfg(test)]
@@ -57,13 +57,13 @@ mod tests {
 
     #[test]
     fn a_row_that_is_written_is_read_again() {
-        let faults = finder::faults("src/a.rs", "fn f() {\n    if a || b { c }\n}").expect("it is Rust");
-        let fault = faults.iter().find(|fault| fault.operator == "operator").expect("there is one");
+        let mutants = finder::mutants("src/a.rs", "fn f() {\n    if a || b { c }\n}").expect("it is Rust");
+        let mutant = mutants.iter().find(|mutant| mutant.operator == "operator").expect("there is one");
         let table =
-            format!("# Survivors\n\n| file | line | change | reason |\n|---|---|---|---|\n{}\n", row_of(fault, "the same"));
+            format!("# Survivors\n\n| file | line | change | reason |\n|---|---|---|---|\n{}\n", row_of(mutant, "the same"));
         let read = super::read(&table).expect("it is a table");
-        assert!(read.len() == 1 && read[0].is(fault) && read[0].reason == "the same", "{table}");
-        assert!(faults.iter().filter(|other| read[0].is(other)).count() == 1);
+        assert!(read.len() == 1 && read[0].is(mutant) && read[0].reason == "the same", "{table}");
+        assert!(mutants.iter().filter(|other| read[0].is(other)).count() == 1);
     }
 
     #[test]

@@ -51,7 +51,7 @@ impl SplitImage<'_> {
         picture.map_err(|error| error.to_string())
     }
 
-    /// Writes the image of an image that is filled, and prints its line.
+    /// Writes the image of a filled partial render, and prints its line.
     pub fn deliver(&self, picture: SplitPicture, display: Display) -> Result<ExitCode, Failure> {
         let frame = picture.frame();
         let Header { scene, camera, settings, image, .. } = self.header;

@@ -13,7 +13,7 @@ mod denoising;
 mod edited_scenes;
 mod estimators;
 mod evidence;
-mod faults;
+mod mutants;
 mod figures;
 mod formats;
 mod former_names;

@@ -96,7 +96,7 @@ fn every_shipped_scene_compiles_has_notes_and_emits_light() {
 fn unknown_keys_and_kinds_are_refused() {
     refuses("fov = 40", "fov = 40\nfocal = 3", "unknown key `focal`");
     refuses("albedo = 0.8", "albedo = 0.8, color = 1", "unknown key `color`");
-    refuses("sphere = {", "ball = {", "unknown kind `ball`");
+    refuses("sphere = {", "ball = {", "unknown type `ball`");
     refuses("\"stratified\"", "\"halton\"", "unknown value `halton`");
     refuses("format = 1", "format = 1\nsources = []", "unknown key `sources`");
     refuses("{ fixed = 0.75 }", "\"always\"", "unknown value `always`");

@@ -278,9 +278,9 @@ fn values_of_megabytes_are_not_repeated() {
     said("fov = 40", "fov = LONG", "");
     said("fov = 40", &format!("fov = {}", "9".repeat(1 << 20)), "");
     said("\"stratified\"", "\"LONG\"", "unknown value `mmm");
-    said("{ fixed = 0.75 }", "{ LONG = 0.75 }", "unknown kind `mmm");
-    said("{ fixed = 0.75 }", "{ fixed = 0.5, LONG = 1 }", "unknown kind `mmm");
-    said("sphere = {", "LONG = {", "unknown kind `mmm");
+    said("{ fixed = 0.75 }", "{ LONG = 0.75 }", "unknown type `mmm");
+    said("{ fixed = 0.75 }", "{ fixed = 0.5, LONG = 1 }", "unknown type `mmm");
+    said("sphere = {", "LONG = {", "unknown type `mmm");
     said("material = \"white\"", "material = \"LONG\"", "there is no material `mmm");
     said("material = \"white\"", "shape.mesh.path = \"LONG\"", "");
     said("albedo = 0.8", "albedo = { texture = \"LONG\" }", "there is no texture `mmm");

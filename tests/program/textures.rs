@@ -62,7 +62,7 @@ fn textures_say_exactly_one_kind() {
     texture("", "`t` has none of `image`, `checker`, `noise`");
     let noise = "noise = { scale = 1, octaves = 1, low = 0, high = 1 }";
     texture(&format!("{noise}\nchecker = {{ even = 0, odd = 1, scale = 1 }}"), "`checker` and `noise` exclude each other");
-    texture("marble = { scale = 1 }", "unknown kind `marble`");
+    texture("marble = { scale = 1 }", "unknown type `marble`");
     texture("image = { path = \"a.png\", encoding = \"gamma\" }", "unknown value `gamma`");
     texture("image = {}", "missing key `path`");
 }

@@ -1,4 +1,4 @@
-//! Walks over a file and finds every place where a fault of one line could be made.
+//! Walks over a file and finds every place where a mutant of one line could be made.
 mod places;
 mod syntax;
 #[cfg(test)]
@@ -17,20 +17,20 @@ use syn::{
 pub use self::syntax::is_conditional;
 use self::syntax::{call_with_name, last_name, numeric_constant, type_name};
 use crate::{
-    fault::{Fault, Form},
+    mutant::{Mutant, Form},
     operators,
 };
 
-/// Finds the faults of one file, in the order of their places.
-pub fn faults(file: &str, source: &str) -> syn::Result<Vec<Fault>> {
+/// Finds the mutants of one file, in the order of their places.
+pub fn mutants(file: &str, source: &str) -> syn::Result<Vec<Mutant>> {
     let parsed = syn::parse_file(source)?;
     let constants = parsed.items.iter().filter_map(numeric_constant).collect();
-    let mut finder = Finder { file, source, functions: Vec::new(), owner: None, constants, looks: 0, faults: Vec::new() };
+    let mut finder = Finder { file, source, functions: Vec::new(), owner: None, constants, looks: 0, mutants: Vec::new() };
     finder.visit_file(&parsed);
-    let mut faults = finder.faults;
-    faults.sort_by_key(|fault| (fault.range.start, fault.range.end));
-    crate::fault::number_repeats(&mut faults);
-    Ok(faults)
+    let mut mutants = finder.mutants;
+    mutants.sort_by_key(|mutant| (mutant.range.start, mutant.range.end));
+    crate::mutant::number_repeats(&mut mutants);
+    Ok(mutants)
 }
 
 struct Finder<'a> {
@@ -43,7 +43,7 @@ struct Finder<'a> {
     constants: HashMap<String, &'static str>,
     /// How many calls around the place only set sizes and colours.
     looks: usize,
-    faults: Vec<Fault>,
+    mutants: Vec<Mutant>,
 }
 
 impl Finder<'_> {
@@ -55,18 +55,18 @@ impl Finder<'_> {
         &self.source[Self::range(node)]
     }
 
-    fn add(&mut self, operator: &'static str, form: Form, range: Range<usize>, faulty: String) {
+    fn add(&mut self, operator: &'static str, form: Form, range: Range<usize>, changed: String) {
         let original = &self.source[range.clone()];
         let is_code = match form {
-            Form::Statement => faulty.is_empty(),
-            _ => syn::parse_str::<Expr>(&faulty).is_ok(),
+            Form::Statement => changed.is_empty(),
+            _ => syn::parse_str::<Expr>(&changed).is_ok(),
         };
-        if self.functions.is_empty() || original == faulty || !is_code {
+        if self.functions.is_empty() || original == changed || !is_code {
             return;
         }
         let start = self.source[..range.start].rfind('\n').map_or(0, |at| at + 1);
         let source = self.source[start..].lines().next().unwrap_or_default().trim().to_owned();
-        self.faults.push(Fault {
+        self.mutants.push(Mutant {
             file: self.file.to_owned(),
             line: self.source[..range.start].matches('\n').count() + 1,
             source,
@@ -74,28 +74,28 @@ impl Finder<'_> {
             operator,
             form,
             original: original.to_owned(),
-            faulty,
+            changed,
             repeat: 0,
             range,
         });
     }
 
-    /// Adds the fault that a part of a node reads differently.
+    /// Adds the mutant that a part of a node reads differently.
     fn replace(&mut self, operator: &'static str, node: &impl Spanned, part: Range<usize>, other: &str) {
         self.replace_all(operator, node, &[(part, other.to_owned())]);
     }
 
     fn replace_all(&mut self, operator: &'static str, node: &impl Spanned, parts: &[(Range<usize>, String)]) {
         let range = Self::range(node);
-        let mut faulty = String::new();
+        let mut changed = String::new();
         let mut at = range.start;
         for (part, other) in parts {
-            faulty.push_str(&self.source[at..part.start]);
-            faulty.push_str(other);
+            changed.push_str(&self.source[at..part.start]);
+            changed.push_str(other);
             at = part.end;
         }
-        faulty.push_str(&self.source[at..range.end]);
-        self.add(operator, Form::Value, range, faulty);
+        changed.push_str(&self.source[at..range.end]);
+        self.add(operator, Form::Value, range, changed);
     }
 
     fn exchange(&mut self, operator: &'static str, node: &impl Spanned, a: &impl Spanned, b: &impl Spanned) {

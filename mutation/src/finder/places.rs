@@ -1,11 +1,11 @@
-//! The faults that can be made at a single expression or statement.
+//! The mutants that can be made at a single expression or statement.
 use syn::{
     Arm, BinOp, Block, Expr, ExprBinary, ExprIf, ExprMatch, ExprStruct, ExprUnary, Lit, Member, RangeLimits, Stmt, Token, UnOp,
     punctuated::Punctuated, spanned::Spanned,
 };
 
 use super::{Finder, is_conditional};
-use crate::{fault::Form, operators};
+use crate::{mutant::Form, operators};
 
 /// Longer matches are not written twice.
 const LONGEST_MATCH: usize = 30;
@@ -37,7 +37,7 @@ impl Finder<'_> {
     }
 
     pub(super) fn condition(&mut self, node: &ExprIf) {
-        // Of these, other faults are the same.
+        // Of these, other mutants are the same.
         let is_same = match &*node.cond {
             Expr::Unary(node) => matches!(node.op, UnOp::Not(_)),
             Expr::Binary(node) => matches!(node.op, BinOp::Eq(_) | BinOp::Ne(_)),
@@ -97,8 +97,8 @@ impl Finder<'_> {
         };
         // `a.0.1` is one token with a number that looks real.
         if let Some(other) = operators::other_field(&name).filter(|_| self.source[range.clone()] == name) {
-            let faulty = format!("{}{other}", &self.source[Self::range(node).start..range.start]);
-            self.add("field", Form::Place, Self::range(node), faulty);
+            let changed = format!("{}{other}", &self.source[Self::range(node).start..range.start]);
+            self.add("field", Form::Place, Self::range(node), changed);
         }
     }
 

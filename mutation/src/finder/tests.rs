@@ -1,9 +1,9 @@
-//! The places where faults are found.
+//! The places where mutants are found.
 use super::*;
 
 fn changes(body: &str) -> Vec<String> {
     let source = format!("fn f() {{ {body} }}");
-    faults("src/a.rs", &source).expect("it is Rust").iter().map(Fault::change).collect()
+    mutants("src/a.rs", &source).expect("it is Rust").iter().map(Mutant::change).collect()
 }
 
 #[test]
@@ -64,14 +64,14 @@ fn tests_and_constants_are_left_alone() {
         #[cfg(test)] mod tests { fn b() -> u32 { 1 + 1 } }
         #[test] fn c() { d(1 + 1) }
         #[cfg(not(unix))] fn e() -> u32 { 1 + 1 }";
-    assert!(faults("src/a.rs", source).expect("it is Rust").is_empty());
+    assert!(mutants("src/a.rs", source).expect("it is Rust").is_empty());
 }
 
 #[test]
 fn uses_of_constants_stand_for_the_constants() {
     let source = "const LIMIT: f64 = 3.0;\nimpl A { fn f(x: f64) -> bool { g(LIMIT) } }";
-    let found = faults("src/a.rs", source).expect("it is Rust");
-    assert_eq!(found.iter().map(Fault::change).collect::<Vec<_>>(), ["LIMIT → (LIMIT * 2.0)"]);
+    let found = mutants("src/a.rs", source).expect("it is Rust");
+    assert_eq!(found.iter().map(Mutant::change).collect::<Vec<_>>(), ["LIMIT → (LIMIT * 2.0)"]);
     assert_eq!((found[0].function.as_str(), found[0].line), ("A::f", 2));
     assert_eq!(&source[found[0].range.clone()], "LIMIT");
 }

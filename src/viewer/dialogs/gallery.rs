@@ -18,7 +18,7 @@ const PICTURE: Vec2 = Vec2 { x: 164.0, y: 112.0 };
 const TEXT: f32 = 36.0;
 /// Between two cards of a row.
 const GAP: f32 = 12.0;
-/// Stands in the place of a image.
+/// Stands in the place of an image.
 const NO_PICTURE: &str = "no image";
 
 /// Images of scenes, read off the UI thread when they are first looked at.

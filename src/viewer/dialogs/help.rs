@@ -26,7 +26,7 @@ const KEYS: [(&str, &[(&str, &str)]); 5] = [
             ("Wheel", "dolly"),
             ("W A S D", "fly forwards, left, back, right"),
             ("Q  E", "fly down, up"),
-            ("On the page Edit", "letters fly only while nothing is selected"),
+            ("On the tab Edit", "letters fly only while nothing is selected"),
             ("Arrows", "turn"),
             ("Shift", "fly and turn faster"),
             ("Home", "the scene's camera"),
@@ -36,11 +36,11 @@ const KEYS: [(&str, &[(&str, &str)]); 5] = [
         "Scene and selected object",
         &[
             ("Click", "select an object, or the icon of a light; Esc clears the selection"),
-            ("Shift+A", "add a shape, a light, a material or a texture, on the page Edit"),
+            ("Shift+A", "add a shape, a light, a material or a texture, on the tab Edit"),
             ("Drag from the list", "assign a material or a texture to an object"),
             ("Drop a file", "open a scene; add a mesh, a texture or a sky"),
-            ("Right click", "in the list or the image: duplicate, rename, delete, change kind, rest on floor"),
-            ("F2, double click", "in the list on the page Edit: rename the selected part"),
+            ("Right click", "in the list or the image: duplicate, rename, delete, change type, rest on floor"),
+            ("F2, double click", "in the list on the tab Edit: rename the selected part"),
             ("L", "look at the object"),
             ("Shift+D", "duplicate and move"),
             ("X, Delete", "delete"),
@@ -83,7 +83,7 @@ pub fn show(ctx: &egui::Context, is_open: &mut bool) -> bool {
             egui::ScrollArea::vertical().max_height(most).min_scrolled_height(most).show(ui, keys);
             tour = ui
                 .button("Take the tour")
-                .on_hover_text("Shows noise, bounces, roulette and bidirectional paths on five short pages.")
+                .on_hover_text("Shows noise, bounces, roulette and bidirectional paths in five short steps.")
                 .clicked();
         });
     *is_open = open && !tour;

@@ -37,7 +37,7 @@ pub struct Toolbar<'a> {
     /// Names of the steps that undo and redo would revert and repeat.
     pub undo: [Option<String>; 2],
     pub tool: Tool,
-    /// Screen pixels per image pixel, if there is a image.
+    /// Screen pixels per image pixel, if there is an image.
     pub zoom: Option<f32>,
     pub settings: &'a RenderSettings,
 }

@@ -14,7 +14,7 @@ fn escape_closes_a_menu_or_a_colour_picker_and_keeps_the_selection() {
     let open: [fn(&mut Window); 3] = [
         |window| window.get_by_role(Role::ColorWell).click(),
         |window| window.get_by_label("Add").click(),
-        |window| window.get_by_role_and_label(Role::ComboBox, "Kind").click(),
+        |window| window.get_by_role_and_label(Role::ComboBox, "Type").click(),
     ];
     for open in open {
         window.state_mut().selection.select(amber());

@@ -75,7 +75,7 @@ macro_rules! choices {
         }
 
         $(impl From<$module::$Kind> for $Family {
-            #[allow(unused_variables, reason = "a kind without parameters is its name")]
+            #[allow(unused_variables, reason = "a type without parameters is its name")]
             fn from(kind: $module::$Kind) -> Self {
                 $Family::$Kind $(($module::$Values::from(kind)))?
             }

@@ -83,7 +83,7 @@ impl Content {
                     ChoiceOutcome::Done => Ok(Edit::Replace { path: path.clone(), tree: before }),
                     ChoiceOutcome::NoChoice => Err(nothing_at(&path.key(choice))),
                     ChoiceOutcome::NoAlternative => {
-                        Err(Problem::at("", format!("unknown {choice} `{name}`"), "there is no such kind").within(path))
+                        Err(Problem::at("", format!("unknown {choice} `{name}`"), "there is no such type").within(path))
                     }
                 }
             }

@@ -8,7 +8,7 @@ use noisefall_scene::{
     scene::description::{MaterialDescription, SceneDescription},
 };
 
-/// How the light of lights differs behind [`Filling::Interface`].
+/// How the light of punctual lights differs behind [`Filling::Interface`].
 pub const INTERFACE: &str = "punctual lights shine through it on light paths only, as with `bidirectional`";
 
 /// How a surface holds a medium.

@@ -45,11 +45,11 @@ const CHAPTER: [(&str, &[&str]); 5] = [
              noise textures, bump and normal maps, smooth normals, motion, instances, files of meshes, \
              media within media, lights that are ellipsoids, cuboids, cylinders or isosurfaces, the window. \
              The tests of the program do, and `validate --stress` renders \
-             meshes by formula, bump, motion and filters at random. Noise figures and stops by noise \
+             meshes by formula, bump, motion and filters at random. Estimated errors and stops by them \
              are not covered either. Every row states the smallest bias that it would notice; a smaller bias may remain.",
             "Does the report notice a mistake? 35 mutants were made in the code that computes the image, one at a time: a wrong density, a \
              lost cosine, a light that shines from its back. They were written down before anyone looked at what the report tests \
-             (crates/lab/faults.toml in the source). The quick run noticed 31 of them. It missed a random number that is used twice in the \
+             (crates/lab/mutants.toml in the source). The quick run noticed 31 of them. It missed a random number that is used twice in the \
              tree of lights, a cosine in the weights of reused suffixes, the sides of flipped surfaces, and the largest survival probability.",
         ],
     ),
@@ -77,9 +77,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_planted_faults_are_as_many_as_are_told() {
-        let faults = include_str!("../../faults.toml").matches("[[fault]]").count();
-        let told = format!("{faults} mutants were made");
+    fn the_mutants_are_as_many_as_are_told() {
+        let mutants = include_str!("../../mutants.toml").matches("[[mutant]]").count();
+        let told = format!("{mutants} mutants were made");
         assert!(CHAPTER.iter().flat_map(|(_, paragraphs)| *paragraphs).any(|paragraph| paragraph.contains(&told)), "{told}");
     }
 }

@@ -183,7 +183,7 @@ mod tests {
             ("values out of range", &|_| object("shape.sphere = { center = [0, 0, 0], radius = -1 }")),
             ("unknown keys of tables", &|_| object("shape.sphere = { center = [0, 0, 0], radios = 1 }")),
             ("unknown keys of the file", &|i| format!("key_{i} = 1\n")),
-            ("unknown kinds", &|i| format!("[materials.m{i}]\nlambert.albedo = 1\n")),
+            ("unknown types", &|i| format!("[materials.m{i}]\nlambert.albedo = 1\n")),
             ("missing keys", &|_| object("shape.sphere = {}")),
             ("values in place of tables", &|_| object("shape = 3")),
             ("names of nothing", &|i| object(&format!("{ball}\nmaterial = 'm{i}'"))),

@@ -33,7 +33,7 @@ const COLUMNS: [(&str, &str); 9] = [
         "vertex",
         "Number of bounces before the vertex, and the object that the path hits. The tooltip has the point and the next direction.",
     ),
-    ("light", "Emission that the path hits, or the light of a light sample and whether it is visible"),
+    ("light", "Emission that the path hits, or the light sample and whether it is visible"),
     ("β", "Throughput: the product of τ f cos θ / (p q) so far, times the transmittance τ of this segment"),
     ("f cos θ", "BSDF and cosine towards the light"),
     ("L_e", "Emitted radiance, W·sr⁻¹·m⁻²"),

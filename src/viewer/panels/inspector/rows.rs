@@ -121,8 +121,8 @@ impl Parameters for Rows<'_> {
 
     fn choose(&mut self, choice: &Choice, now: usize) -> usize {
         // The part itself is of that kind.
-        let title = if self.lengths.is_empty() { "Kind".to_owned() } else { capitalised(&key_in_words(choice.what)) };
-        let of_choice = || Heading { title, tooltip: format!("The kind of {}.", choice.what), mark: Mark::None };
+        let title = if self.lengths.is_empty() { "Type".to_owned() } else { capitalised(&key_in_words(choice.what)) };
+        let of_choice = || Heading { title, tooltip: format!("The type of {}.", choice.what), mark: Mark::None };
         let (mut heading, form) = self.entered.take().unwrap_or_else(|| (of_choice(), Form::Table));
         if form == Form::NameOrTable {
             // It keeps its default if its key is absent, so there is nothing to remove.

@@ -131,7 +131,7 @@ fn a_value_out_of_range_is_refused_in_the_words_of_the_reader() {
 #[test]
 fn another_kind_is_chosen_from_the_menu() {
     let mut panel = inspect(lambertian());
-    click(&mut panel, Role::ComboBox, "Kind");
+    click(&mut panel, Role::ComboBox, "Type");
     click(&mut panel, Role::Button, "thin dielectric");
     let name = "thin_dielectric";
     assert_eq!(*only(&panel), Request::Choose { path: Path::of("part"), choice: "material", name });

@@ -105,7 +105,7 @@ impl Menu {
         }
         let kinds = self.kinds(&entry.subject);
         if !kinds.is_empty() {
-            let menu = ui.menu_button("Change kind", |ui| {
+            let menu = ui.menu_button("Change type", |ui| {
                 kinds.into_iter().find(|kind| ui.button(kind.replace('_', " ")).clicked()).map(Action::ChangeKind)
             });
             chosen = chosen.or(menu.inner.flatten());

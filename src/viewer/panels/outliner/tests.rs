@@ -88,7 +88,7 @@ fn entries_in_the_menu_of_a_part_request_their_actions() {
         (&["Look at"][..], Action::LookAt),
         (&["Duplicate"], Action::Duplicate),
         (&["Delete"], Action::Delete),
-        (&["Change kind", "cuboid"], Action::ChangeKind("cuboid")),
+        (&["Change type", "cuboid"], Action::ChangeKind("cuboid")),
         (&["Assign material", "white"], Action::AssignMaterial(Some("white".to_owned()))),
         (&["Assign material", "none (black)"], Action::AssignMaterial(None)),
     ] {

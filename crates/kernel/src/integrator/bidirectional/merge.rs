@@ -1,4 +1,4 @@
-//! Vertex merging: a camera path takes over the light of light paths that end nearby (I. Georgiev, J. Křivánek,
+//! Vertex merging: a camera path adds the light of light paths that end nearby (I. Georgiev, J. Křivánek,
 //! T. Davidovič and P. Slusallek, "Light Transport Simulation with Vertex Connection and Merging", 2012).
 //!
 //! The light of N paths, those of all pixels of the tile, is averaged over a disk of radius r. It finds what no connection can, such as a

@@ -52,7 +52,7 @@ pub fn section(validation: &Validation) -> Section {
     let errors: Vec<_> = errors.map(|(kind, tally)| (kind.name.clone(), tally.errors.clone())).collect();
     Section {
         title: "Hits and misses",
-        claim: "On every kind of surface a ray hits the right point x_M, and misses if there is nothing to hit.",
+        claim: "On every type of surface a ray hits the right point x_M, and misses if there is nothing to hit.",
         derivation: &[
             "x_M(x, ω) = x + tω with the smallest t > 0 at which the ray meets the surface. Separate code solves every ray in double precision by textbook formulas: quadrics by the quadratic equation, flat shapes and triangles of meshes by their plane. Half of the rays aim at a point on the surface, half at a point off it, at distances from 10⁻⁵ to twice its size. Rays start inside, outside, near and far.",
             "No ray is left out. With S the sum of the coordinates along the ray, εS is their last digit in f32. If all rays displaced by up to 8 εS hit in f64, the ray must hit; if none of them does, it must miss. The remaining rays pass within rounding of an edge, a tangent or their own origin and may do either; their share is limited.",

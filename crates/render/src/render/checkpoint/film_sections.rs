@@ -164,7 +164,7 @@ fn read_film(mut fields: Fields, film: &mut Film) -> Result<(), RenderFileError>
 
 fn path_reuse_of(number: u8) -> Result<PathReuse, RenderFileError> {
     let of_number = PathReuse::ALL.into_iter().find(|path_reuse| *path_reuse as u8 == number);
-    of_number.ok_or_else(|| RenderFileError::contents("the film has an unknown kind of path reuse"))
+    of_number.ok_or_else(|| RenderFileError::contents("the film has an unknown type of path reuse"))
 }
 
 fn read_tile(mut fields: Fields, place: u32, tile: &mut Tile) -> Result<(), RenderFileError> {

@@ -1,4 +1,4 @@
-//! The light of lights at points, in lanes: each lane has a light of its own, or all have the same.
+//! The radiance of punctual lights at points, in lanes: each lane has a light of its own, or all have the same.
 use std::f32::consts::TAU;
 
 use super::row::{BY_ANGLE, EVEN, PICTURE, PunctualRow, PunctualRows};
@@ -117,7 +117,7 @@ impl<L: Lanes> Beam<L> {
         self.word().is(PICTURE + picture)
     }
 
-    /// The fraction of the power in the unit direction `d` away from the light, without the image of a image.
+    /// The fraction of the power in the unit direction `d` away from the light, without the image of a projector.
     #[inline(always)]
     pub fn strength(&self, l: L, d: V<L>) -> F<L> {
         let word = self.word();

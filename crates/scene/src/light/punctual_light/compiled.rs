@@ -81,7 +81,7 @@ impl PunctualLight {
         PunctualLight { source: PunctualOrigin::At(position), power: single(intensity), shape }
     }
 
-    /// A light that casts a image.
+    /// A light that projects an image.
     pub fn projector(position: DVec3, intensity: [f64; 3], picture: Picture) -> PunctualLight {
         PunctualLight { source: PunctualOrigin::At(position), power: single(intensity), shape: Shape::Picture(picture) }
     }

@@ -10,7 +10,7 @@
 //! | `falloff.rs` | how spots fall off |
 //! | `compiled.rs` | a compiled light |
 //! | `row.rs` | its numbers, as the renderer reads them |
-//! | `beam.rs` | the light of lights at points, in lanes |
+//! | `beam.rs` | the light at points, in lanes |
 //! | `table.rs` | all lights of a scene |
 //! | `plain.rs` | the light of the simplest kind with the power of another one |
 mod beam;

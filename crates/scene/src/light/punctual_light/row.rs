@@ -23,11 +23,11 @@ pub struct PunctualRow<T> {
     pub power: [T; 3],
     /// Bits of the shape: [`EVEN`], [`BY_COSINE`], [`BY_ANGLE`], or [`PICTURE`] plus the number of the image.
     pub shape: T,
-    /// Axis of a cone; x form of a image.
+    /// Axis of a cone; x form of a projector.
     pub axis_or_x: [T; 3],
     /// Edge of the cone: its cosine, or its angle as negative turns.
     pub edge: T,
-    /// Falloff of a cone: coefficients of t, t² and t³; y form of a image.
+    /// Falloff of a cone: coefficients of t, t² and t³; y form of a projector.
     pub falloff_or_y: [T; 3],
     /// The factor that makes t; 0 for an image without a cone.
     pub factor: T,

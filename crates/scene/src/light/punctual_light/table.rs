@@ -16,7 +16,7 @@ pub struct PunctualLights {
     powers: Vec<f32>,
 }
 
-/// The light of a light at a point.
+/// The light that arrives at a point.
 pub struct PunctualSample<L: Lanes> {
     /// Unit direction towards the light.
     pub wi: V<L>,
@@ -86,7 +86,7 @@ impl PunctualLights {
             && self.images.iter().zip(&other.images).all(|(a, b)| a.is_same(b))
     }
 
-    /// The light of lights at the points `p`.
+    /// The light that arrives at the points `p`.
     #[simd]
     pub fn sample<L: Lanes>(&self, l: L, punctual_light: U<L>, p: V<L>) -> PunctualSample<L> {
         let beam = Beam::read(l, &self.rows, punctual_light);

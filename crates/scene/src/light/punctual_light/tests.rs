@@ -1,4 +1,4 @@
-//! The light of lights at points, against formulas in double precision.
+//! Punctual lights at points, against formulas in double precision.
 use std::sync::Arc;
 
 use glam::{DAffine3, DVec3};

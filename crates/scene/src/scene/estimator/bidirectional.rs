@@ -2,17 +2,17 @@
 use super::Weighting;
 use noisefall_base::declare::Word;
 
-/// Camera paths and from lights are joined at all of their vertices.
+/// Connects all vertices of camera paths with all vertices of light paths.
 pub(super) struct Bidirectional;
 
 impl Weighting for Bidirectional {
     const WORD: Word = Word {
         name: "bidirectional",
         title: "Bidirectional",
-        doc: "Joins camera paths with light paths in all ways (s, t), weighted by the balance heuristic. Good for caustics and hidden lights.",
+        doc: "Connects camera paths and light paths in all ways (s, t), weighted by the balance heuristic. Good for caustics and hidden lights.",
     };
     const STRATEGIES: &'static str =
-        "(s, t): s vertices from a light joined with t from the camera, in all ways; balance heuristic";
+        "(s, t): s vertices from a light connected to t from the camera, in all ways; balance heuristic";
     const COMPARES: bool = true;
     const TRACES_LIGHT_PATHS: bool = true;
     const CONNECTS: bool = true;

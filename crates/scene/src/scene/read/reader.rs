@@ -176,7 +176,7 @@ impl<'t> Reader<'t> {
             let is_known = frame.known.iter().any(|entry| entry.parameter.key == key.get_ref())
                 || self.lengths.is_empty() && frame.table.is_some_and(|table| renamed::is_read(table, key.get_ref()));
             if !is_known {
-                let what = if frame.choice.is_some() { "kind" } else { "key" };
+                let what = if frame.choice.is_some() { "type" } else { "key" };
                 errors.push(unknown(source, key.span(), what, key.get_ref(), &frame.known));
             }
         }

@@ -142,7 +142,7 @@ fn axes(map: &DAffine3) -> [DVec3; 3] {
     [map.translation, map.transform_point3(DVec3::Z), map.transform_vector3(DVec3::Y)]
 }
 
-/// The constant light of a light; `None` if it is black, and the light is left out.
+/// The constant intensity of a light; `None` if it is black, and the light is left out.
 fn light(import: &mut Import, element: Element, name: &str) -> Result<Option<[f64; 3]>, SceneError> {
     match import.colour(element, name, 1.0, Role::Emission)? {
         Textured::Constant([0.0, 0.0, 0.0]) => {

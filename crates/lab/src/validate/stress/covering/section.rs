@@ -17,15 +17,15 @@ pub fn section(strength: Strength, message: &(dyn Fn(&str) + Sync)) -> (Section,
     let statements = statements_of(strength, &covering);
     let section = Section {
         title: match strength {
-            Strength::Pairs => "Pairs of kinds",
-            Strength::Triples => "Triples of kinds",
+            Strength::Pairs => "Pairs of types",
+            Strength::Triples => "Triples of types",
         },
         claim: match strength {
-            Strength::Pairs => "Every two kinds work together.",
-            Strength::Triples => "Every three kinds work together.",
+            Strength::Pairs => "Every two types work together.",
+            Strength::Triples => "Every three types work together.",
         },
         derivation: &[
-            "What can vary in a scene is read from the declarations: the kinds of materials, textures, shapes, transforms, lights, \
+            "What can vary in a scene is read from the declarations: the types of materials, textures, shapes, transforms, lights, \
              emission, environments and cameras, every parameter that may be a texture, every option of the render. A covering array has \
              few scenes in which all pairs, or all triples, of their levels appear. Numbers are changed by chance. What cannot be combined, \
              such as a lens and parallel rays, is found by compiling the scene, and listed.",
@@ -59,7 +59,7 @@ fn statements_of(strength: Strength, covering: &Covering) -> Vec<Statement> {
     vec![
         Statement::none(what, failed.len() as u32),
         Statement::none(
-            format!("— kinds that every scene refuses; these levels are refused: {}", refused.join("; ")),
+            format!("— types that every scene refuses; these levels are refused: {}", refused.join("; ")),
             kinds as u32,
         ),
     ]

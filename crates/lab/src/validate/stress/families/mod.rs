@@ -106,7 +106,7 @@ pub const GROUPS: [FamilyGroup; 7] = [
         title: "Random scenes",
         claim: "Whatever a scene combines, its samples are finite and not negative, and it finishes in time.",
         derivation: &[
-            "Shapes of all kinds, materials, textures, bump maps, media, lights of 10⁻⁹ and 10⁹, lens, motion, filters, fields of view \
+            "Shapes of all types, materials, textures, bump maps, media, lights of 10⁻⁹ and 10⁹, lens, motion, filters, fields of view \
              from 0.01° to 179°, the three estimators, four samplers and all roulettes are drawn at random. There is no exact image. A \
              scene passes if no sample is invalid, no ray disagrees with f64, and it finishes in time.",
         ],
