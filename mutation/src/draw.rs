@@ -112,7 +112,9 @@ mod tests {
         let of = |folder: &str| mutants.iter().filter(|mutant| mutant.folder() == folder).count();
         assert_eq!([of("src/a"), of("src/b"), of("src/c")], [26, 11, 4]);
         for mutant in &mutants {
-            assert!(mutants.iter().filter(|other| (&other.file, &other.function) == (&mutant.file, &mutant.function)).count() <= 2);
+            assert!(
+                mutants.iter().filter(|other| (&other.file, &other.function) == (&mutant.file, &mutant.function)).count() <= 2
+            );
         }
     }
 

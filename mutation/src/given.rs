@@ -8,7 +8,7 @@ use syn::{
 
 use crate::{
     Outcome,
-    mutant::{Mutant, Form},
+    mutant::{Form, Mutant},
     package::Package,
 };
 
@@ -99,7 +99,8 @@ mod tests {
     use super::*;
 
     fn found(original: &str) -> Outcome<Mutant> {
-        let given = Given { name: "n".to_owned(), file: "f".to_owned(), original: original.to_owned(), changed: "x.y".to_owned() };
+        let given =
+            Given { name: "n".to_owned(), file: "f".to_owned(), original: original.to_owned(), changed: "x.y".to_owned() };
         find(&given, "fn f() {\n    g(a * 2 + b);\n    h(b);\n    c.d\n}")
     }
 

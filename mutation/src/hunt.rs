@@ -8,7 +8,7 @@ use std::{
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use crate::{Outcome, mutant::Mutant, journal::Journal, pace::Pace, process::Ended, suite::Test};
+use crate::{Outcome, journal::Journal, mutant::Mutant, pace::Pace, process::Ended, suite::Test};
 
 /// The result of the tests of a mutant.
 #[derive(Clone, Debug, Serialize, Deserialize)]

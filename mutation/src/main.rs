@@ -3,11 +3,11 @@
 //! All mutants are in one build, and an environment variable turns one on (mutant schemata: Untch, Offutt and Harrold 1993).
 mod cargo;
 mod draw;
-mod mutant;
 mod finder;
 mod given;
 mod hunt;
 mod journal;
+mod mutant;
 mod operators;
 mod pace;
 mod package;
@@ -28,7 +28,7 @@ use std::{
 use clap::Parser;
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 
-use crate::{draw::Draw, mutant::Mutant, hunt::Verdict, journal::Journal, pace::Pace, package::Package, suite::Test};
+use crate::{draw::Draw, hunt::Verdict, journal::Journal, mutant::Mutant, pace::Pace, package::Package, suite::Test};
 
 /// A result whose error is a sentence.
 type Outcome<T> = Result<T, String>;

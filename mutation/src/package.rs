@@ -8,7 +8,7 @@ use std::{
 
 use syn::Item;
 
-use crate::{Outcome, mutant::Mutant, finder, schemata, schemata::Mutated};
+use crate::{Outcome, finder, mutant::Mutant, schemata, schemata::Mutated};
 
 const SWITCH: &str = include_str!("../switch/mutant.rs");
 /// Not part of the copy.
@@ -73,7 +73,8 @@ impl Package {
     /// Every mutant that could be made.
     pub fn candidates(&self) -> Outcome<Vec<Mutant>> {
         let sources = self.sources()?;
-        let mutants = sources.iter().map(|file| finder::mutants(file, self.text(file)).map_err(|error| format!("{file}: {error}")));
+        let mutants =
+            sources.iter().map(|file| finder::mutants(file, self.text(file)).map_err(|error| format!("{file}: {error}")));
         Ok(mutants.collect::<Outcome<Vec<_>>>()?.concat())
     }
 

@@ -5,8 +5,8 @@ use std::{
 };
 
 use crate::{
-    mutant::Mutant,
     hunt::Verdict,
+    mutant::Mutant,
     suite::Test,
     survivors::{self, Explained},
 };

@@ -1,7 +1,7 @@
 //! Rewrites a file so that numbers switch its mutants: one build serves all of them.
 use std::ops::Range;
 
-use crate::mutant::{Mutant, Form};
+use crate::mutant::{Form, Mutant};
 
 /// A file with mutants in it, and where each one lies in it.
 pub struct Mutated {

@@ -84,7 +84,7 @@ class Camera:
     filter: Literal['box', 'tent', 'gaussian'] | Filter | Mapping[str, Any] | None = None
     """How a pixel weights the light around its centre. Default: "box"."""
     fov: float | None = None
-    """Field of view across the width of the image. Perspective cameras require it, others have none. (°)"""
+    """Field of view across the width of the image. Required for a perspective; other projections have none. (°)"""
     lens: Lens | Mapping[str, Any] | None = None
     """A thin lens. Default: a pinhole."""
     look_at: Sequence[float]
@@ -204,7 +204,7 @@ class Projector:
     up: Sequence[float] | None = None
     """Direction that points up in the image."""
     wrap: Literal['repeat', 'mirror', 'clamp', 'black'] | None = None
-    """What continues the image at its edges, where texels blend over half their width."""
+    """How the image continues beyond its edges. Texels blend over half their width there."""
 
 @dataclass(kw_only=True)
 class Spot:
@@ -242,10 +242,10 @@ class Light:
 
 @dataclass(kw_only=True)
 class Blend:
-    """A mixture of two materials, each of which may be a blend or `null`."""
+    """A mixture of two materials. Each may itself be a blend or `null`."""
 
     by_side: bool | None = None
-    """Whether the front has the first material and the back the second, whatever the weight."""
+    """Whether the front has the first material and the back the second, regardless of the weight."""
     first: str
     """Name of the first material."""
     second: str
@@ -482,7 +482,7 @@ class Material:
     """An entry of `materials`."""
 
     blend: Blend | Mapping[str, Any] | None = None
-    """A mixture of two materials, each of which may be a blend or `null`."""
+    """A mixture of two materials. Each may itself be a blend or `null`."""
     bump: Bump | Mapping[str, Any] | None = None
     """Makes the surface look uneven: heights from a texture tilt the shading normal; outlines stay smooth."""
     conductor: Conductor | Mapping[str, Any] | None = None
@@ -611,7 +611,7 @@ class Mesh:
     path: str | None = None
     """OBJ, PLY or STL file."""
     smooth: bool | None = None
-    """Whether normals are interpolated over the triangles."""
+    """Whether to interpolate normals over the triangles. Default: as the file states; false for lists."""
     triangles: Sequence[Sequence[int]] | None = None
     """Three vertex indices per triangle, counted from 0."""
     vertices: Sequence[Sequence[float]] | None = None
@@ -703,7 +703,7 @@ class Object:
 
 @dataclass(kw_only=True)
 class Reference:
-    """What the image must converge to, if it is known."""
+    """Image or radiance that the render must converge to, if it is known."""
 
     image: str | None = None
     """Reference image, of the resolution of the camera."""
@@ -731,7 +731,7 @@ class Render:
     """The settings that the scene opens with."""
 
     adaptive: bool | None = None
-    """Whether noisy blocks get more samples. Has no effect if pixels share anything, or with light paths."""
+    """Whether noisy blocks get more samples. Has no effect with path reuse or light paths."""
     count_crossings: bool | None = None
     """Whether passing a surface that is not opaque counts as a bounce for `max_bounces`."""
     directions: Literal['uniform', 'cosine', 'bsdf'] | None = None
@@ -741,11 +741,11 @@ class Render:
     exposure: float | None = None
     """Exposure of the displayed image. One stop doubles the brightness; samples do not change. (stops)"""
     max_bounces: int | None = None
-    """Highest number of bounces, reflections and refractions alike. A cap cuts the series L_e + T L_e + …, so the image is too dark. Default: no cap. (bounces)"""
+    """Highest number of bounces, reflections and refractions alike. A cap cuts the series L_e + T L_e + …, so the image is too dark. Default: no cap; a path that reaches bounce 4096 is then cut, and the image is labelled biased. (bounces)"""
     merging: bool | None = None
     """Whether the estimator `bidirectional` merges vertices that are near each other (Georgiev et al. 2012). Finds caustics in mirrors. Biased, but consistent."""
     reuse: Literal['auto', 'suffixes', 'outliers', 'both', 'off'] | None = None
-    """What neighbouring pixels share: path suffixes (Bekaert, Sbert and Halton 2002), outliers, or both. Less noise, no bias, but the noise of neighbouring pixels is correlated."""
+    """Path reuse between neighbouring pixels: suffixes (Bekaert, Sbert and Halton 2002), outliers, or both. Less noise, no bias, but the noise of neighbouring pixels is correlated."""
     roulette: Literal['off', 'throughput'] | Roulette | Mapping[str, Any] | None = None
     """Ends paths at random and weights the survivors, so that the mean does not change."""
     sampler: Literal['independent', 'stratified', 'sobol', 'bluenoise'] | None = None
@@ -829,7 +829,7 @@ class Stop:
     """An entry of `stops`."""
 
     at: float
-    """Place on the scale."""
+    """Position on the scale."""
     color: Sequence[float] | float
     """The colour there."""
 
@@ -838,9 +838,9 @@ class Ramp:
     """Colours along a scale, interpolated between stops."""
 
     input: float | Mapping[str, str]
-    """Place on the scale; a texture counts by its luminance."""
+    """Position on the scale; a texture counts by its luminance."""
     stops: Sequence[Stop | Mapping[str, Any]] | None = None
-    """Colours by place, in ascending order."""
+    """Colours by position, in ascending order."""
 
 @dataclass(kw_only=True)
 class VertexColor:
@@ -887,7 +887,7 @@ class Description:
     objects: Sequence[Object | Mapping[str, Any]] | None = None
     """The objects of the scene, one table each."""
     reference: Reference | Mapping[str, Any] | None = None
-    """What the image must converge to, if it is known."""
+    """Image or radiance that the render must converge to, if it is known."""
     render: Render | Mapping[str, Any] | None = None
     """The settings that the scene opens with."""
     textures: Mapping[str, Texture | Mapping[str, Any]] | None = None

@@ -17,7 +17,7 @@ use syn::{
 pub use self::syntax::is_conditional;
 use self::syntax::{call_with_name, last_name, numeric_constant, type_name};
 use crate::{
-    mutant::{Mutant, Form},
+    mutant::{Form, Mutant},
     operators,
 };
 

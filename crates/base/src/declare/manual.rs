@@ -3,7 +3,7 @@ use super::{Choice, CountRange, Declare, Form, Parameter, Parameters, Range, Tex
 
 /// A section for each table at the top of `description`, with a row for each parameter in it. Defaults are those of `description`.
 pub fn manual(description: &mut dyn Declare) -> String {
-    let mut manual = Manual { text: String::new(), path: Vec::new(), is_absent: false };
+    let mut manual = Manual { text: String::new(), path: Vec::new(), is_optional: false };
     manual.heading("The file", "Keys at the top of the file, before the first table.");
     description.parameters(&mut manual);
     manual.text
@@ -13,13 +13,13 @@ struct Manual {
     text: String,
     /// The tables around.
     path: Vec<String>,
-    /// Whether the next value is absent by default.
-    is_absent: bool,
+    /// Whether the next value is optional: what it begins with is no default.
+    is_optional: bool,
 }
 
 impl Manual {
     fn heading(&mut self, title: &str, doc: &str) {
-        self.text += &format!("\n## {title}\n\n{doc}\n\n| key | value | what it is |\n|---|---|---|\n");
+        self.text += &format!("\n## {title}\n\n{doc}\n\n| key | value | meaning |\n|---|---|---|\n");
     }
 
     fn row(&mut self, parameter: &Parameter, value: &str) {
@@ -27,8 +27,8 @@ impl Manual {
         let symbol = if parameter.symbol.is_empty() { String::new() } else { format!(" *{}*", parameter.symbol) };
         let unit = if parameter.unit.is_empty() { String::new() } else { format!(" ({})", parameter.unit) };
         let without_default = || value.split(';').next().unwrap_or_default().to_owned();
-        let is_absent = std::mem::take(&mut self.is_absent);
-        let value = match (parameter.is_required, is_absent) {
+        let is_optional = std::mem::take(&mut self.is_optional);
+        let value = match (parameter.is_required, is_optional) {
             (true, _) => format!("{}, required", without_default()),
             (false, true) => without_default(),
             (false, false) => value.to_owned(),
@@ -92,7 +92,7 @@ impl Parameters for Manual {
     }
 
     fn enter(&mut self, parameter: &Parameter, _: Form) {
-        self.is_absent = false;
+        self.is_optional = false;
         self.descend(parameter, &format!("`[{}]`", parameter.key), false);
     }
 
@@ -100,15 +100,15 @@ impl Parameters for Manual {
         self.path.pop();
     }
 
-    fn present(&mut self, _: &Parameter, now: bool) -> bool {
-        self.is_absent = !now;
+    fn present(&mut self, _: &Parameter, _: bool) -> bool {
+        self.is_optional = true;
         true
     }
 
     fn choose(&mut self, choice: &Choice, now: usize) -> usize {
         let names: Vec<String> = choice.alternatives.iter().map(|alternative| format!("`{}`", alternative.name)).collect();
         let around: String = self.path.iter().skip(1).map(|key| format!("`{key}`: ")).collect();
-        self.text += &format!("| | | {around}one {} of {} |\n", choice.what, names.join(", "));
+        self.text += &format!("| | | {around}exactly one of {} |\n", names.join(", "));
         now
     }
 

@@ -33,7 +33,7 @@ impl Default for Blend {
 }
 
 impl Kind for Blend {
-    const KIND: Parameter = Parameter::new("blend", "A mixture of two materials, each of which may be a blend or `null`.")
+    const KIND: Parameter = Parameter::new("blend", "A mixture of two materials. Each may itself be a blend or `null`.")
         .aliases("mix blendbsdf")
         .advice("such as blend = { first = \"paint\", second = \"rust\", weight = 0.3 }");
 }
@@ -42,9 +42,11 @@ impl Declare for Blend {
     fn parameters(&mut self, p: &mut dyn Parameters) {
         const FIRST: Parameter = Parameter::new("first", "Name of the first material.").required();
         const SECOND: Parameter = Parameter::new("second", "Name of the second material.").required();
-        const BY_SIDE: Parameter =
-            Parameter::new("by_side", "Whether the front has the first material and the back the second, whatever the weight.")
-                .aliases("sides front_and_back");
+        const BY_SIDE: Parameter = Parameter::new(
+            "by_side",
+            "Whether the front has the first material and the back the second, regardless of the weight.",
+        )
+        .aliases("sides front_and_back");
         p.value(&FIRST, Value::Name(&mut self.first, Family::Material));
         p.value(&SECOND, Value::Name(&mut self.second, Family::Material));
         p.textured_number(&Self::WEIGHT, &mut self.weight, Range::UNIT);

@@ -93,7 +93,10 @@ impl Kind for Mesh {
 
 impl Declare for Mesh {
     fn parameters(&mut self, p: &mut dyn Parameters) {
-        const SMOOTH: Parameter = Parameter::new("smooth", "Whether normals are interpolated over the triangles.");
+        const SMOOTH: Parameter = Parameter::new(
+            "smooth",
+            "Whether to interpolate normals over the triangles. Default: as the file states; false for lists.",
+        );
         p.one_of(&mut self.source);
         p.optional(&SMOOTH, &mut self.smooth, || true, |p, smooth| p.flag(&SMOOTH, smooth));
     }

@@ -11,9 +11,9 @@ use noisefall_base::{
 /// Colours along a scale, interpolated between stops.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ramp {
-    /// Place on the scale.
+    /// Position on the scale.
     pub input: Textured<f64>,
-    /// Colours by place, in ascending order.
+    /// Colours by position, in ascending order.
     pub stops: Vec<Stop>,
 }
 
@@ -28,7 +28,7 @@ pub struct Stop {
 
 impl Declare for Stop {
     fn parameters(&mut self, p: &mut dyn Parameters) {
-        const AT: Parameter = Parameter::new("at", "Place on the scale.").required();
+        const AT: Parameter = Parameter::new("at", "Position on the scale.").required();
         const COLOR: Parameter = Parameter::new("color", "The colour there.").required();
         p.number(&AT, &mut self.at, Range::UNIT);
         p.colour(&COLOR, &mut self.color, Range::RADIANCE);
@@ -48,8 +48,8 @@ impl Kind for Ramp {
 
 impl Declare for Ramp {
     fn parameters(&mut self, p: &mut dyn Parameters) {
-        const INPUT: Parameter = Parameter::new("input", "Place on the scale; a texture counts by its luminance.").required();
-        const STOPS: Parameter = Parameter::new("stops", "Colours by place, in ascending order.");
+        const INPUT: Parameter = Parameter::new("input", "Position on the scale; a texture counts by its luminance.").required();
+        const STOPS: Parameter = Parameter::new("stops", "Colours by position, in ascending order.");
         p.textured_number(&INPUT, &mut self.input, Range::UNIT);
         p.list(&STOPS, &mut self.stops);
     }
@@ -76,7 +76,7 @@ impl Texturing for Ramp {
 
 /// A ramp as the renderer looks it up.
 pub struct Gradient {
-    /// Place on the scale.
+    /// Position on the scale.
     pub input: NumberSource,
     /// Places in ascending order, with their colours; at least one.
     pub stops: Vec<(f32, [f32; 3])>,

@@ -75,7 +75,7 @@ impl Declare for Projector {
         const ENCODING: Parameter =
             Parameter::new("encoding", "Encoding of the file's numbers; EXR, HDR and PFM are always linear.");
         const WRAP: Parameter =
-            Parameter::new("wrap", "What continues the image at its edges, where texels blend over half their width.");
+            Parameter::new("wrap", "How the image continues beyond its edges. Texels blend over half their width there.");
         const FILTER: Parameter = Parameter::new("filter", "Interpolation between texels.");
         const FOV: Parameter = Parameter::new("fov", "Angle across the width of the image.").unit("°");
         const ASPECT: Parameter = Parameter::new("aspect", "Width of the image divided by its height; 0 takes that of the file.");

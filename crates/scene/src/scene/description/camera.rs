@@ -68,12 +68,14 @@ impl CameraDescription {
     /// The direction that points up, as files and the window name it.
     pub const UP: Parameter = Parameter::new("up", "Direction that points up in the image. Default: [0, 1, 0].");
     /// The field of view, as files and the window name it.
-    pub const FOV: Parameter =
-        Parameter::new("fov", "Field of view across the width of the image. Perspective cameras require it, others have none.")
-            .title("Field of view")
-            .unit("°")
-            .aliases("angle field_of_view vfov hfov")
-            .advice("`fov` is the angle across the image's width, in degrees");
+    pub const FOV: Parameter = Parameter::new(
+        "fov",
+        "Field of view across the width of the image. Required for a perspective; other projections have none.",
+    )
+    .title("Field of view")
+    .unit("°")
+    .aliases("angle field_of_view vfov hfov")
+    .advice("`fov` is the angle across the image's width, in degrees");
     /// Width and height, as files and the window name it.
     pub const RESOLUTION: Parameter = Parameter::new("resolution", "Width and height.")
         .unit("pixels")

@@ -44,7 +44,9 @@ pub(super) fn settings_and_reference(
 ) {
     const RENDER: Parameter = Parameter::new("render", "The settings that the scene opens with.").aliases("integrator settings");
     const REFERENCE: Parameter =
-        Parameter::new("reference", "What the image must converge to, if it is known.").title("Reference").aliases("reference");
+        Parameter::new("reference", "Image or radiance that the render must converge to, if it is known.")
+            .title("Reference")
+            .aliases("reference");
     p.optional_part(&RENDER, render);
     p.optional_table(&REFERENCE, reference);
 }

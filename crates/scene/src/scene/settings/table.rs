@@ -54,7 +54,7 @@ impl RenderSettings {
     pub const MAX_BOUNCES: Setting = Setting::new(
         Parameter::new(
             "max_bounces",
-            "Highest number of bounces, reflections and refractions alike. A cap cuts the series L_e + T L_e + …, so the image is too dark. Default: no cap.",
+            "Highest number of bounces, reflections and refractions alike. A cap cuts the series L_e + T L_e + …, so the image is too dark. Default: no cap; a path that reaches bounce 4096 is then cut, and the image is labelled biased.",
         )
         .title("Bounce cap")
         .symbol("k")
@@ -97,7 +97,7 @@ impl RenderSettings {
     pub const REUSE: Setting = Setting::new(
         Parameter::new(
             "reuse",
-            "What neighbouring pixels share: path suffixes (Bekaert, Sbert and Halton 2002), outliers, or both. Less noise, no bias, but the noise of neighbouring pixels is correlated.",
+            "Path reuse between neighbouring pixels: suffixes (Bekaert, Sbert and Halton 2002), outliers, or both. Less noise, no bias, but the noise of neighbouring pixels is correlated.",
         )
         .title("Path reuse")
         .aliases("path reuse share"),
@@ -111,10 +111,7 @@ impl RenderSettings {
 
     /// Whether noisier pixels get more samples.
     pub const ADAPTIVE: Setting = Setting::new(
-        Parameter::new(
-            "adaptive",
-            "Whether noisy blocks get more samples. Has no effect if pixels share anything, or with light paths.",
-        ),
+        Parameter::new("adaptive", "Whether noisy blocks get more samples. Has no effect with path reuse or light paths."),
         access!(adaptive, flag),
         |settings| if settings.adaptive { "adaptive" } else { "not adaptive" }.to_owned(),
     )
