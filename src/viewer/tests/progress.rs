@@ -71,7 +71,7 @@ fn the_render_of_a_lost_window_is_offered_and_continues() {
     let mut window = open_with(None, with_keeper);
     wait(&mut window, "the question", |app| app.dialogs.unfinished.is_some());
     window.run_steps(2);
-    assert!(window.query_by_label_contains("Continue the render of “Five-sphere Cornell box” from").is_some());
+    assert!(window.query_by_label_contains("Continue the render of “Cornell box of spheres” from").is_some());
     click(&mut window, "Continue render");
     wait(&mut window, "the scene", |app| !app.loader().is_busy() && app.camera().resolution == [96, 64]);
     continues(&mut window, &files(folder.path())[0]);

@@ -46,9 +46,9 @@ fn saving_writes_the_changed_line_and_no_other_and_the_title_marks_unsaved_chang
     let folder = tempfile::tempdir().expect("a folder");
     let (mut window, path, text) = window_of_copy(folder.path());
     let title = |window: &Window| window.state().window.title.clone();
-    assert!(title(&window).starts_with("Five-sphere Cornell box") && !title(&window).contains('•'));
+    assert!(title(&window).starts_with("Cornell box of spheres") && !title(&window).contains('•'));
     grow(&mut window);
-    assert!(title(&window).starts_with("Five-sphere Cornell box (mine.toml) • "), "{}", title(&window));
+    assert!(title(&window).starts_with("Cornell box of spheres (mine.toml) • "), "{}", title(&window));
     save(&mut window);
     assert!(!title(&window).contains('•'));
     let saved = std::fs::read_to_string(&path).expect("it is there");

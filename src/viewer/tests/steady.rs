@@ -222,7 +222,7 @@ fn the_gallery_is_in_an_order_that_teaches_and_its_pictures_cover_their_cards() 
     };
     for (name, chapter) in [
         ("Cornell box", 0),
-        ("Five-sphere Cornell box", 0),
+        ("Cornell box of spheres", 0),
         ("Tiny light: slow to converge", 1),
         ("Veach's plates: why to combine", 2),
         ("From mirror to matt", 3),
@@ -233,7 +233,7 @@ fn the_gallery_is_in_an_order_that_teaches_and_its_pictures_cover_their_cards() 
     }
     let boxes = window.query_all_by_role(Role::Button).filter(|node| {
         let label = node.accesskit_node().label();
-        label.is_some_and(|label| label.contains("Five-sphere"))
+        label.is_some_and(|label| label.contains("Cornell box of spheres"))
     });
     assert_eq!(boxes.count(), 1, "the built-in scene is there once");
     // Each image is as large as its card, so that no ground of another brightness shows beside it.

@@ -121,7 +121,7 @@ fn threads_and_tour_work_as_labelled() {
     assert!(window.state().dialogs.tour.is_none() && window.state().preferences.now.toured);
     press(&mut window, Key::F6);
     window.run_steps(3);
-    window.get_by_role_and_label(Role::Button, "Five-sphere Cornell box").click();
+    window.get_by_role_and_label(Role::Button, "Cornell box of spheres").click();
     window.run_steps(2);
     let is_open = |app: &App| app.session.path().is_some_and(|path| path.ends_with("cornell_spheres.toml"));
     wait(&mut window, "the scene of the card", is_open);

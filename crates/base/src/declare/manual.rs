@@ -108,7 +108,7 @@ impl Parameters for Manual {
     fn choose(&mut self, choice: &Choice, now: usize) -> usize {
         let names: Vec<String> = choice.alternatives.iter().map(|alternative| format!("`{}`", alternative.name)).collect();
         let around: String = self.path.iter().skip(1).map(|key| format!("`{key}`: ")).collect();
-        self.text += &format!("| | | {around}exactly one of {} |\n", names.join(", "));
+        self.text += &format!("| | | {around}one of {} |\n", names.join(", "));
         now
     }
 

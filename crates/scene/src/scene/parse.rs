@@ -34,7 +34,7 @@ const KEPT: u64 = 2;
 /// The scene that the window opens by default; also `scenes/cornell_spheres.toml`.
 pub const BUILT_IN: &str = include_str!(concat!(env!("NOISEFALL_SCENES"), "/cornell_spheres.toml"));
 
-/// The built-in five-sphere Cornell box.
+/// The default scene, a Cornell box of spheres.
 pub fn built_in() -> Scene {
     parse("cornell_spheres.toml", BUILT_IN.to_owned()).expect("the built-in scene is valid: a test compiles it")
 }

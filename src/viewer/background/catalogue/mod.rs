@@ -12,7 +12,7 @@ use noisefall_scene::scene::ShippedScene;
 const LONGEST_HEAD: u64 = 16 << 10;
 
 /// The name of the built-in scene.
-pub const BUILT_IN_NAME: &str = "Five-sphere Cornell box (built-in)";
+pub const BUILT_IN_NAME: &str = "Cornell box of spheres (built-in)";
 /// The name of the file with the same scene, without extension.
 pub const BUILT_IN_STEM: &str = "cornell_spheres";
 
