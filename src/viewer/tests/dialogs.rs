@@ -109,7 +109,7 @@ fn the_tour_explains_glass_where_there_is_some_and_its_card_can_be_moved() {
     let mut window = window("cornell_spheres");
     window.state_mut().dialogs.tour = Some(3);
     window.run_steps(4);
-    assert!(window.query_by_label_contains("The glass focuses").is_none());
+    assert!(window.query_by_label_contains("The glass focuses light to a caustic.").is_none());
     let card = |window: &Window| window.get_by_label("4 of 5").rect().min;
     let (before, bar) = (card(&window), place(&window, "Tour").center_top() + vec2(0.0, 16.0));
     drag(&mut window, PointerButton::Primary, bar.into(), (bar + vec2(150.0, 80.0)).into());
@@ -123,5 +123,5 @@ fn the_tour_explains_glass_where_there_is_some_and_its_card_can_be_moved() {
             .is_some_and(|opened| opened.path.as_ref().is_some_and(|path| path.ends_with("glass_ball_caustic.toml")))
     });
     window.run_steps(4);
-    assert!(window.query_by_label_contains("The glass focuses").is_some());
+    assert!(window.query_by_label_contains("The glass focuses light to a caustic.").is_some());
 }
