@@ -96,7 +96,7 @@ impl App {
     }
 
     /// Writes the file of the render.
-    pub fn save_progress_to(&mut self, path: PathBuf) {
+    pub fn save_checkpoint_to(&mut self, path: PathBuf) {
         match self.render_to_keep() {
             Ok(render) => {
                 let worker = self.environment.worker.keep_handle();

@@ -48,7 +48,7 @@ impl App {
             SaveTarget::Scene => return self.save_scene_to(&path),
             SaveTarget::Picture => return self.save_to(path),
             SaveTarget::Layers => return self.save_layers_to(path),
-            SaveTarget::Progress => return self.save_progress_to(path),
+            SaveTarget::Progress => return self.save_checkpoint_to(path),
             SaveTarget::CurvesCsv => self.instruments.history.csv(),
             SaveTarget::CurvesSvg => Ok(self.instruments.history.svg().into_bytes()),
             SaveTarget::Path => {
