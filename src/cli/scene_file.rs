@@ -53,19 +53,19 @@ impl SceneOptions {
 
     /// Opens a scene file for images of this size, as [`Self::open`] does.
     pub fn open_for(&self, path: &Path, size: Option<[u32; 2]>) -> Result<Opened, Failure> {
-        self.open_with(path, self.import_options(size))
+        self.open_with(path, &self.import_options(size))
     }
 
     /// Opens a scene file whose former names are rewritten, as [`Self::open`] does.
     pub fn open_rewritten(&self, path: &Path) -> Result<Opened, Failure> {
-        self.open_with(path, ImportOptions { rewrites: true, ..self.import_options(None) })
+        self.open_with(path, &ImportOptions { rewrites: true, ..self.import_options(None) })
     }
 
-    fn open_with(&self, path: &Path, options: ImportOptions) -> Result<Opened, Failure> {
+    fn open_with(&self, path: &Path, options: &ImportOptions) -> Result<Opened, Failure> {
         if let Some(note) = self.unused(path) {
             tell(&note);
         }
-        let opened = with_bar(&options.progress, || import::open(path, &options)).map_err(|error| error.report())?;
+        let opened = with_bar(&options.progress, || import::open(path, options)).map_err(|error| error.report())?;
         self.report(path, &opened.remarks, "imported exactly")?;
         Ok(opened)
     }

@@ -13,7 +13,7 @@
 //! | set a value; adds absent tables on its path | [`Edit::Set`] |
 //! | give an optional value or table its default (`objects.3.emission`) | [`Edit::Insert`] without content; [`Document::insert`] with the texture that it needs |
 //! | remove an optional value, an object, a material, an item of a list | [`Edit::Remove`] |
-//! | add an object, a light, a material, a texture, a transform | [`Edit::Insert`]; [`Document::add_shape`] and [`Document::add_lamp_without_surface`] place one |
+//! | add an object, a light, a material, a texture, a transform | [`Edit::Insert`]; [`Document::add_shape`] and [`Document::add_punctual_light`] place one |
 //! | add a mesh file; make an image the environment | [`Document::add_mesh`]; [`Document::set_sky`] |
 //! | duplicate an object, a light, a material, a texture | [`Document::duplicate`] |
 //! | change a kind: `path` is the table with the key of the kind, `choice` the [`Choice::what`](noisefall_base::declare::Choice::what) | [`Edit::Choose`] |

@@ -124,7 +124,7 @@ pub struct Scene {
     pub materials: Vec<MaterialInstance>,
     /// The objects in the order of their primitive ids, emitting ones first.
     pub objects: Vec<Object>,
-    /// The punctual lights that emit light, in the order of [`Lights::lights`].
+    /// The punctual lights that emit light, in the order of [`Lights::punctual_lights`].
     pub punctual_lights: Vec<PunctualLightInstance>,
     /// The place of the object that a primitive is a piece of.
     pub owners: Vec<u32>,

@@ -86,7 +86,7 @@ impl Menu {
                 ("Duplicate", Action::Duplicate),
             ]),
             Subject::PunctualLight(_) | Subject::Material(_) | Subject::Texture(_) => {
-                actions.push(("Duplicate", Action::Duplicate))
+                actions.push(("Duplicate", Action::Duplicate));
             }
             Subject::Camera | Subject::Presentation => {}
             Subject::Environment if !self.has_environment => actions.push(("Add", Action::AddEnvironment)),

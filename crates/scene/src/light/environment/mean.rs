@@ -10,7 +10,7 @@ use noisefall_base::math::{One, V, colour::luminance};
 const BANDS: u32 = 64;
 
 impl Environment {
-    /// The mean radiance over all directions. Its luminance is that of [`Background::luminance`]; its hue is that of a grid of
+    /// The mean radiance over all directions. Its luminance is that of [`Environment::luminance`]; its hue is that of a grid of
     /// directions, which may miss a sun.
     pub fn mean(&self) -> [f32; 3] {
         let mut sum = DVec3::ZERO;

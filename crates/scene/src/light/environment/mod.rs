@@ -116,7 +116,7 @@ impl Environment {
         in_environment!(self, environment => Radiant::sample(environment, l, at, cell, u))
     }
 
-    /// The pdf of [`Background::sample`] at the unit direction `wi`, per solid angle.
+    /// The pdf of [`Environment::sample`] at the unit direction `wi`, per solid angle.
     #[inline(always)]
     pub(super) fn pdf<L: Lanes>(&self, l: L, at: &ReferencePoint<L>, wi: V<L>) -> F<L> {
         in_environment!(self, environment => Radiant::pdf(environment, l, at, wi))
@@ -128,7 +128,7 @@ impl Environment {
         in_environment!(self, environment => Radiant::sample_inwards(environment, l, cell, u))
     }
 
-    /// The pdf of [`Background::sample_inwards`] at the unit direction `d`, per solid angle.
+    /// The pdf of [`Environment::sample_inwards`] at the unit direction `d`, per solid angle.
     #[inline(always)]
     pub(super) fn pdf_inwards<L: Lanes>(&self, l: L, d: V<L>) -> F<L> {
         in_environment!(self, environment => Radiant::pdf_inwards(environment, l, d))

@@ -1,6 +1,6 @@
 //! The numbers of a light, and how they lie in rows.
 
-/// The rows of a light: see [`LampRow`].
+/// The rows of a light: see [`PunctualRow`].
 pub type PunctualRows = [[f32; 4]; 5];
 
 /// Equal in all directions.

@@ -7,7 +7,7 @@ use noisefall_base::math::{F, Lanes, M, Pick, U, V};
 /// The lights of a scene.
 #[derive(Default)]
 pub struct PunctualLights {
-    /// Five rows for each light: see [`LampRow`](super::row::LampRow).
+    /// Five rows for each light: see [`PunctualRow`](super::row::PunctualRow).
     rows: Vec<[f32; 4]>,
     /// Number of lights.
     count: usize,
@@ -117,7 +117,7 @@ impl PunctualLights {
         PunctualRay { origin, far, d, light: self.light(l, &beam, d, l.f(1.0)), pdf: far.pick(l.f(1.0), beam.direction_pdf(l)) }
     }
 
-    /// The pdf of the directions of [`Lights::emit`] per solid angle, and the lanes of directional lights, where it is 1.
+    /// The pdf of the directions of [`PunctualLights::emit`] per solid angle, and the lanes of directional lights, where it is 1.
     #[simd]
     pub fn direction_pdf<L: Lanes>(&self, l: L, punctual_light: U<L>) -> (F<L>, M<L>) {
         let beam = Beam::read(l, &self.rows, punctual_light);

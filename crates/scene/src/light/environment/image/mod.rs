@@ -157,7 +157,7 @@ pub struct EnvironmentImage {
     turn: Option<Turn>,
 }
 
-/// The texels of an [`ImageBackground`] and the tables that sample them. They do not depend on its rotation.
+/// The texels of an [`EnvironmentImage`] and the tables that sample them. They do not depend on its rotation.
 pub struct SkyTables {
     picture: ImageTexture,
     /// Where the image begins in v, and how much of it there is, in heights of the image: see [`rows_of`].
