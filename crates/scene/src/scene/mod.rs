@@ -156,6 +156,8 @@ pub struct Scene {
     pub identity: Arc<()>,
     /// Shared by a scene and those that were rebuilt from it: see [`Scene::is_of_same_file`].
     pub lineage: Arc<()>,
+    /// Warnings about former names in the file.
+    pub former_names: Vec<String>,
     /// See [`Scene::warnings`].
     pub warned: OnceLock<Vec<String>>,
     /// The parts that the compile made, and those that it reused from another scene.

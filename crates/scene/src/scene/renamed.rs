@@ -14,26 +14,25 @@ pub struct Renamed {
     pub former: &'static str,
     /// The name now.
     pub now: &'static str,
-    /// Whether files may still use the former name: scripts outside of the project write it.
-    pub is_read: bool,
 }
 
-/// All of them. The reader names the new name, and `noisefall convert` rewrites files.
+/// All of them. Former keys are still read, since scripts outside of the project write them: a warning names the new key. Former values are
+/// refused. `noisefall convert` rewrites files.
 pub const RENAMED: [Renamed; 6] = [
     key("lamps", "lights"),
     key("truth", "reference"),
-    Renamed { is_read: true, ..key("background", "environment") },
+    key("background", "environment"),
     value(&["render", "estimator"], "forward", "light_tracing"),
     value(&["render", "reuse"], "on", "suffixes"),
     value(&["render", "reuse"], "bright", "outliers"),
 ];
 
 const fn key(former: &'static str, now: &'static str) -> Renamed {
-    Renamed { place: &[], former, now, is_read: false }
+    Renamed { place: &[], former, now }
 }
 
 const fn value(place: &'static [&'static str], former: &'static str, now: &'static str) -> Renamed {
-    Renamed { place, former, now, is_read: false }
+    Renamed { place, former, now }
 }
 
 /// The value of a key at the top of a file, which may be under its former name.
@@ -43,9 +42,21 @@ pub(super) fn value_of<'t>(file: &'t DeTable<'t>, key: &str) -> Option<&'t Spann
 
 /// Whether a key at the top of a file is the former name of a key that is absent.
 pub(super) fn is_read(file: &DeTable, word: &str) -> bool {
-    RENAMED.iter().any(|renamed| renamed.is_read && renamed.former == word && !file.contains_key(renamed.now))
+    keys().any(|renamed| renamed.former == word && !file.contains_key(renamed.now))
+}
+
+/// Warnings about the former keys of a file.
+pub(super) fn warnings(file: &DeTable) -> Vec<String> {
+    let former = keys().filter(|renamed| is_read(file, renamed.former) && file.contains_key(renamed.former));
+    former
+        .map(|Renamed { former, now, .. }| format!("`{former}` is now `{now}`: `noisefall convert` rewrites the file"))
+        .collect()
+}
+
+fn keys() -> impl Iterator<Item = &'static Renamed> {
+    RENAMED.iter().filter(|renamed| renamed.place.is_empty())
 }
 
 fn former(key: &str) -> Option<&'static str> {
-    RENAMED.iter().find(|renamed| renamed.is_read && renamed.now == key).map(|renamed| renamed.former)
+    keys().find(|renamed| renamed.now == key).map(|renamed| renamed.former)
 }

@@ -27,7 +27,7 @@ impl Scene {
     }
 
     fn warnings_of_scene(&self) -> Vec<String> {
-        let mut warnings = Vec::new();
+        let mut warnings = self.former_names.clone();
         if self.lights.is_empty() {
             warnings.push("nothing in this scene emits light: the image will be black".to_owned());
         }

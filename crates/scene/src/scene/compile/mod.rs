@@ -193,6 +193,7 @@ impl CompiledParts {
             lights_are_missed,
             identity: Arc::new(()),
             lineage: before.map(|before| before.scene.lineage.clone()).unwrap_or_default(),
+            former_names: Vec::new(),
             warned: OnceLock::new(),
             compiled: CompileReport { parts: report, took: Duration::ZERO },
             memo,
