@@ -54,7 +54,8 @@ mod tests {
         assert_eq!(renamed(old).as_deref(), Some(new));
         assert_eq!(renamed(&old.replace('\n', "\r\n")), Some(new.replace('\n', "\r\n")));
         assert_eq!(renamed(new), None);
-        assert_eq!(renamed("render = { reuse = 'on', spp = 3 }").as_deref(), Some("render = { reuse = \"suffixes\", spp = 3 }"));
+        let inline = renamed("render = { reuse = 'on', spp = 3 }\n");
+        assert_eq!(inline.as_deref(), Some("render = { reuse = \"suffixes\", spp = 3 }\n"));
         assert_eq!(renamed("lamps = ["), None);
     }
 }
