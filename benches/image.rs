@@ -39,11 +39,11 @@ fn first_picture(c: &mut Criterion) {
     let renderer = Renderer::new(threads, Publish::Live, notify);
     let triangles = load("scenes/million_triangles.toml".as_ref()).expect("a shipped scene compiles");
     let usual = RenderSettings::default();
-    let is_bidirectional = RenderSettings { estimator: Estimator::Bidirectional, ..usual };
+    let bidirectional = RenderSettings { estimator: Estimator::Bidirectional, ..usual };
     let mut generation = 0;
     for (name, scene, settings) in [
         ("the built-in scene", built_in(), usual),
-        ("the built-in scene from camera and light", built_in(), is_bidirectional),
+        ("the built-in scene, bidirectional", built_in(), bidirectional),
         ("1.28 million triangles", triangles, usual),
     ] {
         let scene = Arc::new(scene);

@@ -31,8 +31,8 @@ fn balls() -> SceneDescription {
         let center = DVec3::new(1.4 * f64::from(i) - 2.8, 0.6, 0.0);
         scene.add_object(&name, Sphere { center, radius: 0.6 }).material = Some(name.clone());
     }
-    let punctual_light = Sphere { center: DVec3::new(-2.0, 6.0, 4.0), radius: 1.0 };
-    scene.add_object("light", punctual_light).emission = Some(EmissionDescription::radiance([20.0; 3]));
+    let light = Sphere { center: DVec3::new(-2.0, 6.0, 4.0), radius: 1.0 };
+    scene.add_object("light", light).emission = Some(EmissionDescription::radiance([20.0; 3]));
     scene
 }
 

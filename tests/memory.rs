@@ -133,10 +133,10 @@ fn allocated_memory_is_counted() {
     assert_counted("hills", &file("hills.toml", &object("mesh = { heightfield = { quads = 450 } }")));
     let field = "sphere_field = { count = 50000, bounds = { min = [-1, -1, -1], max = [1, 1, 1] } }";
     assert_counted("spheres", &file("spheres.toml", &object(field)));
-    let punctual_lights = format!("[[objects]]\nshape = {{ {field} }}\nemission = {{ radiance = 1 }}\n");
-    assert_counted("lights", &file("lamps.toml", &scene(16, &punctual_lights)));
-    let punctual_light = "[[objects]]\nshape = { mesh = { knot = { triangles = 60000 } } }\nemission = { radiance = 1 }\n";
-    assert_counted("emitting triangles", &file("light.toml", &scene(16, punctual_light)));
+    let lights = format!("[[objects]]\nshape = {{ {field} }}\nemission = {{ radiance = 1 }}\n");
+    assert_counted("lights", &file("lamps.toml", &scene(16, &lights)));
+    let light = "[[objects]]\nshape = { mesh = { knot = { triangles = 60000 } } }\nemission = { radiance = 1 }\n";
+    assert_counted("emitting triangles", &file("light.toml", &scene(16, light)));
 
     let rows: String = (0..60_000).map(|i| format!("[{},{},{}],", i % 7, i % 11, i % 13)).collect();
     let triangles: String = (0..60_000).map(|i| format!("[{},{},{}],", i % 997, i % 1009, i % 1013)).collect();

@@ -121,7 +121,7 @@ fn app(window: &mut Window) -> &mut App {
 
 fn is_shown(app: &App) -> bool {
     let shown = app.results.shown.as_ref().map_or(0, |frame| frame.generation);
-    !app.environment.worker.is_editing() && app.session.waiting_edit.is_none() && shown == app.environment.worker.generation()
+    !app.background.worker.is_editing() && app.session.waiting_edit.is_none() && shown == app.background.worker.generation()
 }
 
 /// The place of an edit in a drag to and fro.
@@ -145,7 +145,7 @@ fn times(window: &mut Window, description: &SceneDescription, change: Change) ->
         let start = Instant::now();
         app(window).edit_scene(Arc::new(description));
         window.step();
-        until(window, |app| !app.environment.worker.is_editing() && app.session.waiting_edit.is_none());
+        until(window, |app| !app.background.worker.is_editing() && app.session.waiting_edit.is_none());
         let result = start.elapsed();
         until(window, is_shown);
         times.shown.push(start.elapsed());

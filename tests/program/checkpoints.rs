@@ -147,18 +147,18 @@ fn a_scene_of_another_program_with_its_meshes_is_read_again() {
 #[test]
 fn a_file_that_a_scene_of_another_program_includes_counts_too() {
     let shell = Shell::new();
-    let punctual_light = |radiance: &str| {
-        let punctual_light = format!(
+    let light = |radiance: &str| {
+        let light = format!(
             "<scene version=\"3.0.0\"><emitter type=\"constant\"><rgb name=\"radiance\" value=\"{radiance}\"/></emitter></scene>"
         );
-        fs::write(shell.path("light.xml"), punctual_light).expect("it is written");
+        fs::write(shell.path("light.xml"), light).expect("it is written");
     };
-    punctual_light("1");
+    light("1");
     let room = "<scene version=\"3.0.0\"><shape type=\"sphere\"/><include filename=\"light.xml\"/></scene>";
     fs::write(shell.path("room.xml"), room).expect("it is written");
     begin(&shell, &shell.path("room.xml").display().to_string(), &[]);
     done(&shell, &["render", "--resume", "a.nf", "-o", "b.exr"]);
-    punctual_light("2");
+    light("2");
     let message = refused(&shell, &["render", "--resume", "a.nf", "-o", "b.exr"]);
     assert!(message.contains("light.xml has other contents"), "{message}");
 }

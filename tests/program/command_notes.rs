@@ -61,7 +61,7 @@ fn a_reference_of_another_size_or_kind_is_reported() {
     let same = render("out.exr", "scene.toml", "16x9");
     assert!(text(&same.stdout).contains("error") && !text(&same.stderr).contains("true image"));
     let other = render("out.exr", "scene.toml", "16x10");
-    assert!(text(&other.stderr).contains("the true image is 16 × 9 and this one 16 × 10"), "{}", text(&other.stderr));
+    assert!(text(&other.stderr).contains("the reference image is 16 × 9 and this one 16 × 10"), "{}", text(&other.stderr));
     assert!(render("out.png", "scene.toml", "16x9").status.success());
     let compared = shell.run(&["compare", "out.png", "true.exr"]);
     assert!(compared.status.success() && text(&compared.stderr).contains("a PNG is clipped"));

@@ -101,7 +101,7 @@ fn a_denoised_image_is_no_reference() {
     let reference = text_of_scene.find("[reference]").expect("it has one");
     let declared = format!("{}[reference]\nimage = \"denoised.exr\"\n", &text_of_scene[..reference]);
     fs::write(shell.path("declared.toml"), declared).expect("it is written");
-    let said = "the true image is denoised, and so biased";
+    let said = "the reference image is denoised, and so biased";
     let done = shell.run(&["render", "declared.toml", "-o", "out.exr", "--spp", "4", "--size", "16x9"]);
     assert!(done.status.success() && text(&done.stderr).contains(said), "{}", text(&done.stderr));
     assert!(!text(&done.stdout).contains(", error"), "{}", text(&done.stdout));
@@ -113,7 +113,7 @@ fn a_denoised_image_is_no_reference() {
         text(&refused.stderr)
     };
     let told = studied(&["declared.toml"]);
-    assert!(told.contains("the true image") && told.contains("denoised.exr is denoised, and so biased"), "{told}");
+    assert!(told.contains("the reference image") && told.contains("denoised.exr is denoised, and so biased"), "{told}");
     let told = studied(&[&furnace, "--reference", "denoised.exr"]);
     assert!(told.contains("denoised.exr: the image is denoised, and so biased; a reference must be a render"), "{told}");
 }

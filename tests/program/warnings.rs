@@ -18,7 +18,7 @@ fn warnings(from: &str, to: &str) -> Vec<String> {
 
 #[test]
 fn each_slip_has_its_warning() {
-    let punctual_light = "emission = { radiance = [1.0, 2.0, 3.0] }";
+    let light = "emission = { radiance = [1.0, 2.0, 3.0] }";
     let glass = "lambertian = { albedo = 0.8 }\n[materials.glass]\ndielectric = { ior = 1.5 }";
     for (from, to, says) in [
         ("material = \"white\"\nemission = { radiance = [1.0, 2.0, 3.0] }", "", "`ball` has neither `material` nor `emission`"),
@@ -32,12 +32,9 @@ fn each_slip_has_its_warning() {
         assert!(said.iter().any(|warning| warning.contains(says)), "{to}: {said:?}");
     }
     let flipped = GOOD.replacen("lambertian = { albedo = 0.8 }", glass, 1);
-    let flipped = flipped.replacen(
-        punctual_light,
-        "flip = true\n[[objects]]\nshape = { sphere = { center = [9, 0, 0], radius = 1 } }\nEM",
-        1,
-    );
-    let flipped = flipped.replacen("\"white\"", "\"glass\"", 1).replacen("EM", punctual_light, 1);
+    let flipped =
+        flipped.replacen(light, "flip = true\n[[objects]]\nshape = { sphere = { center = [9, 0, 0], radius = 1 } }\nEM", 1);
+    let flipped = flipped.replacen("\"white\"", "\"glass\"", 1).replacen("EM", light, 1);
     let said = parse("test.toml", flipped).unwrap_or_else(|error| panic!("{}", error.report())).warnings().to_vec();
     assert!(said.len() == 1 && said[0].contains("`ball` has `flip` on a dielectric"), "{said:?}");
     let bare = "[[objects]]\nshape = { sphere = { center = [9, 0, 0], radius = 1 } }\n";
@@ -51,15 +48,15 @@ fn each_slip_has_its_warning() {
     }
     // There is no warning about intentional settings.
     assert_eq!(warnings("eye = [0.0, 1.0, 4.0]", "eye = [0.1, 1.0, 0.2]").len(), 1);
-    assert_eq!(warnings(punctual_light, &format!("{punctual_light}\nflip = true")), Vec::<String>::new());
+    assert_eq!(warnings(light, &format!("{light}\nflip = true")), Vec::<String>::new());
     assert_eq!(warnings("fov = 40", "fov = 3.5"), Vec::<String>::new());
 }
 
 /// A light at a distance below a ceiling of the same shape, with its front up or down.
-fn ceiling(shape: &str, above: f64, punctual_light: &str) -> Vec<String> {
+fn ceiling(shape: &str, above: f64, light: &str) -> Vec<String> {
     let ceiling = shape.replace('Y', &format!("{:?}", 2.0 + above));
     let objects = format!(
-        "[[objects]]\nname = \"light\"\nshape = {{ {} }}\nemission = {{ {punctual_light}\n\
+        "[[objects]]\nname = \"light\"\nshape = {{ {} }}\nemission = {{ {light}\n\
          [[objects]]\nname = \"ceiling\"\nshape = {{ {ceiling} }}\nmaterial = \"white\"\n[render]",
         shape.replace('Y', "2.0")
     );

@@ -113,7 +113,7 @@ fn replayed_samples_add_up_to_the_film() {
 }
 
 /// The settings of an estimator with light paths.
-fn is_bidirectional(estimator: Estimator) -> RenderSettings {
+fn with_light_paths(estimator: Estimator) -> RenderSettings {
     RenderSettings { estimator, adaptive: false, ..settings(Sampler::Sobol, Reuse::Off) }
 }
 
@@ -123,7 +123,7 @@ const BIDIRECTIONAL: [Estimator; 2] = [Estimator::LightTracing, Estimator::Bidir
 fn paths_from_lights_bring_the_same_light_for_every_number_of_threads_and_every_simd_level() {
     let scene = built_in();
     for estimator in BIDIRECTIONAL {
-        let settings = is_bidirectional(estimator);
+        let settings = with_light_paths(estimator);
         assert!(scene.traces_light_paths(&settings));
         assert_same_everywhere(&scene, &settings, estimator.name());
     }
@@ -133,6 +133,6 @@ fn paths_from_lights_bring_the_same_light_for_every_number_of_threads_and_every_
 fn an_interrupted_pass_with_paths_from_lights_goes_on_as_if_nothing_had_happened() {
     let scene = built_in();
     for estimator in BIDIRECTIONAL {
-        assert_goes_on(&scene, &is_bidirectional(estimator), estimator.name());
+        assert_goes_on(&scene, &with_light_paths(estimator), estimator.name());
     }
 }

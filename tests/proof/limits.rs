@@ -136,7 +136,7 @@ fn room(material: &str, text: &str) -> Scene {
     let of = |key: &str| text.strip_prefix(&format!("{key}.")).unwrap_or_default();
     let environment = part("environment", "environment.radiance = 0.5");
     let texture = part("textures.t", "textures.t.checker = { even = 0.2, odd = 0.7, scale = 3.0 }");
-    let punctual_light = if of("light").starts_with("emission") { "" } else { "emission.radiance = 4.0" };
+    let light = if of("light").starts_with("emission") { "" } else { "emission.radiance = 4.0" };
     let render = part("render", "");
     scene(&format!(
         "{environment}
@@ -163,7 +163,7 @@ fn room(material: &str, text: &str) -> Scene {
         material = 'floor'
         [[objects]]
         shape.sphere = {{ center = [1.5, 1.8, 1.0], radius = 0.5 }}
-        {punctual_light}
+        {light}
         {}",
         of("camera"),
         of("material"),

@@ -15,7 +15,7 @@ const RADIANCE: f64 = 7.0;
 const ALBEDO: f64 = 0.8;
 
 /// The radiance of a small diffuse square at the origin, facing upwards, under this object.
-fn lit_by(punctual_light: &str, estimator: Estimator) -> Mean {
+fn lit_by(light: &str, estimator: Estimator) -> Mean {
     let scene = scene(&format!(
         "camera = {{ eye = [0.0, 0.05, 0.1], look_at = [0.0, 0.0, 0.0], fov = 0.1, resolution = [32, 32] }}
         materials.ground.lambertian.albedo = {ALBEDO}
@@ -23,14 +23,14 @@ fn lit_by(punctual_light: &str, estimator: Estimator) -> Mean {
         shape.rectangle = {{ origin = [-0.005, 0.0, 0.005], edge_u = [0.01, 0.0, 0.0], edge_v = [0.0, 0.0, -0.01] }}
         material = 'ground'
         [[objects]]
-        {punctual_light}"
+        {light}"
     ));
     picture(&scene, RenderSettings { max_bounces: Some(1), ..settings(estimator) }, RED, 256).whole()
 }
 
-fn assert_lights(punctual_light: &str, irradiance: f64, what: &str) {
+fn assert_lights(light: &str, irradiance: f64, what: &str) {
     for estimator in WITH_CAMERA_PATHS {
-        let found = lit_by(punctual_light, estimator);
+        let found = lit_by(light, estimator);
         let exact = ALBEDO / PI * irradiance;
         let (error, z) = (found.variance_of_mean.sqrt(), found.z(exact));
         println!("{what}, {}: {:.6} ± {error:.1e}, exact {exact:.6}, {z:.2} σ", estimator.name(), found.mean);
@@ -296,27 +296,26 @@ fn placements() -> Vec<(&'static str, String, DAffine3)> {
 #[test]
 fn lights_that_are_stretched_sheared_or_mirrored_light_the_ground() {
     let place = DVec3::new(0.3, 1.1, -0.4);
-    for punctual_light in TestLight::ALL {
+    for light in TestLight::ALL {
         for (what, list, map) in placements() {
             let map = DAffine3::from_translation(place) * map;
             // The front of flat lights faces the ground.
             let normal = map.matrix3.inverse().transpose() * DVec3::Z;
-            let away =
-                !punctual_light.is_closed() && !matches!(punctual_light, TestLight::Cylinder { .. }) && normal.dot(place) > 0.0;
+            let away = !light.is_closed() && !matches!(light, TestLight::Cylinder { .. }) && normal.dot(place) > 0.0;
             let irradiance = if away {
-                punctual_light.irradiance(&(map * DAffine3::from_scale(DVec3::new(1.0, 1.0, -1.0))))
+                light.irradiance(&(map * DAffine3::from_scale(DVec3::new(1.0, 1.0, -1.0))))
             } else {
-                punctual_light.irradiance(&map)
+                light.irradiance(&map)
             };
-            assert!(irradiance > 0.0, "{punctual_light:?}, {what}");
+            assert!(irradiance > 0.0, "{light:?}, {what}");
             let rest = format!("transform = [ {list}, {{ translate = {} }} ]\nflip = {away}", text(place));
-            assert_lights(&emitting(&punctual_light.text(), &rest), irradiance, &format!("{punctual_light:?}, {what}"));
+            assert_lights(&emitting(&light.text(), &rest), irradiance, &format!("{light:?}, {what}"));
         }
     }
 }
 
 /// The mean radiance in a view of 3 m by 3 m along w, times its area.
-fn seen(punctual_light: TestLight, list: &str, w: DVec3, emission: &str, flip: bool) -> Mean {
+fn seen(light: TestLight, list: &str, w: DVec3, emission: &str, flip: bool) -> Mean {
     const WIDTH: f64 = 3.0;
     let scene = scene(&format!(
         "camera = {{ eye = {}, look_at = [0.0, 0.0, 0.0], projection.orthographic.width = {WIDTH:?}, resolution = [64, 64] }}
@@ -326,7 +325,7 @@ fn seen(punctual_light: TestLight, list: &str, w: DVec3, emission: &str, flip: b
         transform = [ {list} ]
         flip = {flip}",
         text(w * -5.0),
-        punctual_light.text()
+        light.text()
     ));
     let found = picture(&scene, settings(Estimator::Path), RED, 64).whole();
     let area = WIDTH * WIDTH;
@@ -335,20 +334,20 @@ fn seen(punctual_light: TestLight, list: &str, w: DVec3, emission: &str, flip: b
 
 #[test]
 fn lights_have_their_projected_area_and_shine_from_the_front_only() {
-    for punctual_light in TestLight::ALL {
+    for light in TestLight::ALL {
         for (what, list, map) in placements() {
             for w in [DVec3::new(0.2, -0.9, 0.3), DVec3::new(-0.6, 0.5, 0.7), DVec3::new(0.9, 0.1, -0.3)].map(DVec3::normalize) {
-                let what = format!("{punctual_light:?}, {what}, along {w:.2}");
-                let front = punctual_light.projected_area(&map, w);
+                let what = format!("{light:?}, {what}, along {w:.2}");
+                let front = light.projected_area(&map, w);
                 // Surfaces show their front or their back: the whole silhouette, except through the hollow of an open cylinder.
                 let turned = map * DAffine3::from_scale(DVec3::new(1.0, 1.0, -1.0));
-                let back = if punctual_light.is_closed() { 0.0 } else { punctual_light.projected_area(&turned, w) };
-                let found = seen(punctual_light, &list, w, "radiance = 1.0", false);
+                let back = if light.is_closed() { 0.0 } else { light.projected_area(&turned, w) };
+                let found = seen(light, &list, w, "radiance = 1.0", false);
                 println!("{what}: {:.5} ± {:.1e}, exact {front:.5}", found.mean, found.variance_of_mean.sqrt());
                 assert_within(found.z(front), &what);
-                if !matches!(punctual_light, TestLight::Cylinder { capped: false }) {
-                    assert_within(seen(punctual_light, &list, w, "radiance = 1.0", true).z(back), &format!("{what}, flipped"));
-                    let both = seen(punctual_light, &list, w, "radiance = 1.0, two_sided = true", false);
+                if !matches!(light, TestLight::Cylinder { capped: false }) {
+                    assert_within(seen(light, &list, w, "radiance = 1.0", true).z(back), &format!("{what}, flipped"));
+                    let both = seen(light, &list, w, "radiance = 1.0, two_sided = true", false);
                     assert_within(both.z(front + back), &format!("{what}, two-sided"));
                 }
             }
@@ -362,9 +361,9 @@ fn an_open_cylinder_shows_its_inside_through_its_end() {
     let list = "{ scale = [0.3, 0.7, 0.3] }, { rotate = { axis = [1.0, 0.0, 0.0], degrees = 90.0 } }";
     let map = DAffine3::from_axis_angle(DVec3::X, FRAC_PI_2) * DAffine3::from_scale(DVec3::new(0.3, 0.7, 0.3));
     let w = DVec3::new(0.8, 0.2, -0.6).normalize();
-    let punctual_light = TestLight::Cylinder { capped: false };
-    let (side, whole) = (punctual_light.projected_area(&map, w), TestLight::Cylinder { capped: true }.projected_area(&map, w));
-    assert_within(seen(punctual_light, list, w, "radiance = 1.0", false).z(side), "outside");
-    assert_within(seen(punctual_light, list, w, "radiance = 1.0", true).z(whole - side), "inside");
-    assert_within(seen(punctual_light, list, w, "radiance = 1.0, two_sided = true", false).z(whole), "both");
+    let light = TestLight::Cylinder { capped: false };
+    let (side, whole) = (light.projected_area(&map, w), TestLight::Cylinder { capped: true }.projected_area(&map, w));
+    assert_within(seen(light, list, w, "radiance = 1.0", false).z(side), "outside");
+    assert_within(seen(light, list, w, "radiance = 1.0", true).z(whole - side), "inside");
+    assert_within(seen(light, list, w, "radiance = 1.0, two_sided = true", false).z(whole), "both");
 }

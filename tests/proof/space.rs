@@ -39,7 +39,7 @@ fn a_furnace_of_triangles_is_a_furnace() {
 }
 
 /// A scene with a shape that reflects and one that emits.
-fn lit(solid: &str, punctual_light: &str, motion: &str) -> Scene {
+fn lit(solid: &str, light: &str, motion: &str) -> Scene {
     scene(&format!(
         "camera = {{ eye = [0.0, 4.0, 5.0], look_at = [0.0, 0.3, 0.0], fov = 40.0, resolution = [32, 32], shutter = [0.0, 1.0] }}
         environment.radiance = [0.1, 0.1, 0.2]
@@ -54,7 +54,7 @@ fn lit(solid: &str, punctual_light: &str, motion: &str) -> Scene {
         transform = [{{ scale = [0.9, 0.6, 0.7] }}, {{ rotate = {{ axis = [0, 1, 0], degrees = 30 }} }}]
         motion = [{motion}]
         [[objects]]
-        shape = {{ {punctual_light} }}
+        shape = {{ {light} }}
         emission.radiance = 4.0
         transform = [{{ scale = 0.6 }}, {{ translate = [1.0, 2.0, 1.0] }}]
         motion = [{motion}]"

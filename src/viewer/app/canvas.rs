@@ -77,7 +77,7 @@ impl App {
         self.show_gizmo(ui, area);
         let (session, results) = (&self.session, &self.results);
         let region = self.window.marking.or(session.budget.region);
-        let progress = self.environment.denoiser.progress().filter(|_| self.shown_view().is_denoised());
+        let progress = self.background.denoiser.progress().filter(|_| self.shown_view().is_denoised());
         let denoising = progress.map(|part| Legend {
             title: format!("Denoising, {:.0} %. This is the image without it.", 100.0 * part),
             scale: None,

@@ -23,14 +23,14 @@ impl App {
     pub fn continue_checkpoint(&mut self) {
         let kept = self.session.opened.as_mut().and_then(|opened| opened.kept.take());
         self.session.mixed.clear();
-        self.environment.progress.begin(kept.as_ref().map(|kept| kept.file.as_path()));
+        self.background.progress.begin(kept.as_ref().map(|kept| kept.file.as_path()));
         let (Some(kept), Some(request)) = (kept, self.session.request()) else { return };
         let OpenedRender { header, render, .. } = *kept;
         let Target { spp, seconds, noise } = header.target;
         let max_time = seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
         self.session.budget = Budget { max_spp: spp, max_time, noise, ..self.session.budget };
         self.session.mixed = header.remarks;
-        self.environment.worker.continue_from(request, render);
+        self.background.worker.continue_from(request, render);
     }
 
     /// The remark in images of a render that was continued with another scene or program.
@@ -46,7 +46,7 @@ impl App {
 
     /// The render as it is, to be kept; or why it cannot be.
     pub fn render_to_keep(&self) -> Result<RenderToKeep, String> {
-        let worker = &self.environment.worker;
+        let worker = &self.background.worker;
         let not_yet = || "There is no sample yet. Try again in a moment.".to_owned();
         let request = worker.request().filter(|_| self.results.status.spp > 0 && !worker.is_editing()).ok_or_else(not_yet)?;
         let (Some(opened), Some(editor)) = (&self.session.opened, &self.editor) else { return Err(not_yet()) };
@@ -61,7 +61,7 @@ impl App {
             generation: worker.generation(),
             description: opened.description.clone(),
             target: Target { spp: max_spp, seconds: max_time.map(|time| time.as_secs_f64()), noise },
-            scene: (path.clone(), self.environment.loader.options_of(Some(&path))),
+            scene: (path.clone(), self.background.loader.options_of(Some(&path))),
             remarks: self.mixed().to_vec(),
         })
     }
@@ -69,17 +69,17 @@ impl App {
     /// Keeps a long render in case the program ends unexpectedly, and offers that of an earlier run.
     pub fn keep_progress(&mut self) {
         if self.window.quits {
-            return self.environment.progress.forget();
+            return self.background.progress.forget();
         }
-        let (generation, elapsed) = (self.environment.worker.generation(), self.results.status.elapsed);
+        let (generation, elapsed) = (self.background.worker.generation(), self.results.status.elapsed);
         let is_current = self.results.status.generation == generation;
         if is_current
-            && self.environment.progress.is_due(generation, elapsed)
+            && self.background.progress.is_due(generation, elapsed)
             && let Ok(render) = self.render_to_keep()
         {
-            self.environment.progress.keep(render, self.environment.worker.keep_handle(), elapsed);
+            self.background.progress.keep(render, self.background.worker.keep_handle(), elapsed);
         }
-        if let Some(found) = self.environment.progress.take() {
+        if let Some(found) = self.background.progress.take() {
             self.dialogs.unfinished = Some(found);
         }
     }
@@ -99,8 +99,8 @@ impl App {
     pub fn save_checkpoint_to(&mut self, path: PathBuf) {
         match self.render_to_keep() {
             Ok(render) => {
-                let worker = self.environment.worker.keep_handle();
-                self.environment.saver.save(path, move |path| render.save(&worker, path));
+                let worker = self.background.worker.keep_handle();
+                self.background.saver.save(path, move |path| render.save(&worker, path));
             }
             Err(error) => self.tell(format!("Not saved: {error}"), true),
         }

@@ -33,7 +33,7 @@ impl App {
             Command::Redo => self.redo(),
             Command::TogglePause => self.session.budget.paused = !self.session.budget.paused,
             Command::Step => self.step(),
-            Command::Restart => self.environment.worker.restart(),
+            Command::Restart => self.background.worker.restart(),
             Command::ChooseTool(tool) => {
                 self.window.tool = tool;
                 if tool == Tool::Inspect {

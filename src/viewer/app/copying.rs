@@ -32,12 +32,12 @@ impl App {
             return self.tell("Not copied: the image is not complete yet. Try again in a moment.".to_owned(), false);
         };
         let request = self.full_display_request(frame);
-        self.environment.copying = Some(BackgroundTask::start(&self.ctx, move |_| render(request).image));
+        self.background.copying = Some(BackgroundTask::start(&self.ctx, move |_| render(request).image));
     }
 
     /// Puts a copied image on the clipboard once it is ready.
     pub fn receive_copy(&mut self) {
-        match BackgroundTask::take(&mut self.environment.copying) {
+        match BackgroundTask::take(&mut self.background.copying) {
             Some(Ok(image)) => {
                 let [width, height] = image.size;
                 self.ctx.copy_image(image);

@@ -57,7 +57,7 @@ impl App {
             }
             FrontDialog::Reference => {
                 let reference = open_reference::show(ctx, &mut self.dialogs.reference);
-                reference.into_iter().for_each(|path| self.environment.loader.read_reference(path, self.session.camera));
+                reference.into_iter().for_each(|path| self.background.loader.read_reference(path, self.session.camera));
             }
             FrontDialog::Tev => self.show_tev(ctx),
             FrontDialog::Sequence => self.show_sequence(ctx),
@@ -113,11 +113,11 @@ impl App {
 
     /// Whether a study has the machine, and the image waits.
     pub fn is_studying(&self) -> bool {
-        self.environment.adviser.as_ref().is_some_and(Adviser::is_busy)
+        self.background.adviser.as_ref().is_some_and(Adviser::is_busy)
     }
 
     fn show_advice(&mut self, ctx: &egui::Context) {
-        let adviser = &mut self.environment.adviser;
+        let adviser = &mut self.background.adviser;
         advice::show(ctx, adviser).into_iter().for_each(|settings| *self.session.edited() = settings);
     }
 
@@ -139,7 +139,7 @@ impl App {
                 self.window.tab = tour::tab_of(page).or(self.window.tab);
             }
             TourRequest::End => _ = self.end_tour(),
-            TourRequest::Restart => self.environment.worker.restart(),
+            TourRequest::Restart => self.background.worker.restart(),
             TourRequest::ShowSecondBounce => (self.session.bounces.k, self.session.bounces.up_to) = (2, false),
             TourRequest::CompareWithCap => {
                 self.session.settings.roulette = Roulette::BY_THROUGHPUT;

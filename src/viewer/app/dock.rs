@@ -87,7 +87,7 @@ impl App {
     }
 
     fn convergence_tab(&mut self, ui: &mut Ui) {
-        let worker = &self.environment.worker;
+        let worker = &self.background.worker;
         let latest = [Some(worker.generation()), self.session.comparison.map(|_| worker.second_generation())];
         let has_reference = self.reference().is_some();
         let file = plot::show(ui, &mut self.instruments.history, latest, has_reference);
@@ -179,7 +179,7 @@ impl App {
 
     /// The image that the path inspector looks at: that of the side that was clicked.
     pub fn inspected_request(&self) -> Option<RenderRequest> {
-        let request = self.environment.worker.request()?.clone();
+        let request = self.background.worker.request()?.clone();
         let other = self.comparison().filter(|_| self.instruments.path.of_second).map(|comparison| comparison.other);
         Some(RenderRequest { settings: other.unwrap_or(request.settings), ..request })
     }

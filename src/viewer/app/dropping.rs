@@ -19,9 +19,9 @@ impl App {
             return self.tell("Not opened: close the dialog first, then drop the file again.".to_owned(), true);
         }
         for file in dropped {
-            self.environment.drops.read(file.path().to_owned(), self.session.camera.resolution, self.window.hovered);
+            self.background.drops.read(file.path().to_owned(), self.session.camera.resolution, self.window.hovered);
         }
-        while let Some((file, pixel)) = self.environment.drops.take() {
+        while let Some((file, pixel)) = self.background.drops.take() {
             // Some systems do not move the pointer while a file is dragged.
             let pixel = pixel.or(self.window.hovered);
             match file {
@@ -34,7 +34,7 @@ impl App {
     fn use_dropped(&mut self, file: DroppedFile, pixel: Option<[u32; 2]>) {
         match file {
             DroppedFile::Scene(path) => self.ask_to_leave(Leaving::Open(Some(path))),
-            DroppedFile::Reference(path) => self.environment.loader.read_reference(path, self.session.camera),
+            DroppedFile::Reference(path) => self.background.loader.read_reference(path, self.session.camera),
             DroppedFile::Mesh(path, _) if self.asks_for_scene() => self.ask_to_leave(Leaving::Open(Some(path))),
             _ if self.editor.is_none() => self.tell("Open a scene first.".to_owned(), true),
             DroppedFile::Mesh(path, bounds) => self.add_mesh(&path, bounds, pixel),

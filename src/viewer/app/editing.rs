@@ -26,12 +26,12 @@ impl App {
         let differs_unseen = description.differs_unseen(&opened.description);
         // A drag has no way back to an earlier scene, and no time to look for one.
         let earlier = if self.is_dragging() { None } else { self.session.earlier.of(&description) };
-        self.environment.worker.edit(request, EditedDescription { description, folder, differs_unseen, earlier }, now);
+        self.background.worker.edit(request, EditedDescription { description, folder, differs_unseen, earlier }, now);
     }
 
     /// Receives the edited scene from the worker, and the exact one from the exact_compile.
     pub fn receive_edited(&mut self) {
-        match self.environment.worker.take_edited() {
+        match self.background.worker.take_edited() {
             Some(Ok(scene)) => self.take_edited(scene),
             Some(Err(error)) if self.diagnose_file(&error) => {}
             Some(Err(error)) => self.tell(format!("{BEFORE}: {error}"), true),
@@ -39,9 +39,9 @@ impl App {
         }
         // A drag goes on as long as a button is down.
         if !self.is_compiling() && !self.ctx.input(|input| input.pointer.any_down()) {
-            self.environment.exact_compile.start();
+            self.background.exact_compile.start();
         }
-        if let Some(settled) = self.environment.exact_compile.take()
+        if let Some(settled) = self.background.exact_compile.take()
             && let Some(opened) = &mut self.session.opened
         {
             opened.warnings = settled.warnings;
@@ -54,7 +54,7 @@ impl App {
 
     /// Whether an edit is compiled or waits to be.
     pub fn is_compiling(&self) -> bool {
-        self.session.waiting_edit.is_some() || self.environment.worker.is_editing()
+        self.session.waiting_edit.is_some() || self.background.worker.is_editing()
     }
 
     fn take_edited(&mut self, scene: Arc<Scene>) {
@@ -81,7 +81,7 @@ impl App {
         self.dialogs.notices.0.retain(|notice| !notice.text.starts_with(BEFORE));
         opened.description = description.clone();
         let folder = opened.folder();
-        self.environment.exact_compile.note(EditedScene { scene: scene.clone(), description: description.clone(), folder });
+        self.background.exact_compile.note(EditedScene { scene: scene.clone(), description: description.clone(), folder });
         opened.change(scene);
         (self.results.black_reason, self.results.misfit) = (None, None);
         if self.dialogs.file_error.is_some() {

@@ -23,13 +23,13 @@ impl App {
                 self.dialogs.sequence = Some(SequenceDialog::new(self.session.path(), self.session.budget.max_spp));
             }
             OtherExport::Progress => self.open_save_dialog(SaveTarget::Progress),
-            OtherExport::Tev => self.dialogs.tev = Some(TevDialog::new(&self.environment.tev.address)),
+            OtherExport::Tev => self.dialogs.tev = Some(TevDialog::new(&self.background.tev.address)),
         }
     }
 
     pub fn show_tev(&mut self, ctx: &egui::Context) {
         let address = connect_tev::show(ctx, &mut self.dialogs.tev);
-        address.into_iter().for_each(|address| self.environment.tev.connect(address));
+        address.into_iter().for_each(|address| self.background.tev.connect(address));
     }
 
     pub fn show_sequence(&mut self, ctx: &egui::Context) {
@@ -60,32 +60,32 @@ impl App {
         if self.is_rendering_sequence() {
             return self.tell("Other frames are being rendered. Stop them first.".to_owned(), true);
         }
-        self.environment.sequence = Some(SequenceTask::start(&self.ctx, request));
+        self.background.sequence = Some(SequenceTask::start(&self.ctx, request));
     }
 
     /// Whether numbered frames have the machine, and the image waits.
     pub fn is_rendering_sequence(&self) -> bool {
-        self.environment.sequence.is_some()
+        self.background.sequence.is_some()
     }
 
     /// Sends the latest frame to tev, and takes up what has ended.
     pub fn receive_exports(&mut self) {
-        if let Some(failure) = self.environment.tev.receive() {
+        if let Some(failure) = self.background.tev.receive() {
             self.tell(failure, true);
         }
-        if self.environment.tev.state() == TevState::Live {
+        if self.background.tev.state() == TevState::Live {
             self.send_to_tev();
         }
-        if let Some((request, end)) = SequenceTask::take(&mut self.environment.sequence) {
+        if let Some((request, end)) = SequenceTask::take(&mut self.background.sequence) {
             self.take_sequence(request, end);
         }
     }
 
     fn send_to_tev(&mut self) {
-        let worker = &self.environment.worker;
+        let worker = &self.background.worker;
         let (frame, Some(opened)) = (worker.latest().frame, &self.session.opened) else { return };
         if frame.generation == worker.generation() && !frame.is_coarse() && !frame.radiance.is_empty() {
-            self.environment.tev.show(&opened.name, &frame);
+            self.background.tev.show(&opened.name, &frame);
         }
     }
 
@@ -107,16 +107,16 @@ impl App {
 
     /// Shows the line of exports while there are any.
     pub fn exports_panel(&mut self, ui: &mut egui::Ui) {
-        let (tev, sequence) = (&self.environment.tev, self.environment.sequence.as_ref());
-        let reference = self.environment.reference.as_ref().map(ReferenceTask::progress);
+        let (tev, sequence) = (&self.background.tev, self.background.sequence.as_ref());
+        let reference = self.background.reference.as_ref().map(ReferenceTask::progress);
         if tev.state() == TevState::Off && sequence.is_none() && reference.is_none() {
             return;
         }
         let sequence = sequence.map(|task| (task.progress(), task.request.spp));
         match Panel::bottom("exports").show(ui, |ui| exports::show(ui, tev, sequence, reference)).inner {
-            Some(StopCommand::Tev) => self.environment.tev.stop(),
-            Some(StopCommand::Sequence) => self.environment.sequence.iter().for_each(SequenceTask::stop),
-            Some(StopCommand::Reference) => self.environment.reference.iter().for_each(ReferenceTask::stop),
+            Some(StopCommand::Tev) => self.background.tev.stop(),
+            Some(StopCommand::Sequence) => self.background.sequence.iter().for_each(SequenceTask::stop),
+            Some(StopCommand::Reference) => self.background.reference.iter().for_each(ReferenceTask::stop),
             None => {}
         }
     }

@@ -34,7 +34,7 @@ impl App {
         self.keep_scale();
         self.update_title();
         let compiled = self.session.opened.as_ref().map(|opened| &opened.scene.compiled);
-        self.frame_times.show(&ctx, self.session.threads, self.environment.worker.generation(), compiled);
+        self.frame_times.show(&ctx, self.session.threads, self.background.worker.generation(), compiled);
         self.submit();
         self.window.had_focus = ctx.egui_wants_keyboard_input();
         self.frame_times.record(start.elapsed(), ctx.input(|input| input.time));

@@ -53,7 +53,7 @@ impl App {
             (D::Help, dialogs.help),
             (D::Gallery, dialogs.gallery.open),
             (D::SceneError, dialogs.scene_error.is_some()),
-            (D::Advice, self.environment.adviser.is_some()),
+            (D::Advice, self.background.adviser.is_some()),
             (D::Remarks, dialogs.remarks),
         ];
         open.into_iter().find(|(_, is_open)| *is_open).map(|(dialog, _)| dialog)
@@ -86,7 +86,7 @@ impl App {
             D::Help => dialogs.help = false,
             D::Gallery => dialogs.gallery.open = false,
             D::SceneError => dialogs.scene_error = None,
-            D::Advice => self.environment.adviser = None,
+            D::Advice => self.background.adviser = None,
             D::Remarks => dialogs.remarks = false,
         }
     }

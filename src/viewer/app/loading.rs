@@ -10,7 +10,7 @@ const PATIENCE: f64 = 0.3;
 impl App {
     /// Shows the file that is being read, and follows the answer.
     pub fn show_loading(&mut self) {
-        let name = self.environment.loader.reading().map(str::to_owned).or_else(|| self.environment.drops.reading());
+        let name = self.background.loader.reading().map(str::to_owned).or_else(|| self.background.drops.reading());
         let Some(name) = name else {
             self.window.reading_since = None;
             return;
@@ -19,7 +19,7 @@ impl App {
         let seconds = now - *self.window.reading_since.get_or_insert(now);
         if seconds < PATIENCE {
             self.ctx.request_repaint_after(Duration::from_secs_f64(PATIENCE - seconds));
-        } else if loading::show(&self.ctx, &name, seconds, self.environment.loader.progress()) {
+        } else if loading::show(&self.ctx, &name, seconds, self.background.loader.progress()) {
             self.cancel_loading();
         }
     }
@@ -31,13 +31,13 @@ impl App {
             return false;
         }
         (self.window.reading_since, self.window.kept_view) = (None, None);
-        if !self.environment.loader.cancel() {
-            self.environment.drops.forget();
+        if !self.background.loader.cancel() {
+            self.background.drops.forget();
             return true;
         }
-        self.environment.recovery.restoring = None;
+        self.background.recovery.restoring = None;
         if self.session.opened.is_none() {
-            self.environment.loader.open(None);
+            self.background.loader.open(None);
         }
         true
     }

@@ -25,7 +25,7 @@ impl App {
             return;
         }
         self.watch_files();
-        while let Some(path) = self.environment.files.take() {
+        while let Some(path) = self.background.files.take() {
             if self.editor.as_ref().is_some_and(|editor| editor.document.path() == Some(&path)) {
                 self.outside.recheck();
             } else if self.session.path() == Some(&path) || self.is_source(&path) {
@@ -63,7 +63,7 @@ impl App {
         let foreign = opened.path.clone().filter(|path| is_foreign(path));
         let sources = foreign.iter().flat_map(|_| opened.scene.assets.sources()).map(|file| folder.join(file));
         let files = named.chain(document.path().map(Path::to_owned)).chain(sources).chain(foreign.clone()).collect();
-        self.environment.files.watch(files);
+        self.background.files.watch(files);
         self.outside.watched = Some((path.to_owned(), version));
         // It could have changed before it was watched.
         self.outside.is_due |= is_other;

@@ -53,7 +53,7 @@ impl App {
 
     /// Measures the first image of a scene that was opened, once it has light.
     pub fn meter(&mut self, frame: &Frame) {
-        let is_due = self.results.awaits_meter && frame.generation == self.environment.worker.generation() && !frame.is_coarse();
+        let is_due = self.results.awaits_meter && frame.generation == self.background.worker.generation() && !frame.is_coarse();
         if is_due && !self.results.black {
             self.results.awaits_meter = false;
             self.results.misfit = misfit(&frame.radiance, frame.width as usize, self.session.look.display.exposure);

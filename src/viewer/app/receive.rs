@@ -13,7 +13,7 @@ use crate::viewer::instruments::{convergence::curve::Moment, path::inspector::Pa
 
 impl App {
     pub fn receive(&mut self) {
-        match self.environment.loader.take() {
+        match self.background.loader.take() {
             Some(Ok((opened, document))) => {
                 let is_first = self.session.opened.is_none();
                 self.open(opened, document);
@@ -28,12 +28,12 @@ impl App {
         self.receive_copy();
         self.receive_exports();
         self.receive_reference();
-        match self.environment.loader.take_reference() {
+        match self.background.loader.take_reference() {
             Some(Ok(given)) => self.take_reference(given),
             Some(Err(error)) => self.tell(error, true),
             None => {}
         }
-        match self.environment.saver.take() {
+        match self.background.saver.take() {
             Some(Ok(path)) => {
                 self.tell(format!("Saved {}", path.display()), false);
                 self.window.last_saved = Some(path);
@@ -41,17 +41,17 @@ impl App {
             Some(Err(error)) => self.tell(format!("Not saved: {error}"), true),
             None => {}
         }
-        let worker = &self.environment.worker;
+        let worker = &self.background.worker;
         let second = worker.latest_second();
         self.results.second_status = second.status;
         let is_there = self.second_view().is_some() && second.frame.generation == worker.second_generation();
         self.results.second_frame = Some(second.frame).filter(|frame| is_there && !frame.radiance.is_empty());
         self.note_series();
-        let published = self.environment.worker.latest();
+        let published = self.background.worker.latest();
         self.results.status = published.status;
         let request = self.display_request(published.frame);
-        self.environment.display.request(request);
-        if let Some(image) = self.environment.display.take() {
+        self.background.display.request(request);
+        if let Some(image) = self.background.display.take() {
             self.take_image(image);
         }
     }
@@ -66,7 +66,7 @@ impl App {
         let is_current = reference.as_ref().map(Arc::as_ptr) == image.reference.as_ref().map(Arc::as_ptr);
         let [first, second_comparison] =
             [image.comparison, image.second_comparison].map(|comparison| comparison.filter(|_| is_current));
-        let (worker, history) = (&self.environment.worker, &mut self.instruments.history);
+        let (worker, history) = (&self.background.worker, &mut self.instruments.history);
         if let Some(request) = worker.request() {
             history.look_at(&request.scene, &request.camera, reference.as_ref());
             history.current = Some(request.settings);
@@ -88,7 +88,7 @@ impl App {
     fn note_series(&mut self) {
         let (second_view, request) = (self.second_view(), self.session.request());
         let is_whole = |task: &RenderTask| matches!(task, RenderTask::Series(of) if of.settings.max_bounces.is_none());
-        let is_asked = |task: &RenderTask| request.is_some_and(|request| self.environment.worker.is_asked(&request, Some(task)));
+        let is_asked = |task: &RenderTask| request.is_some_and(|request| self.background.worker.is_asked(&request, Some(task)));
         if second_view.filter(is_whole).is_some_and(|task| is_asked(&task))
             && let Some(frame) = &self.results.second_frame
         {
@@ -133,15 +133,15 @@ impl App {
         let paused = session.budget.paused && opened.path.is_none() && session.opened.is_some();
         session.budget = Budget { max_spp: scene.spp, steps: session.budget.steps, paused, ..Budget::default() };
         (session.comparison, session.pinned, session.given_reference) = (None, None, None);
-        (self.environment.adviser, self.environment.reference) = (None, None);
-        self.environment.loader.forget_reference();
-        self.environment.drops.forget();
-        self.environment.exact_compile.forget();
+        (self.background.adviser, self.background.reference) = (None, None);
+        self.background.loader.forget_reference();
+        self.background.drops.forget();
+        self.background.exact_compile.forget();
         (session.waiting_edit, session.submitted_edit) = (None, None);
         session.earlier = EarlierScenes::default();
         session.earlier.note(&opened.description, &opened.scene);
         // Results of the earlier scene would keep it in memory.
-        (self.instruments.path, self.environment.features) = (PathInspector::new(&self.ctx), FeatureFinder::new(&self.ctx));
+        (self.instruments.path, self.background.features) = (PathInspector::new(&self.ctx), FeatureFinder::new(&self.ctx));
         (results.last_seeing, results.black_reason) = (None, None);
         (results.awaits_meter, results.misfit) = (true, None);
         self.dialogs.scene_error = None;

@@ -16,7 +16,7 @@ impl App {
         if !self.is_dragging() && is_still {
             let document = self.editor.as_ref().map(|editor| &editor.document);
             let changed = document.filter(|document| document.has_changes() && !self.window.quits);
-            self.environment.recovery.keep(changed, Some(view));
+            self.background.recovery.keep(changed, Some(view));
         }
     }
 
@@ -24,17 +24,17 @@ impl App {
     pub fn look_for_recovery(&mut self, is_first: bool) {
         self.dialogs.recovery = None;
         let path = self.session.path().map(Path::to_owned);
-        self.environment.recovery.begin(&self.ctx, path, is_first);
+        self.background.recovery.begin(&self.ctx, path, is_first);
     }
 
     /// Takes up unsaved changes that were found, and advice: dialogs show them.
     pub fn receive_questions(&mut self) {
-        if let Some(found) = self.environment.recovery.take() {
+        if let Some(found) = self.background.recovery.take() {
             self.dialogs.recovery = Some(found);
         }
         // Advice is for the image that it was asked for, and for none that has changed since.
         let (edited, camera) = (*self.session.edited(), self.session.camera);
-        let adviser = &mut self.environment.adviser;
+        let adviser = &mut self.background.adviser;
         adviser.iter_mut().for_each(Adviser::receive);
         adviser.take_if(|adviser| adviser.request.settings != edited || adviser.request.camera != camera);
     }
@@ -45,7 +45,7 @@ impl App {
         let Some(found) = self.dialogs.recovery.take() else { return };
         match answer {
             RecoveryAnswer::Restore => self.ask_to_leave(Leaving::Restore(found)),
-            RecoveryAnswer::Discard => self.environment.recovery.discard(found),
+            RecoveryAnswer::Discard => self.background.recovery.discard(found),
             RecoveryAnswer::Later => {}
         }
     }

@@ -28,7 +28,7 @@ impl App {
             (Some(given), _) => ReferenceSource::Given {
                 name: &given.name,
                 noise: given.reference.relative_noise(),
-                is_in_force: self.environment.worker.request().is_some_and(|request| given.is_of(request)),
+                is_in_force: self.background.worker.request().is_some_and(|request| given.is_of(request)),
             },
             (None, Some(_)) if self.reference().is_some() => ReferenceSource::Scene,
             (None, Some(_)) => ReferenceSource::SceneElsewhere,
@@ -38,7 +38,7 @@ impl App {
 
     /// Why the image cannot be the reference, if it cannot.
     pub fn why_no_reference(&self) -> Option<String> {
-        let worker = &self.environment.worker;
+        let worker = &self.background.worker;
         let is_full = |frame: &noisefall_render::render::Frame| frame.generation == worker.generation() && !frame.is_coarse();
         if !self.results.shown.as_deref().is_some_and(|frame| is_full(frame) && frame.spp > 0) {
             return Some("There is no full image yet.".to_owned());
@@ -48,7 +48,7 @@ impl App {
     }
 
     fn use_image_as_reference(&mut self) {
-        let request = self.environment.worker.request().cloned();
+        let request = self.background.worker.request().cloned();
         let Some((frame, request)) = self.results.shown.clone().zip(request).filter(|_| self.why_no_reference().is_none()) else {
             return;
         };
@@ -58,7 +58,7 @@ impl App {
 
     /// Renders a reference for the image beside it.
     fn render_reference(&mut self) {
-        let Some(of_image) = self.session.request().filter(|_| self.environment.reference.is_none()) else { return };
+        let Some(of_image) = self.session.request().filter(|_| self.background.reference.is_none()) else { return };
         let (Some(opened), Some(editor)) = (&self.session.opened, &self.editor) else { return };
         let request = RenderRequest { settings: settings_of_reference(&of_image.settings), ..of_image };
         let path = opened.path.clone().unwrap_or_else(|| PathBuf::from("scene.toml"));
@@ -68,27 +68,27 @@ impl App {
             generation: 0,
             description: opened.description.clone(),
             target: Target { noise: Some(noise), ..Target::default() },
-            scene: (path.clone(), self.environment.loader.options_of(Some(&path))),
+            scene: (path.clone(), self.background.loader.options_of(Some(&path))),
             remarks: Vec::new(),
         };
         // A changed scene of another program cannot be read again.
         let can_be_kept = editor.document.origin().is_none() || !editor.document.has_changes();
-        let folder = self.environment.references.clone().filter(|_| can_be_kept);
+        let folder = self.background.references.clone().filter(|_| can_be_kept);
         // The image goes on.
         let threads = (self.session.threads / 2).max(1);
         let request = ReferenceRequest { render, noise, threads, folder };
-        self.environment.reference = Some(ReferenceTask::start(&self.ctx, request));
+        self.background.reference = Some(ReferenceTask::start(&self.ctx, request));
     }
 
     /// Takes up a reference that has been rendered.
     pub fn receive_reference(&mut self) {
-        let Some((task, end)) = ReferenceTask::take(&mut self.environment.reference) else { return };
+        let Some((task, end)) = ReferenceTask::take(&mut self.background.reference) else { return };
         match end {
             Ok(ReferenceEnd::Done(frame)) => {
                 self.take_reference(GivenReference::rendered("rendered", &frame, &task.image));
             }
             Ok(ReferenceEnd::Stopped) => {
-                let how = if self.environment.references.is_some() { "continues it" } else { "begins anew" };
+                let how = if self.background.references.is_some() { "continues it" } else { "begins anew" };
                 self.tell(format!("The reference is not finished. Render a reference {how}."), false);
             }
             Err(error) => self.tell(format!("The reference was not rendered: {error}"), true),

@@ -21,11 +21,11 @@ use crate::viewer::instruments::path::copying::{PathForm, written};
 impl App {
     /// Whether the screen shows the full image that the controls describe.
     pub fn can_save(&self) -> bool {
-        let worker = &self.environment.worker;
-        let is_found = || worker.request().is_some_and(|request| self.environment.features.has(&request.scene, &request.camera));
+        let worker = &self.background.worker;
+        let is_found = || worker.request().is_some_and(|request| self.background.features.has(&request.scene, &request.camera));
         let has_features = !self.session.look.view.shows_features() || is_found();
         let Some(frame) = self.results.shown.as_ref().filter(|_| has_features) else { return false };
-        let is_denoised = !self.shown_view().is_denoised() || self.environment.denoiser.of(frame).is_some();
+        let is_denoised = !self.shown_view().is_denoised() || self.background.denoiser.of(frame).is_some();
         is_denoised && !frame.is_coarse() && frame.generation == worker.generation()
     }
 
@@ -58,7 +58,7 @@ impl App {
                 text.map(String::into_bytes).ok_or_else(|| "The path is not traced yet. Try again in a moment.".to_owned())
             }
         };
-        self.environment.saver.save(path, move |path| replace(path, &bytes?).map_err(|error| error.to_string()));
+        self.background.saver.save(path, move |path| replace(path, &bytes?).map_err(|error| error.to_string()));
     }
 
     /// The request for all pixels of a frame, as the controls say.
@@ -72,16 +72,16 @@ impl App {
             self.tell("Not saved: some pixels have no sample yet. Try again in a moment.".to_owned(), true);
             return;
         }
-        let of_worker = self.environment.worker.request().cloned();
+        let of_worker = self.background.worker.request().cloned();
         let (Some(shown), Some(of)) = (self.results.shown.clone(), of_worker) else { return };
         // A denoised image may be that of an earlier frame.
-        let denoised = self.environment.denoiser.of(&shown).filter(|_| self.shown_view().is_denoised());
+        let denoised = self.background.denoiser.of(&shown).filter(|_| self.shown_view().is_denoised());
         let frame = denoised.unwrap_or(shown);
         let request = self.full_display_request(frame.clone());
         let remarks = [remarks(&request, &path), self.mixed_remark()].concat();
         let display = self.session.look.display;
         let settings = settings_text(&of.scene, &of.camera, &of.settings, display, &frame, &remarks);
-        self.environment.saver.save(path, move |path| {
+        self.background.saver.save(path, move |path| {
             let DisplayImage { frame, pixels, .. } = render(request);
             Contents { frame: &frame, channels: &[], settings: &settings }
                 .save_shown(&pixels, path)

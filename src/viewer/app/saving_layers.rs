@@ -20,7 +20,7 @@ use crate::viewer::instruments::tabs::InstrumentTab;
 impl App {
     /// Saves the image on the screen with all layers that are known.
     pub fn save_layers_to(&mut self, path: PathBuf) {
-        let of_worker = self.environment.worker.request().cloned();
+        let of_worker = self.background.worker.request().cloned();
         let (Some(frame), Some(of), true) = (self.results.shown.clone(), of_worker, self.can_save()) else {
             self.tell("Not saved: some pixels have no sample yet. Try again in a moment.".to_owned(), true);
             return;
@@ -30,7 +30,7 @@ impl App {
             self.tell("The file has no bounces: they have no sample yet. Save it again in a moment.".to_owned(), true);
         }
         let (threads, remarks) = (self.session.threads, self.mixed_remark());
-        self.environment.saver.save(path, move |path| write(&frame, series.as_ref(), &of, (threads, &remarks), path));
+        self.background.saver.save(path, move |path| write(&frame, series.as_ref(), &of, (threads, &remarks), path));
     }
 }
 

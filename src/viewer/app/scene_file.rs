@@ -24,19 +24,19 @@ impl App {
 
     /// Leaves the open scene, whatever is unsaved.
     pub fn leave(&mut self, leaving: Leaving) {
-        self.environment.recovery.restoring = None;
+        self.background.recovery.restoring = None;
         match leaving {
-            Leaving::Open(path) => self.environment.loader.open(path),
-            Leaving::New(template) => self.environment.loader.begin(template),
+            Leaving::Open(path) => self.background.loader.open(path),
+            Leaving::New(template) => self.background.loader.begin(template),
             Leaving::Restore(found) => {
                 let file = found.recovery.file().map(Path::to_owned);
                 self.window.kept_view = found.recovery.view.as_deref().map(|view| (file, *view));
-                self.environment.loader.restore(found.recovery);
-                self.environment.recovery.restoring = Some(found.file);
+                self.background.loader.restore(found.recovery);
+                self.background.recovery.restoring = Some(found.file);
             }
             Leaving::Quit => {
                 self.window.quits = true;
-                self.environment.recovery.forget();
+                self.background.recovery.forget();
                 self.ctx.send_viewport_cmd(ViewportCommand::Close);
             }
         }
@@ -49,7 +49,7 @@ impl App {
             self.ctx.send_viewport_cmd(ViewportCommand::CancelClose);
             self.ask_to_leave(Leaving::Quit);
         } else if closes {
-            self.environment.progress.forget();
+            self.background.progress.forget();
         }
     }
 

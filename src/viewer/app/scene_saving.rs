@@ -53,7 +53,7 @@ impl App {
         let (document, opened) = (editor.document.clone(), self.session.path().map(Path::to_owned));
         let assets = self.session.opened.as_ref().map(|opened| opened.scene.assets.clone()).unwrap_or_default();
         let (to, replaces) = (path.clone(), request.replaces);
-        let result = self.environment.saver.run(move || save(&document, opened.as_deref(), &assets, &to, replaces));
+        let result = self.background.saver.run(move || save(&document, opened.as_deref(), &assets, &to, replaces));
         self.saving = Some(PendingSave { request, path, result, next: None });
     }
 
@@ -99,7 +99,7 @@ impl App {
             return self.leave(leaving);
         }
         self.window.kept_view = Some((Some(path.clone()), self.session.window_view()));
-        self.environment.loader.open(Some(path));
+        self.background.loader.open(Some(path));
     }
 
     fn take_saved(&mut self, path: &Path, written: Written) {

@@ -51,7 +51,7 @@ impl App {
         let Some((request, object)) = request.zip(self.drop_target().or(self.selection.object())) else {
             return self.selection.outline.clear();
         };
-        let (finder, RenderRequest { scene, camera, .. }) = (&mut self.environment.features, &request);
+        let (finder, RenderRequest { scene, camera, .. }) = (&mut self.background.features, &request);
         let features = finder.of(scene, camera, self.session.threads).filter(|_| finder.has(scene, camera));
         let objects = scene.objects_of(object);
         let objects = objects.start as u32..objects.end as u32;
@@ -80,6 +80,6 @@ impl App {
     /// Returns the request that is rendered, once it is of the open scene.
     fn request_of_open_scene(&self) -> Option<&RenderRequest> {
         let opened = self.session.opened.as_ref()?;
-        self.environment.worker.request().filter(|request| Arc::ptr_eq(&request.scene, &opened.scene))
+        self.background.worker.request().filter(|request| Arc::ptr_eq(&request.scene, &opened.scene))
     }
 }

@@ -21,14 +21,14 @@ impl App {
         let look = DisplaySettings { view: self.shown_view(), ..session.look };
         // The camera of the last request has been checked; a scene that has just been opened is requested in a moment.
         let is_open = |request: &&RenderRequest| self.is_of_open_scene(request);
-        let request = self.environment.worker.request().filter(is_open).filter(|_| look.view.shows_features()).cloned();
-        let reference = self.reference().filter(|_| frame.generation == self.environment.worker.generation());
-        let finder = &mut self.environment.features;
+        let request = self.background.worker.request().filter(is_open).filter(|_| look.view.shows_features()).cloned();
+        let reference = self.reference().filter(|_| frame.generation == self.background.worker.generation());
+        let finder = &mut self.background.features;
         let features = request.and_then(|request| finder.of(&request.scene, &request.camera, session.threads));
         let denoised = if look.view.is_denoised() {
-            self.environment.denoiser.denoised(&frame, session.threads)
+            self.background.denoiser.denoised(&frame, session.threads)
         } else {
-            self.environment.denoiser.stop();
+            self.background.denoiser.stop();
             None
         };
         DisplayRequest {
@@ -64,7 +64,7 @@ impl App {
     /// The image that the render must converge to: the one that the user gave, or that of the scene, which is known for
     /// the scene's own camera only.
     pub fn reference(&self) -> Option<Arc<Reference>> {
-        let (opened, request) = (self.session.opened.as_ref()?, self.environment.worker.request()?);
+        let (opened, request) = (self.session.opened.as_ref()?, self.background.worker.request()?);
         if let Some(given) = self.session.given_reference.as_ref().filter(|given| given.is_of(request)) {
             return Some(given.reference.clone());
         }
@@ -84,7 +84,7 @@ impl App {
     pub fn shows_nothing(&self, lit: f32) -> bool {
         const STRAY: f32 = 0.01;
         let is_shut_in =
-            || self.environment.worker.request().is_some_and(|request| request.scene.around(&request.camera).is_some());
+            || self.background.worker.request().is_some_and(|request| request.scene.around(&request.camera).is_some());
         lit == 0.0 || (lit < STRAY && is_shut_in())
     }
 
@@ -92,8 +92,8 @@ impl App {
     /// all triangles, so each image has one search.
     pub fn note_blackness(&mut self, generation: u64) {
         // An image of the scene before can come after another one was opened and before it is requested.
-        let is_latest = generation == self.environment.worker.generation();
-        let request = self.environment.worker.request().filter(|request| is_latest && self.is_of_open_scene(request));
+        let is_latest = generation == self.background.worker.generation();
+        let request = self.background.worker.request().filter(|request| is_latest && self.is_of_open_scene(request));
         let Some(request) = request else { return };
         let results = &mut self.results;
         if !results.black {

@@ -95,9 +95,9 @@ impl App {
 
     fn ask_for_advice(&mut self) {
         let settings = *self.session.edited();
-        if let Some(request) = self.environment.worker.request() {
+        if let Some(request) = self.background.worker.request() {
             let request = RenderRequest { settings, ..request.clone() };
-            self.environment.adviser = Some(Adviser::start(&self.ctx, &request, self.session.threads));
+            self.background.adviser = Some(Adviser::start(&self.ctx, &request, self.session.threads));
         }
     }
 
@@ -109,7 +109,7 @@ impl App {
         let row = ReferenceRow {
             source: self.reference_source(),
             noise: &mut noise,
-            is_rendering: self.environment.reference.is_some(),
+            is_rendering: self.background.reference.is_some(),
             unusable: unusable.as_deref(),
         };
         let command = reference::row(ui, row);
@@ -125,14 +125,14 @@ impl App {
         let pixel = |at| Some(Pixel { at, frame: frame.as_ref()?, values, legend: results.legend.as_ref(), materials });
         let bar = StatusBar {
             opened: session.opened.as_ref(),
-            is_opening: self.environment.loader.is_busy(),
+            is_opening: self.background.loader.is_busy(),
             is_studying: self.is_studying(),
             camera: &session.camera,
             settings: &session.settings,
             in_force: session.opened.as_ref().and_then(|opened| opened.scene.estimator_in_force(&session.settings)),
             budget: &session.budget,
             status: &results.status,
-            request: self.environment.worker.request(),
+            request: self.background.worker.request(),
             why_black: results.why_black(),
             comparison: results.comparison,
             reference_noise: self.reference().and_then(|reference| reference.relative_noise()),

@@ -32,7 +32,7 @@ pub struct App {
     pub selection: Selection,
     pub instruments: Instruments,
     pub dialogs: Dialogs,
-    pub environment: Environment,
+    pub background: Background,
     pub catalogue: Vec<CatalogueEntry>,
     pub preferences: Preferences,
     pub frame_times: FrameTimes,
@@ -45,7 +45,7 @@ pub struct Instruments {
 }
 
 /// The work that is done on other threads.
-pub struct Environment {
+pub struct Background {
     pub worker: RenderWorkerHandle,
     pub display: DisplayPipeline,
     pub loader: Loader,
@@ -76,7 +76,7 @@ impl App {
             ctx.set_zoom_factor(scale);
         }
         let session = Session::new(threads.count());
-        let mut environment = Environment {
+        let mut background = Background {
             worker: RenderWorkerHandle::new(threads, ctx),
             display: DisplayPipeline::new(ctx),
             loader: Loader::new(ctx),
@@ -95,7 +95,7 @@ impl App {
             references: None,
             adviser: None,
         };
-        environment.loader.open_given(scene);
+        background.loader.open_given(scene);
         App {
             ctx: ctx.clone(),
             session,
@@ -108,7 +108,7 @@ impl App {
             selection: Selection::new(ctx),
             instruments: Instruments { history: ErrorHistory::default(), path: PathInspector::new(ctx) },
             dialogs: Dialogs::default(),
-            environment,
+            background,
             catalogue: catalogue::find(),
             preferences,
             frame_times: FrameTimes::default(),
@@ -117,13 +117,13 @@ impl App {
 
     /// Watches the files of the open scene, and keeps unsaved changes of this user in case the program ends unexpectedly.
     pub fn use_disk(&mut self) {
-        self.environment.recovery = RecoveryKeeper::of_user();
-        if let Some(folder) = self.environment.recovery.folder() {
-            self.environment.references = Some(folder.with_file_name("references"));
-            self.environment.progress = ProgressCheckpoints::in_folder(&self.ctx, folder);
+        self.background.recovery = RecoveryKeeper::of_user();
+        if let Some(folder) = self.background.recovery.folder() {
+            self.background.references = Some(folder.with_file_name("references"));
+            self.background.progress = ProgressCheckpoints::in_folder(&self.ctx, folder);
         }
         match FileWatcher::start(&self.ctx) {
-            Ok(files) => self.environment.files = files,
+            Ok(files) => self.background.files = files,
             Err(error) => self.tell(format!("Changes by other programs are not noticed: {error}"), true),
         }
     }

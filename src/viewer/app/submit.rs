@@ -10,14 +10,14 @@ impl App {
     /// Requests the image that the controls describe.
     pub fn submit(&mut self) {
         let (pressed, now) = self.ctx.input(|input| (input.pointer.any_down(), input.time));
-        if !pressed && let Err(error) = self.environment.worker.set_threads(self.session.threads) {
-            self.session.threads = self.environment.worker.threads();
+        if !pressed && let Err(error) = self.background.worker.set_threads(self.session.threads) {
+            self.session.threads = self.background.worker.threads();
             self.tell(format!("The render threads cannot be started: {error}"), true);
         }
         let second_view = self.second_view();
         let waits_for_other = self.is_studying() || self.is_rendering_sequence();
         let halves = self.shown_view().is_denoised();
-        let (session, worker) = (&mut self.session, &mut self.environment.worker);
+        let (session, worker) = (&mut self.session, &mut self.background.worker);
         let [width, height] = session.camera.resolution;
         session.budget.region = session.budget.region.and_then(|region| region.within([width, height]));
         let Some(request) = session.request() else { return };

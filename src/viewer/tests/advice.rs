@@ -22,7 +22,7 @@ fn advice_is_asked_for_given_with_figures_and_taken() {
         Estimator::Path,
         "lights that are looked for are found a hundred times as soon"
     );
-    assert!(window.state().environment.adviser.is_none());
+    assert!(window.state().background.adviser.is_none());
 }
 
 #[test]
@@ -31,7 +31,7 @@ fn escape_ends_a_study_and_the_picture_goes_on() {
     click(&mut window, "What should I use here?");
     window.key_press(Key::Escape);
     window.run_steps(3);
-    assert!(window.state().environment.adviser.is_none());
+    assert!(window.state().background.adviser.is_none());
     let samples = window.state().status().samples;
     wait(&mut window, "more samples", |app| app.status().samples > samples);
 }
@@ -44,5 +44,5 @@ fn advice_for_another_view_is_given_up() {
     assert!(window.state().is_studying());
     window.state_mut().camera_mut().fov = 33.0;
     window.run_steps(2);
-    assert!(window.state().environment.adviser.is_none());
+    assert!(window.state().background.adviser.is_none());
 }

@@ -165,7 +165,7 @@ fn a_picture_of_the_scene_before_is_no_view_of_the_one_that_was_opened() {
         (window.state().opened().as_ref().map(|opened| opened.scene.clone()), window.state().worker().generation());
     assert!(old.is_some() && window.state().results.last_seeing.is_some());
     let app = window.state_mut();
-    app.environment.loader.open(Some(shipped("inside_lit_outside")));
+    app.background.loader.open(Some(shipped("inside_lit_outside")));
     let start = Instant::now();
     // As in a frame in which a scene is opened, and an image of the one before arrives.
     while app.opened().as_ref().map(|opened| std::sync::Arc::as_ptr(&opened.scene)) == old.as_ref().map(std::sync::Arc::as_ptr) {

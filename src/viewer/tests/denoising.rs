@@ -19,5 +19,5 @@ fn the_denoised_view_has_its_label_and_is_computed_only_while_it_is_shown() {
         |app: &App| app.results.legend.is_none() && app.shown_frame().as_ref().is_some_and(|frame| frame.halves.is_none());
     wait(&mut window, "a frame without halves", is_plain);
     let state = window.state();
-    assert!(state.results.shown.as_ref().is_some_and(|frame| state.environment.denoiser.of(frame).is_none()), "nothing is kept");
+    assert!(state.results.shown.as_ref().is_some_and(|frame| state.background.denoiser.of(frame).is_none()), "nothing is kept");
 }

@@ -67,7 +67,7 @@ fn in_text_ctrl_c_belongs_to_the_text() {
     window.run_steps(2);
     window.event(egui::Event::Copy);
     window.run_steps(3);
-    assert!(window.state().environment.copying.is_none());
+    assert!(window.state().background.copying.is_none());
 }
 
 #[test]

@@ -151,18 +151,18 @@ impl App {
     }
 
     pub fn worker(&self) -> &RenderWorkerHandle {
-        &self.environment.worker
+        &self.background.worker
     }
 
     pub fn worker_mut(&mut self) -> &mut RenderWorkerHandle {
-        &mut self.environment.worker
+        &mut self.background.worker
     }
 
     pub fn loader(&self) -> &Loader {
-        &self.environment.loader
+        &self.background.loader
     }
 
     pub fn loader_mut(&mut self) -> &mut Loader {
-        &mut self.environment.loader
+        &mut self.background.loader
     }
 }

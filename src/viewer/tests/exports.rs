@@ -35,7 +35,7 @@ fn tev_gets_the_film_as_it_grows_until_it_is_stopped() {
     let server = TevServer::start(usize::MAX);
     let mut window = window("cornell_spheres");
     connect(&mut window, &server.address);
-    wait(&mut window, "the connection", |app| app.environment.tev.state() == TevState::Live);
+    wait(&mut window, "the connection", |app| app.background.tev.state() == TevState::Live);
     window.run_steps(2);
     assert!(window.query_by_label(&format!("Sending to tev at {}", server.address)).is_some());
     window.state_mut().budget_mut().max_spp = Some(window.state().status().spp + 4);
@@ -46,7 +46,7 @@ fn tev_gets_the_film_as_it_grows_until_it_is_stopped() {
     let name = window.state().opened().as_ref().map(|opened| opened.name.clone());
     assert!(matches!(&server.packets()[0], Packet::Create { name: of, .. } if Some(of) == name.as_ref()));
     click(&mut window, "Stop sending");
-    assert_eq!(window.state().environment.tev.state(), TevState::Off);
+    assert_eq!(window.state().background.tev.state(), TevState::Off);
     assert!(window.query_by_label("Stop sending").is_none() && !server.finish().is_empty());
 }
 
@@ -62,7 +62,7 @@ fn without_tev_one_message_gives_advice_and_the_address_is_remembered() {
     click(&mut window, "Connect");
     let refusal = format!("tev cannot be reached at {address}: nothing listens there; start tev");
     wait(&mut window, "the message", |app| notices(app, &refusal) == 1);
-    assert_eq!(window.state().environment.tev.state(), TevState::Off);
+    assert_eq!(window.state().background.tev.state(), TevState::Off);
     open_export(&mut window, "Send to tev…");
     let field = window.get_by_role(Role::TextInput).accesskit_node().value();
     assert_eq!(field, Some(address));
@@ -79,7 +79,7 @@ fn a_connection_that_is_lost_is_told_once_and_the_render_goes_on() {
     let before = window.state().status().spp;
     wait(&mut window, "more samples", |app| app.status().spp > before);
     assert_eq!(notices(window.state(), "was lost"), 1);
-    assert_eq!(window.state().environment.tev.state(), TevState::Off);
+    assert_eq!(window.state().background.tev.state(), TevState::Off);
 }
 
 /// Asks for three frames in files of this name.
@@ -124,7 +124,7 @@ fn the_main_render_pauses_for_frames_and_resumes_when_they_are_stopped() {
     assert!(window.state().is_rendering_sequence());
     wait(&mut window, "the pause", |app| app.status().state == State::Paused);
     wait(&mut window, "a first sample", |app| {
-        app.environment.sequence.as_ref().is_some_and(|sequence| sequence.progress().frames == 3)
+        app.background.sequence.as_ref().is_some_and(|sequence| sequence.progress().frames == 3)
     });
     window.run_steps(2);
     assert!(window.query_by_label("Rendering frame 1 of 3").is_some());

@@ -118,7 +118,7 @@ fn every_figure_of_the_line_below_has_room_at_scale_2_on_a_common_screen() {
     let size = vec2(960.0, 540.0);
     let mut app = labels::app();
     while app.loader().is_busy() {
-        drop(app.environment.loader.take());
+        drop(app.background.loader.take());
         std::thread::yield_now();
     }
     app.session.settings = RenderSettings { max_bounces: Some(3), ..Preset::Fastest.applied_to(&app.settings()) };

@@ -17,7 +17,7 @@ fn a_hidden_window_renders_nothing_and_goes_on_when_it_is_seen() {
     let request = app.worker().request().cloned().expect("it was asked for");
     let settings = RenderSettings { seed: 5, ..request.settings };
     let other = RenderTask::Picture(RenderRequest { settings, ..request.clone() });
-    app.environment.worker.update(request, Some(other), 0.0);
+    app.background.worker.update(request, Some(other), 0.0);
     wait_without_frames(&window, |app| app.worker().latest_second().frame.generation == app.worker().second_generation());
     assert_eq!(window.state().worker().latest().status.samples, samples, "a hidden window works");
     wait(&mut window, "more samples", |app| app.status().samples > samples && app.status().state == State::Running);

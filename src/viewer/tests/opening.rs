@@ -27,7 +27,7 @@ fn another_scene_takes_everything_over_and_the_same_one_keeps_the_exposure() {
     app.instruments.path.look_at([3, 4]);
     app.dialogs.scene_error = Some("the file before it was broken".to_owned());
     assert!(app.results.last_seeing.is_some());
-    app.environment.loader.open(Some(path.clone()));
+    app.background.loader.open(Some(path.clone()));
     wait(&mut window, "my scene", |app| app.settings().seed == 3);
     let app = window.state();
     let scene = &app.opened().as_ref().expect("it is open").scene;

@@ -115,7 +115,7 @@ fn advice_tries_the_other_path_reuse() {
     wait(&mut window, "an image", |app| app.status().spp >= 1);
     click(&mut window, "What should I use here?");
     wait(&mut window, "the advice", |app| !app.is_studying());
-    let advice = window.state().environment.adviser.as_ref().and_then(|adviser| adviser.advice.as_ref());
+    let advice = window.state().background.adviser.as_ref().and_then(|adviser| adviser.advice.as_ref());
     let advice = advice.expect("it is there").as_ref().expect("no failure");
     assert!(advice.candidates.iter().any(|candidate| candidate.settings.reuse == Reuse::Suffixes));
     let best = PathReuse::asked(advice.best().settings.reuse);

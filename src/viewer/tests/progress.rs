@@ -59,15 +59,15 @@ fn the_render_of_a_lost_window_is_offered_and_continues() {
     };
     let mut lost = window("cornell_spheres");
     let ctx = lost.state().ctx.clone();
-    lost.state_mut().environment.progress = ProgressCheckpoints::in_folder(&ctx, folder.path());
+    lost.state_mut().background.progress = ProgressCheckpoints::in_folder(&ctx, folder.path());
     lost.run_steps(2);
     let render = lost.state().render_to_keep().expect("it has samples");
     let (worker, elapsed) = (lost.state().worker().keep_handle(), lost.state().status().elapsed);
-    lost.state_mut().environment.progress.keep(render, worker, elapsed);
+    lost.state_mut().background.progress.keep(render, worker, elapsed);
     wait(&mut lost, "the file", |_| files(folder.path()).len() == 1);
     drop(lost);
     let of_window = folder.path().to_owned();
-    let with_keeper = move |app: &mut App| app.environment.progress = ProgressCheckpoints::in_folder(&app.ctx, &of_window);
+    let with_keeper = move |app: &mut App| app.background.progress = ProgressCheckpoints::in_folder(&app.ctx, &of_window);
     let mut window = open_with(None, with_keeper);
     wait(&mut window, "the question", |app| app.dialogs.unfinished.is_some());
     window.run_steps(2);

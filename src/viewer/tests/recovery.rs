@@ -16,7 +16,7 @@ fn kept(folder: &Path) -> Vec<PathBuf> {
 /// A window on a file, which keeps its changes in a folder.
 fn reopened(path: Option<PathBuf>, folder: &Path) -> Window {
     let folder = folder.to_owned();
-    let mut window = open_with(path, move |app| app.environment.recovery = RecoveryKeeper::in_folder(&folder));
+    let mut window = open_with(path, move |app| app.background.recovery = RecoveryKeeper::in_folder(&folder));
     wait(&mut window, "the scene", |app| app.opened().is_some());
     window.state_mut().camera_mut().resolution = [96, 64];
     window
@@ -25,7 +25,7 @@ fn reopened(path: Option<PathBuf>, folder: &Path) -> Window {
 /// A window with unsaved changes that is lost. Returns its scene file.
 fn lose(folder: &Path, kept_in: &Path) -> PathBuf {
     let (mut window, path, _) = window_of_copy(folder);
-    window.state_mut().environment.recovery = RecoveryKeeper::in_folder(kept_in);
+    window.state_mut().background.recovery = RecoveryKeeper::in_folder(kept_in);
     grow(&mut window);
     wait(&mut window, "the recovery file", |_| kept(kept_in).len() == 1);
     path
@@ -69,7 +69,7 @@ fn the_view_comes_back_with_the_changes() {
     let folder = tempfile::tempdir().expect("a folder");
     let kept_in = folder.path().join("recovery");
     let (mut window, path, _) = window_of_copy(folder.path());
-    window.state_mut().environment.recovery = RecoveryKeeper::in_folder(&kept_in);
+    window.state_mut().background.recovery = RecoveryKeeper::in_folder(&kept_in);
     grow(&mut window);
     let session = &mut window.state_mut().session;
     session.camera.eye.x += 0.125;
@@ -105,7 +105,7 @@ fn the_recovery_file_goes_with_the_changes() {
     let folder = tempfile::tempdir().expect("a folder");
     let kept_in = folder.path().join("recovery");
     let (mut window, _, _) = window_of_copy(folder.path());
-    window.state_mut().environment.recovery = RecoveryKeeper::in_folder(&kept_in);
+    window.state_mut().background.recovery = RecoveryKeeper::in_folder(&kept_in);
     let appears = |window: &mut Window| wait(window, "the recovery file", |_| kept(&kept_in).len() == 1);
     let goes = |window: &mut Window| wait(window, "no file", |_| kept(&kept_in).is_empty());
     grow(&mut window);

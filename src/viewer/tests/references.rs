@@ -21,7 +21,7 @@ fn a_reference_is_rendered_beside_the_image_and_is_for_the_scene_as_it_was() {
     window.state_mut().session.reference_noise = 0.2;
     let generation = generation(&window);
     click(&mut window, "Render a reference");
-    assert!(window.state().environment.reference.is_some());
+    assert!(window.state().background.reference.is_some());
     wait(&mut window, "the reference", |app| app.session.given_reference.is_some());
     wait(&mut window, "the error", is_compared);
     window.run_steps(2);

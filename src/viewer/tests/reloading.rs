@@ -24,7 +24,7 @@ pub fn settle(window: &mut Window) {
 pub fn write(window: &mut Window, path: &PathBuf, text: &str) {
     settle(window);
     std::fs::write(path, text).expect("it is written");
-    window.state().environment.files.report(path);
+    window.state().background.files.report(path);
     window.run_steps(2);
     settle(window);
 }
@@ -212,10 +212,10 @@ fn our_own_save_is_no_change_by_another_program() {
         w.key_press_modifiers(Modifiers::COMMAND, Key::S);
         w.step();
         // The file system reports it before or after the window knows that the file is written.
-        w.state().environment.files.report(&path);
+        w.state().background.files.report(&path);
         w.run_steps(2);
         settle(w);
-        w.state().environment.files.report(&path);
+        w.state().background.files.report(&path);
         w.run_steps(2);
         settle(w);
     });
@@ -241,7 +241,7 @@ fn an_image_of_a_texture_is_read_again_when_it_changes() {
     let made = |window: &Window| window.state().opened().as_ref().expect("it is open").scene.compiled.made("images");
     let before = generation(&window);
     paint(4, 20);
-    window.state().environment.files.report(&image);
+    window.state().background.files.report(&image);
     window.run_steps(2);
     settle(&mut window);
     assert!(generation(&window) > before && made(&window) == 1 && !window.state().has_unsaved_changes());
@@ -266,7 +266,7 @@ fn a_scene_whose_file_was_removed_is_not_saved() {
     let (mut window, path, _) = window_of_copy(folder.path());
     settle(&mut window);
     std::fs::remove_file(&path).expect("it is there");
-    window.state().environment.files.report(&path);
+    window.state().background.files.report(&path);
     window.run_steps(2);
     settle(&mut window);
     assert!(window.state().has_unsaved_changes());

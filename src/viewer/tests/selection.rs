@@ -35,11 +35,11 @@ fn a_click_selects_an_object_and_outlines_it_without_a_restart() {
     let at = seen(&mut window, ball());
     let camera = window.state().camera();
     let scene = window.state().opened().as_ref().expect("it is open").scene.clone();
-    assert!(!window.state().environment.features.has(&scene, &camera), "nothing is looked at while nothing is selected");
+    assert!(!window.state().background.features.has(&scene, &camera), "nothing is looked at while nothing is selected");
     let before = meshes(&window);
     never_restarts(&mut window, |w| click_at(w, at));
     assert_eq!(window.state().selection.object(), Some(AMBER_BALL));
-    wait(&mut window, "the objects of the pixels", |app| app.environment.features.has(&scene, &camera));
+    wait(&mut window, "the objects of the pixels", |app| app.background.features.has(&scene, &camera));
     let start = Instant::now();
     while meshes(&window) == before {
         assert!(start.elapsed() < Duration::from_secs(60), "the outline never came");

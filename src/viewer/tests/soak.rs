@@ -84,7 +84,7 @@ fn tame(window: &mut Window) {
     for side in &mut app.camera_mut().resolution {
         *side = (*side).min(160);
     }
-    (app.dialogs.save, app.dialogs.open, app.environment.adviser) = (None, None, None);
+    (app.dialogs.save, app.dialogs.open, app.background.adviser) = (None, None, None);
     // No scene that is shipped is written to.
     (app.dialogs.file, app.dialogs.unsaved, app.window.leaving) = (None, None, None);
     app.session.threads = app.session.threads.min(2);
@@ -132,7 +132,7 @@ fn soak() {
             window.event(egui::Event::PointerGone);
             wait(&mut window, "the image of what was asked for last", |app| {
                 let asked = app
-                    .environment
+                    .background
                     .worker
                     .request()
                     .is_some_and(|request| request.settings == app.settings() && request.camera == app.camera());

@@ -89,12 +89,12 @@ pub const RADIANCE: f64 = 0.75;
 /// Radiance from a unit direction, W/(m² sr). No grey surface is brighter than the display can show.
 fn radiance(direction: DVec3) -> f64 {
     let room = 0.35 + 0.25 * direction.y;
-    let punctual_light = |towards: DVec3, radius: f64, radiance: f64| {
+    let light = |towards: DVec3, radius: f64, radiance: f64| {
         let cos = direction.dot(towards.normalize());
         let edge = radius.to_radians().cos();
         radiance * ((cos - edge) / (1.0 - edge) * 3.0).clamp(0.0, 1.0)
     };
-    room + punctual_light(DVec3::new(-1.0, 1.2, 0.8), 40.0, 3.5) + punctual_light(DVec3::new(1.0, 0.5, 0.6), 35.0, 0.8)
+    room + light(DVec3::new(-1.0, 1.2, 0.8), 40.0, 3.5) + light(DVec3::new(1.0, 0.5, 0.6), 35.0, 0.8)
 }
 
 /// A grey pixel: mantissas of 8 bits and their common exponent.

@@ -87,7 +87,7 @@ fn known(path: &Path, scene: &Scene, given: Option<&Path>) -> Result<Option<(Kno
         return Ok(Some((reference, format!("the reference {}", file.display()))));
     }
     let name = match &scene.reference {
-        Some(SceneReference::Image(file, _)) => format!("the true image {}", file.display()),
+        Some(SceneReference::Image(file, _)) => format!("the reference image {}", file.display()),
         _ => "the exact radiance".to_owned(),
     };
     let reference = KnownReference::of(scene);

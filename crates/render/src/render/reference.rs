@@ -14,7 +14,7 @@ use noisefall_scene::{
 };
 
 /// Why a `[reference]` is not one.
-const DENOISED: &str = "the true image is denoised, and so biased";
+const DENOISED: &str = "the reference image is denoised, and so biased";
 
 /// The reference of a scene. It is valid for the camera of the scene file.
 pub enum Reference {
@@ -59,7 +59,7 @@ impl Reference {
             _ if self.is_denoised() => Some(format!("{DENOISED}, so the error is not known")),
             Reference::Picture(p, _) if [p.width, p.height] != [width, height] => {
                 let size = format!("{} × {}", p.width, p.height);
-                Some(format!("the true image is {size} and this one {width} × {height}, so the error is not known"))
+                Some(format!("the reference image is {size} and this one {width} × {height}, so the error is not known"))
             }
             _ => None,
         }

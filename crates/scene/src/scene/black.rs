@@ -62,21 +62,18 @@ mod tests {
 
     #[test]
     fn the_likeliest_reason_for_black_is_told_first() {
-        let punctual_light = "emission.radiance = 1";
+        let light = "emission.radiance = 1";
         let said = |balls: &[(&str, f64, &str)], camera: fn(Camera) -> Camera, max_bounces| {
             let scene = scene(balls);
             scene.why_black(&camera(scene.camera), &RenderSettings { max_bounces, ..scene.settings })
         };
         let (here, outside) = (|camera| camera, |camera| Camera { eye: glam::DVec3::Z * 9.0, ..camera });
         assert_eq!(said(&[("ball", 1.0, "material = 'white'")], here, Some(0)), "the camera is inside `ball`");
-        let of_punctual = said(&[("light", 1.0, punctual_light)], here, None);
-        assert!(
-            of_punctual.starts_with("the camera is inside `light`, which emits outwards only: `flip = true`"),
-            "{of_punctual}"
-        );
+        let of_light = said(&[("light", 1.0, light)], here, None);
+        assert!(of_light.starts_with("the camera is inside `light`, which emits outwards only: `flip = true`"), "{of_light}");
         let both = said(&[("light", 1.0, "emission = { radiance = 1, two_sided = true }")], here, None);
         assert_eq!(both, "the camera is inside `light`");
-        assert!(said(&[("light", 1.0, punctual_light)], outside, Some(0)).starts_with("a cap of 0 bounces"));
-        assert!(said(&[("light", 1.0, punctual_light)], outside, Some(1)).starts_with("no path found light"));
+        assert!(said(&[("light", 1.0, light)], outside, Some(0)).starts_with("a cap of 0 bounces"));
+        assert!(said(&[("light", 1.0, light)], outside, Some(1)).starts_with("no path found light"));
     }
 }

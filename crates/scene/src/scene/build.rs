@@ -124,7 +124,7 @@ mod tests {
         shape::Sphere,
     };
 
-    fn punctual_light() -> SceneDescription {
+    fn light() -> SceneDescription {
         let mut description = SceneDescription::default();
         description.add_material("white", Lambertian::default());
         let ball = description.add_object("ball", Sphere::default());
@@ -136,7 +136,7 @@ mod tests {
 
     #[test]
     fn a_scene_built_in_code_is_the_one_of_its_text() {
-        let description = punctual_light();
+        let description = light();
         let built = description.build(Path::new("")).expect("the description is valid");
         assert_eq!(describe("text", built.source.clone()).expect("the text is valid"), description);
         let parsed = parse("text", built.source.clone()).expect("the text is valid");
@@ -150,7 +150,7 @@ mod tests {
     #[test]
     fn a_scene_built_in_code_is_checked_as_a_file_is() {
         let refused = |change: fn(&mut SceneDescription), message: &str| {
-            let mut description = punctual_light();
+            let mut description = light();
             change(&mut description);
             let error = description.build(Path::new("")).err().expect("it is invalid").report();
             // The report breaks its lines.

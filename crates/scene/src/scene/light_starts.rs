@@ -195,14 +195,14 @@ mod tests {
     #[test]
     fn a_path_does_not_get_into_tinted_glass_unseen() {
         let unseen = Some("tinted glass with opacity or in a blend");
-        let punctual_light = "shape.sphere = { center = [2, 0, 2], radius = 0.2 }";
+        let light = "shape.sphere = { center = [2, 0, 2], radius = 0.2 }";
         let tinted = "materials.glass.dielectric = { ior = 1.5, transmittance = 0.5 }\n";
         for (wall, obstacle) in [
             ("lambertian.albedo = 0.5\nmaterials.tinted.opacity = 0.5", unseen),
             ("blend = { first = 'glass', second = 'white', weight = 0.5 }", unseen),
             ("lambertian.albedo = 0.5\nmaterials.wall.opacity = 0.5", None),
         ] {
-            let notes = notes(&format!("{tinted}materials.wall.{wall}"), punctual_light);
+            let notes = notes(&format!("{tinted}materials.wall.{wall}"), light);
             notes.iter().for_each(|note| assert_note(note, obstacle, wall));
         }
     }

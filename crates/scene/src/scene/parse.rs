@@ -53,7 +53,7 @@ pub fn parse_watched(name: &str, text: String, progress: &Progress) -> Result<Sc
 /// Compiles the text of a scene file, with files in memory.
 pub fn parse_with_assets(name: &str, text: String, assets: Assets, progress: &Progress) -> Result<Scene, SceneError> {
     let source = SourceText { name: name.to_owned(), text };
-    let (description, damage, mut errors, former_names) = understood(&source)?;
+    let Understood { description, damage, mut errors, former_names } = understood(&source)?;
     let nothing = || SceneError::of_file(Path::new(name), "this is not a scene", "a scene is one TOML file");
     let _described = reserve("the values of the file", DESCRIBED * source.text.len() as u64)
         .map_err(|error| SceneError::of_file(Path::new(name), error.to_string(), "raise the memory limit"))?;
@@ -74,12 +74,21 @@ pub fn parse_with_assets(name: &str, text: String, assets: Assets, progress: &Pr
 /// Reads the description of the text of a scene file, without the files that it names.
 pub fn describe(name: &str, text: String) -> Result<SceneDescription, SceneError> {
     let source = SourceText { name: name.to_owned(), text };
-    let (description, _, errors, _) = understood(&source)?;
+    let Understood { description, errors, .. } = understood(&source)?;
     SceneError::of_all(errors).map_or(Ok(description), Err)
 }
 
-/// The description in a text, its incomplete tables, the errors, and warnings about former names.
-fn understood(source: &SourceText) -> Result<(SceneDescription, Damage, Vec<SceneError>, Vec<String>), SceneError> {
+/// The content of a scene file.
+struct Understood {
+    description: SceneDescription,
+    /// The incomplete tables.
+    damage: Damage,
+    errors: Vec<SceneError>,
+    /// Warnings about former names.
+    former_names: Vec<String>,
+}
+
+fn understood(source: &SourceText) -> Result<Understood, SceneError> {
     let bytes = (PARSING + KEPT) * source.text.len() as u64;
     let _parsing = reserve(format_args!("{} of text", Size(source.text.len() as u64)), bytes).map_err(|error| {
         let help = "keep large meshes in files of their own, as OBJ or PLY";
@@ -93,7 +102,7 @@ fn understood(source: &SourceText) -> Result<(SceneDescription, Damage, Vec<Scen
     check_format(source, table.get_ref())?;
     let mut description = SceneDescription::default();
     let (damage, errors) = read_description(&mut description, &table, source);
-    Ok((description, damage, errors, renamed::warnings(table.get_ref())))
+    Ok(Understood { description, damage, errors, former_names: renamed::warnings(table.get_ref()) })
 }
 
 /// Refuses brackets that nest too deeply to be parsed.

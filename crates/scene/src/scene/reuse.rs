@@ -41,13 +41,7 @@ impl PathReuse {
 
     /// Its name in tables and JSON, as serialised.
     pub fn name(self) -> &'static str {
-        match self {
-            PathReuse::Off => "off",
-            PathReuse::Suffixes => "suffixes",
-            PathReuse::Outliers => "outliers",
-            PathReuse::Both => "both",
-            PathReuse::Merged => "merged",
-        }
+        if self == PathReuse::Merged { "merged" } else { self.reuse().name() }
     }
 
     /// Its name in legends.

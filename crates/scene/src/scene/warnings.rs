@@ -66,10 +66,10 @@ impl Scene {
                 "{flipped} {have} `flip` on a dielectric: `ior` and `ior_outside` swap sides, and the medium fills the space outside"
             ));
         }
-        for (punctual_light, wall) in self.covered_light() {
+        for (light, wall) in self.covered_light() {
             warnings.push(format!(
                 "the light {} faces {} from almost no distance and lights nothing else: turn it by `flip = true`, or move it away",
-                self.name_of(punctual_light),
+                self.name_of(light),
                 self.name_of(wall)
             ));
         }
@@ -96,23 +96,21 @@ impl Scene {
 
     /// Lights whose emitting side is covered, and the objects that cover them.
     fn covered_light(&self) -> impl Iterator<Item = (&Object, &Object)> {
-        let punctual_lights = self.objects.iter().enumerate().take_while(|(_, object)| object.emission.is_some());
-        punctual_lights
-            .take(MOST_LIGHTS)
-            .filter_map(|(number, punctual_light)| Some((punctual_light, self.cover(number, punctual_light)?)))
+        let lights = self.objects.iter().enumerate().take_while(|(_, object)| object.emission.is_some());
+        lights.take(MOST_LIGHTS).filter_map(|(number, light)| Some((light, self.cover(number, light)?)))
     }
 
     /// The object that covers a static flat light.
-    fn cover(&self, number: usize, punctual_light: &Object) -> Option<&Object> {
-        let Shape::Flat { outline, origin, edges: [u, v], mirrored } = &punctual_light.shape else { return None };
-        let side = punctual_light.emission.map(|emission| emission.side).filter(|side| *side != Side::Both)?;
+    fn cover(&self, number: usize, light: &Object) -> Option<&Object> {
+        let Shape::Flat { outline, origin, edges: [u, v], mirrored } = &light.shape else { return None };
+        let side = light.emission.map(|emission| emission.side).filter(|side| *side != Side::Both)?;
         let turns = *mirrored != (side == Side::Back);
         let normal = u.cross(*v).try_normalize()? * if turns { -1.0 } else { 1.0 };
-        let above = normal * HAIRS_BREADTH * punctual_light.shape.bounding_sphere().1;
+        let above = normal * HAIRS_BREADTH * light.shape.bounding_sphere().1;
         // A ray from above the light towards it first hits another object if that is in between.
         let cover = |(a, b): (f64, f64)| {
             let met = self.first_object(*origin + *u * a + *v * b + above, -normal)?;
-            (met != number && punctual_light.motion.0.is_empty())
+            (met != number && light.motion.0.is_empty())
                 .then(|| &self.objects[met])
                 .filter(|object| !self.has_inside(object) && !self.lets_pass(object))
         };

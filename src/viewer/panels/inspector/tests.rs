@@ -160,8 +160,8 @@ fn optional_tables_appear_and_disappear() {
     let mut panel = inspect(lambertian());
     click(&mut panel, Role::CheckBox, "Bump");
     assert_eq!(*only(&panel), Request::Insert { path: Path::of("part.bump") });
-    let punctual_light = ObjectDescription { emission: Some(EmissionDescription::default()), ..ObjectDescription::default() };
-    let mut panel = inspect(punctual_light);
+    let light = ObjectDescription { emission: Some(EmissionDescription::default()), ..ObjectDescription::default() };
+    let mut panel = inspect(light);
     click(&mut panel, Role::CheckBox, "Emission");
     assert_eq!(*only(&panel), Request::Remove { path: Path::of("part.emission") });
 }

@@ -34,7 +34,7 @@ pub fn groups(description: &SceneDescription, search: &str) -> Vec<EntryGroup> {
     let environment = description.environment.as_ref().map_or("none", |environment| environment.name());
     let single = [
         Entry::single(Subject::Camera, "Camera", ""),
-        Entry::single(Subject::Environment, "Background", environment),
+        Entry::single(Subject::Environment, "Environment", environment),
         Entry::single(Subject::Presentation, "Title and settings", ""),
     ];
     let punctual_lights = description
@@ -122,7 +122,7 @@ mod tests {
             ("Lights", vec!["light", "light 1"]),
             ("Materials", vec!["white"]),
             ("Textures", vec!["squares"]),
-            ("Scene", vec!["Camera", "Background", "Title and settings"]),
+            ("Scene", vec!["Camera", "Environment", "Title and settings"]),
         ];
         assert_eq!(names(""), all.map(|(title, names)| (title, names.into_iter().map(str::to_owned).collect())));
     }

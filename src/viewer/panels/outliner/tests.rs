@@ -73,7 +73,7 @@ fn a_click_selects_a_part() {
         ("ball", Subject::Object(0)),
         ("light", Subject::Object(1)),
         ("white", Subject::Material("white".to_owned())),
-        ("Background", Subject::Environment),
+        ("Environment", Subject::Environment),
     ] {
         row(&panel, name).click();
         panel.run_steps(3);
@@ -97,7 +97,7 @@ fn entries_in_the_menu_of_a_part_request_their_actions() {
         assert_eq!(last(&panel).action, Some((ball.clone(), action)));
     }
     let mut panel = room();
-    choose(&mut panel, "Background", &["Add"]);
+    choose(&mut panel, "Environment", &["Add"]);
     assert_eq!(last(&panel).action, Some((Subject::Environment, Action::AddEnvironment)));
 }
 

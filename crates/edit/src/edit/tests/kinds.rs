@@ -155,8 +155,8 @@ fn a_shape_of_another_kind_keeps_place_and_size() {
     let mut document = room();
     let change = document.change_kind(&path("objects.2.shape"), ShapeKind::WHAT, "rectangle");
     does(&mut document, &change);
-    let ShapeKind::Rectangle(punctual_light) = &document.description().objects[2].shape else { panic!("it is a rectangle") };
-    assert!(punctual_light.edge_u.cross(punctual_light.edge_v).distance(DVec3::NEG_Y * 0.64) < 1e-9, "{punctual_light:?}");
+    let ShapeKind::Rectangle(light) = &document.description().objects[2].shape else { panic!("it is a rectangle") };
+    assert!(light.edge_u.cross(light.edge_v).distance(DVec3::NEG_Y * 0.64) < 1e-9, "{light:?}");
     // A shape that fills a cube is placed by transforms.
     let mut document = room();
     let change = document.change_kind(&path("objects.1.shape"), ShapeKind::WHAT, "isosurface");

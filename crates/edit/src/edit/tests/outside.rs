@@ -138,7 +138,7 @@ fn a_scene_of_another_program_is_recovered_with_its_origin() {
 }
 
 #[test]
-fn a_version_that_was_written_in_the_environment_is_saved_and_later_ones_are_not() {
+fn a_version_that_was_written_in_the_background_is_saved_and_later_ones_are_not() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("room.toml");
     let mut document = room();

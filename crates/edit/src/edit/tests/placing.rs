@@ -49,8 +49,8 @@ fn lights_emit_away_from_the_surface_behind_them() {
     let (edit, _) = document.add_light("rectangle", &placement, 0.0).expect("there is such a kind");
     does(&mut document, &edit);
     assert_eq!(name_of(&document), "light 2");
-    let ShapeKind::Rectangle(punctual_light) = &document.description().objects[3].shape else { panic!("it is a rectangle") };
-    assert!(punctual_light.edge_u.cross(punctual_light.edge_v).normalize().distance(DVec3::NEG_Y) < 1e-9);
+    let ShapeKind::Rectangle(light) = &document.description().objects[3].shape else { panic!("it is a rectangle") };
+    assert!(light.edge_u.cross(light.edge_v).normalize().distance(DVec3::NEG_Y) < 1e-9);
     let [_, max] = extent(&document, "light 2");
     assert!(max.y < 2.5 && max.y > 2.49);
 }
@@ -248,8 +248,8 @@ fn objects_that_are_added_at_a_wall_stand_on_the_floor_and_lights_hang_over_it_f
         let mut document = closed_room();
         let (edit, at) = document.add_light("rectangle", &hung, 0.0).expect("there is such a kind");
         does(&mut document, &edit);
-        let ShapeKind::Rectangle(punctual_light) = &document.description().objects[4].shape else { panic!("it is a rectangle") };
-        assert!(punctual_light.edge_u.cross(punctual_light.edge_v).normalize().distance(DVec3::NEG_Y) < 1e-9, "{at}");
+        let ShapeKind::Rectangle(light) = &document.description().objects[4].shape else { panic!("it is a rectangle") };
+        assert!(light.edge_u.cross(light.edge_v).normalize().distance(DVec3::NEG_Y) < 1e-9, "{at}");
     }
     let ceiling = Placement { at: DVec3::new(0.5, 2.6, 0.5), normal: DVec3::NEG_Y, extent: 5.0 };
     assert_eq!(ceiling.hung(&scene).at, ceiling.at, "lights hang on it");

@@ -69,7 +69,7 @@ fn film(import: &mut Import, entity: &Entity) -> Result<(), SceneError> {
         import.remark_parameter(entity, crop, "the whole image", "the image is larger");
     }
     for limit in ["maxcomponentvalue", "maxsampleluminance"] {
-        import.remark_parameter(entity, limit, "no limit", "very outliers are not darkened");
+        import.remark_parameter(entity, limit, "no limit", "outliers are not clamped");
     }
     import.remark_parameter(entity, "whitebalance", "no white balance", "colours differ as a whole");
     let sensor = entity.text("sensor").unwrap_or("cie1931").to_owned();

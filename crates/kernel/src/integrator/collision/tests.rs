@@ -66,8 +66,8 @@ fn light_from_any_one_direction_is_seen_and_none_where_there_is_none() {
             let mut center = [0.0; 3];
             center[axis] = 0.99 * side;
             let normal = center.map(|x| -x);
-            let punctual_light = format!("disk = {{ center = {center:?}, normal = {normal:?}, radius = 0.3 }}");
-            let scene = scene(&[object(cube, ""), object(&punctual_light, "emission = { radiance = 1.0 }")]);
+            let light = format!("disk = {{ center = {center:?}, normal = {normal:?}, radius = 0.3 }}");
+            let scene = scene(&[object(cube, ""), object(&light, "emission = { radiance = 1.0 }")]);
             assert!(!is_blind(&scene, DVec3::ZERO), "{center:?}");
             assert!(is_blind(&scene, DVec3::splat(2.0)), "outside");
         }

@@ -1,4 +1,4 @@
-//! The data that reuse of outliers stores. [`super::outlier_reuse`] does the path reuse.
+//! The data of outlier reuse: see [`super::outlier_reuse`].
 mod buffers;
 mod replays;
 mod thresholds;

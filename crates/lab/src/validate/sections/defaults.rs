@@ -145,7 +145,7 @@ impl KnownScene {
 
 fn subjects() -> Vec<KnownScene> {
     let (sin, cos) = 75f64.to_radians().sin_cos();
-    let punctual_light = lit(&format!("shape.sphere = {{ center = [{sin:?}, {cos:?}, 0.0], radius = 0.3 }}"));
+    let light = lit(&format!("shape.sphere = {{ center = [{sin:?}, {cos:?}, 0.0], radius = 0.3 }}"));
     let irradiance = horizon_sphere_irradiance(1.0, 0.3, 1.0, cos);
     let inside = shipped("inside_lit_inside");
     let inside = Scene { camera: Camera { resolution: [64; 2], ..inside.camera }, ..inside };
@@ -161,7 +161,7 @@ fn subjects() -> Vec<KnownScene> {
     let (sphere, wall) = wall_of_sphere();
     vec![
         KnownScene::constant("textured integrating sphere", sphere, wall),
-        KnownScene::constant("ground under a light", punctual_light, direct_light::ALBEDO / std::f64::consts::PI * irradiance),
+        KnownScene::constant("ground under a light", light, direct_light::ALBEDO / std::f64::consts::PI * irradiance),
         KnownScene::constant("closed sphere", inside, 0.5),
         KnownScene::constant("clear ball", glass, 1.0),
         KnownScene { name: "Lambert’s ball", scene: ball, exact },

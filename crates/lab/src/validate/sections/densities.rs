@@ -35,7 +35,7 @@ pub fn section(validation: &Validation) -> Section {
         curves.push(curve(name, Style::Line, density));
     }
     statements.extend(surfaces(validation));
-    statements.extend(punctual_lights(validation));
+    statements.extend(lights(validation));
     let caption = "Directions by cos θ: measured frequencies (points) against the densities 2 cos θ and 1.";
     Section {
         title: "Sampled directions",
@@ -165,7 +165,7 @@ fn surfaces(validation: &Validation) -> Vec<Statement> {
 }
 
 /// Directions from the origin towards shapes.
-fn punctual_lights(validation: &Validation) -> Vec<Statement> {
+fn lights(validation: &Validation) -> Vec<Statement> {
     let [x, y, z] = [DVec3::X, DVec3::Y, DVec3::Z];
     let flat = |outline, origin, edges| Shape::Flat { outline, origin, edges, mirrored: false };
     use noisefall_scene::geometry::Outline::{Parallelogram, Triangle};

@@ -29,12 +29,12 @@ pub const RECTANGLES: [(&str, [[f64; 3]; 3]); 3] = [
 ];
 
 /// A light over a diffuse floor. The camera sees so small a part of the floor that all pixels are equal.
-pub fn lit(punctual_light: &str) -> Scene {
-    lit_in("", punctual_light)
+pub fn lit(light: &str) -> Scene {
+    lit_in("", light)
 }
 
 /// A light over a diffuse floor, with surroundings.
-fn lit_in(surroundings: &str, punctual_light: &str) -> Scene {
+fn lit_in(surroundings: &str, light: &str) -> Scene {
     scene(&format!(
         "camera = {{ eye = [0.0, 1.0, 2.0], look_at = [0.0, 0.0, 0.0], fov = 0.001, resolution = [32, 32] }}
         materials.ground.lambertian.albedo = {ALBEDO}
@@ -43,7 +43,7 @@ fn lit_in(surroundings: &str, punctual_light: &str) -> Scene {
         shape.disk = {{ center = [0.0, 0.0, 0.0], normal = [0.0, 1.0, 0.0], radius = 0.01 }}
         material = 'ground'
         [[objects]]
-        {punctual_light}
+        {light}
         emission.radiance = 1.0"
     ))
 }
@@ -51,7 +51,7 @@ fn lit_in(surroundings: &str, punctual_light: &str) -> Scene {
 pub fn section(validation: &Validation) -> Section {
     let mut statements = Vec::new();
     let mut costs = Vec::new();
-    let mut punctual_light = |what: &str, scene: &Scene, irradiance: f64| {
+    let mut light = |what: &str, scene: &Scene, irradiance: f64| {
         for estimator in of_a_point() {
             let settings = RenderSettings { max_bounces: Some(1), ..validation.settings(estimator) };
             let start = Instant::now();
@@ -64,7 +64,7 @@ pub fn section(validation: &Validation) -> Section {
     for degrees in DEGREES {
         let (sin, cos) = degrees.to_radians().sin_cos();
         let scene = lit(&format!("shape.sphere = {{ center = [{sin:?}, {cos:?}, 0.0], radius = {LIGHT} }}"));
-        punctual_light(&format!("sphere at {degrees}°"), &scene, horizon_sphere_irradiance(1.0, LIGHT, 1.0, cos));
+        light(&format!("sphere at {degrees}°"), &scene, horizon_sphere_irradiance(1.0, LIGHT, 1.0, cos));
     }
     for (what, [origin, u, v]) in RECTANGLES {
         let corner = |a: f64, b: f64| DVec3::from_array(origin) + DVec3::from_array(u) * a + DVec3::from_array(v) * b;
@@ -72,12 +72,12 @@ pub fn section(validation: &Validation) -> Section {
         let shape = format!("shape.rectangle = {{ origin = {origin:?}, edge_u = {u:?}, edge_v = {v:?} }}");
         // The front looks at the origin.
         let flip = DVec3::from_array(u).cross(DVec3::from_array(v)).dot(corners[0]) > 0.0;
-        punctual_light(what, &lit(&format!("{shape}\nflip = {flip}")), polygon_irradiance(1.0, &corners));
+        light(what, &lit(&format!("{shape}\nflip = {flip}")), polygon_irradiance(1.0, &corners));
     }
     let (scene, irradiance) = before_a_sky();
-    punctual_light("sphere at 45°, before a sky", &scene, irradiance);
+    light("sphere at 45°, before a sky", &scene, irradiance);
     let (scene, irradiance) = in_fog();
-    punctual_light("sphere at 0°, in fog", &scene, irradiance);
+    light("sphere at 0°, in fog", &scene, irradiance);
     Section {
         title: "Direct light",
         claim: "The irradiance under a sphere and under a rectangle, under a sky and in fog, agrees with the closed forms, with every estimator but `light_tracing`, whose paths find no view as small as a point.",
@@ -105,9 +105,9 @@ pub fn section(validation: &Validation) -> Section {
 fn before_a_sky() -> (Scene, f64) {
     const SKY: f64 = 0.2;
     let side = 45f64.to_radians().sin();
-    let punctual_light = format!("shape.sphere = {{ center = [{side:?}, {side:?}, 0.0], radius = {LIGHT} }}");
+    let light = format!("shape.sphere = {{ center = [{side:?}, {side:?}, 0.0], radius = {LIGHT} }}");
     let irradiance = PI * SKY + (1.0 - SKY) * horizon_sphere_irradiance(1.0, LIGHT, 1.0, side);
-    (lit_in(&format!("environment.radiance = {SKY}"), &punctual_light), irradiance)
+    (lit_in(&format!("environment.radiance = {SKY}"), &light), irradiance)
 }
 
 /// A light overhead within a medium that does not bend light, and the irradiance that the camera, within it too, sees the effect of.
@@ -126,8 +126,8 @@ fn in_fog() -> (Scene, f64) {
         PASSED.powf((1.0 - sine_squared).sqrt() - (LIGHT * LIGHT - sine_squared).sqrt())
     };
     let mean = (0..STEPS).map(passed).sum::<f64>() / f64::from(STEPS);
-    let punctual_light = format!("shape.sphere = {{ center = [0.0, 1.0, 0.0], radius = {LIGHT} }}");
-    (lit_in(&fog, &punctual_light), PI * LIGHT * LIGHT * mean * PASSED.powf(5f64.sqrt()))
+    let light = format!("shape.sphere = {{ center = [0.0, 1.0, 0.0], radius = {LIGHT} }}");
+    (lit_in(&fog, &light), PI * LIGHT * LIGHT * mean * PASSED.powf(5f64.sqrt()))
 }
 
 /// Errors at equal time, which are no statements: times differ from run to run.

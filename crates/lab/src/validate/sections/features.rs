@@ -30,12 +30,12 @@ pub fn section(validation: &Validation) -> Section {
         (corners[1] - corners[0]).cross(corners[3] - corners[0]).dot(corners[0]) > 0.0
     );
     let disk = "shape.disk = { center = [0.0, 1.2, 0.0], normal = [0.0, -1.0, 0.0], radius = 0.5 }";
-    let (punctual_lights, irradiance) = many_light();
+    let (lights, irradiance) = many_light();
     for (what, scene, irradiance) in [
         ("rectangle as a mesh", lit(&triangles), polygon_irradiance(1.0, &corners)),
         // π L r²/(r² + h²) below its centre.
         ("disk overhead", lit(disk), PI * 0.25 / (0.25 + 1.44)),
-        ("300 spheres", punctual_lights, irradiance),
+        ("300 spheres", lights, irradiance),
     ] {
         for estimator in of_a_point() {
             let settings = RenderSettings { max_bounces: Some(1), ..validation.settings(estimator) };
@@ -129,7 +129,7 @@ fn many_light() -> (Scene, f64) {
     const COUNT: usize = 300;
     const RADIUS: f64 = 0.02;
     let mut irradiance = 0.0;
-    let punctual_light = |i: usize| {
+    let light = |i: usize| {
         // Distributed evenly over the upper part of the hemisphere; none covers another.
         let cos = 0.08 + 0.9 * (i as f64 + 0.5) / COUNT as f64;
         let (sin, turn) = ((1.0 - cos * cos).sqrt(), 2.399_963_23 * i as f64);
@@ -137,8 +137,8 @@ fn many_light() -> (Scene, f64) {
         irradiance += horizon_sphere_irradiance(1.0, RADIUS, 1.0, cos);
         format!("shape.sphere = {{ center = {center:?}, radius = {RADIUS} }}")
     };
-    let punctual_lights: Vec<String> = (0..COUNT).map(punctual_light).collect();
-    (lit(&punctual_lights.join("\nemission.radiance = 1.0\n[[objects]]\n")), irradiance)
+    let lights: Vec<String> = (0..COUNT).map(light).collect();
+    (lit(&lights.join("\nemission.radiance = 1.0\n[[objects]]\n")), irradiance)
 }
 
 fn lens(validation: &Validation) -> Statement {

@@ -36,7 +36,7 @@ pub struct SplitPicture {
 }
 
 impl SplitPicture {
-    /// An empty image, with memory for its file. `path reuse` says what pixels share.
+    /// An empty image, with memory for its file. `path_reuse` is the one in force.
     pub fn new(resolution: [u32; 2], samples: SampleRanges, path_reuse: PathReuse) -> Result<SplitPicture, TooMuch> {
         /// Bytes per pixel: two means and a count, the planes of an EXR, and the file.
         const PIXEL: u64 = 2 * 12 + 4 + 2 * 28;

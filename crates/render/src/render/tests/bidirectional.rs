@@ -249,8 +249,8 @@ const FLOOR_AND_GLASS: &str = "
 
 #[test]
 fn light_that_starts_in_glass_is_attenuated() {
-    let punctual_light = "[[objects]]\nshape.sphere = { center = [0, 2, 0], radius = 0.25 }\nemission.radiance = 4";
-    let scene = parsed(&(glass_and(FLOOR_AND_GLASS, 2.0) + punctual_light));
+    let light = "[[objects]]\nshape.sphere = { center = [0, 2, 0], radius = 0.25 }\nemission.radiance = 4";
+    let scene = parsed(&(glass_and(FLOOR_AND_GLASS, 2.0) + light));
     assert_alike(&scene, [[0, 4], [3, 1]], 8000);
     assert_alike(&scene, [[1, 3], [2, 2]], 8000);
 }

@@ -59,7 +59,7 @@ fn nothing_is_held_against_a_denoised_image() {
     let reference = Reference::Picture(picture, Arc::new(Provenance { is_denoised: true, ..Provenance::default() }));
     assert!(reference.compare(&frame).is_none() && reference.bias(&frame).is_none() && reference.block_errors(&frame).is_none());
     assert_eq!(reference.contradiction(&frame), None);
-    assert!(reference.mismatch([64, 32]).is_some_and(|why| why.starts_with("the true image is denoised, and so biased")));
+    assert!(reference.mismatch([64, 32]).is_some_and(|why| why.starts_with("the reference image is denoised, and so biased")));
 }
 
 #[test]

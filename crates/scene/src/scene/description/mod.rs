@@ -73,12 +73,12 @@ impl Declare for SceneDescription {
         const CAMERA: Parameter =
             Parameter::new("camera", "Position, direction and lens of the camera.").required().aliases("sensor view");
         const ENVIRONMENT: Parameter =
-            Parameter::new("environment", "Radiance of rays that meet no surface.").aliases("environment sky envmap world");
+            Parameter::new("environment", "Radiance of rays that meet no surface.").aliases("sky envmap world");
         const TEXTURES: Parameter = Parameter::new("textures", "Textures by name.").aliases("texture");
         const MATERIALS: Parameter = Parameter::new("materials", "Materials by name.").aliases("material bsdfs");
         const OBJECTS: Parameter =
             Parameter::new("objects", "The objects of the scene, one table each.").aliases("object shapes");
-        const LIGHTS: Parameter = Parameter::new("lights", "Punctual lights, one table each.").aliases("lights light");
+        const LIGHTS: Parameter = Parameter::new("lights", "Punctual lights, one table each.").aliases("light emitters");
         p.count(&VERSION, &mut FORMAT.clone(), CountRange::new(FORMAT, FORMAT));
         presentation::texts(p, &mut self.title, &mut self.notes);
         p.table(&CAMERA, &mut self.camera);

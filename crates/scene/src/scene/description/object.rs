@@ -28,7 +28,7 @@ impl Declare for ObjectDescription {
         const SHAPE: Parameter = Parameter::new("shape", "Shape of the object.").required().aliases("geometry");
         const MATERIAL: Parameter = Parameter::new("material", "Name of the material. Default: black.").aliases("bsdf");
         const EMISSION: Parameter =
-            Parameter::new("emission", "Light that the surface emits.").aliases("light emitter emissive area_light light");
+            Parameter::new("emission", "Light that the surface emits.").aliases("light emitter emissive area_light");
         const FLIP: Parameter = Parameter::new("flip", "Whether to reverse the normal.").aliases("flip_normals invert");
         const TRANSFORM: Parameter =
             Parameter::new("transform", "Transforms, applied from the first to the last.").aliases("to_world transforms");

@@ -15,9 +15,9 @@ noisefall_base::declare::words! {
         NoStart: "no_start", "no light at which paths can start, or too many of them", "There is nothing to trace.";
         ShadingNormals: "shading_normals", "smooth meshes, bump or normal maps", "From some sides, their normals are not those that a light path sees.";
         Isosurface: "isosurface", "isosurfaces that emit light", "No points of them are sampled.";
-        ClearLight: "clear_lamp", "lights that let light pass", "A path would start within the surface.";
+        ClearLight: "clear_light", "lights that let light pass", "A path would start within the surface.";
         FarWithinMedium: "far_within_medium", "light from far away within a medium", "It has no distance over which the medium attenuates it.";
-        LightAtGlass: "lamp_at_glass", "lights that may touch or cross the surface of a dielectric", "The media around them are not known.";
+        LightAtGlass: "light_at_glass", "lights that may touch or cross the surface of a dielectric", "The media around them are not known.";
     }
 }
 

@@ -100,7 +100,7 @@ impl RenderSettings {
             "Path reuse between neighbouring pixels: suffixes (Bekaert, Sbert and Halton 2002), outliers, or both. Less noise, no bias, but the noise of neighbouring pixels is correlated.",
         )
         .title("Path reuse")
-        .aliases("path reuse share"),
+        .aliases("path_reuse share"),
         access!(reuse, word),
         |settings| match settings.reuse {
             Reuse::Auto => "path reuse auto".to_owned(),

@@ -83,19 +83,19 @@ fn estimators(dice: &mut Dice) -> TrialScene {
 
 /// One reflection off a grey ball under lights of extreme radiance, high or low.
 fn bright(dice: &mut Dice) -> TrialScene {
-    let punctual_light = |dice: &mut Dice| {
+    let light = |dice: &mut Dice| {
         let (place, radius) = (dice.direction() * dice.within(2.0, 9.0), dice.decade(-4.0, -0.5));
         let radiance = dice.pick(&[1e-9, 1.0, 1e9]);
         format!("[[objects]]\n{}\nemission.radiance = {radiance:?}\n", sphere(place, radius))
     };
-    let punctual_lights: String = (0..1 + dice.below(5)).map(|_| punctual_light(dice)).collect();
+    let lights: String = (0..1 + dice.below(5)).map(|_| light(dice)).collect();
     let eye = dice.direction() * 3.0;
     let camera = camera_at(dice, eye, 3.0);
     let estimator = dice.pick(&Estimator::ALL).name();
     let text = format!(
         "camera = {{ {camera} }}\nrender.estimator = '{estimator}'\nenvironment.radiance = {:?}\n\
          materials.grey.lambertian.albedo = 0.9\nmaterials.gold.conductor = {{ f0 = [1.0, 0.8, 0.3], alpha = {:?} }}\n\
-         [[objects]]\n{}\nmaterial = '{}'\n{punctual_lights}",
+         [[objects]]\n{}\nmaterial = '{}'\n{lights}",
         dice.pick(&[0.0, 1e-9, 1e9]),
         dice.decade(-4.0, 0.0),
         sphere(DVec3::ZERO, 1.0),
