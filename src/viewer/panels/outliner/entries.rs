@@ -21,7 +21,7 @@ pub struct Entry {
     pub kind: String,
 }
 
-/// The parts of a description whose name or kind contains the search, in groups. Groups without entries are left out.
+/// The parts of a description whose name or type contains the search, in groups. Groups without entries are left out.
 pub fn groups(description: &SceneDescription, search: &str) -> Vec<EntryGroup> {
     let search = search.trim().to_lowercase();
     let matches = |entry: &Entry| entry.name.to_lowercase().contains(&search) || entry.kind.to_lowercase().contains(&search);

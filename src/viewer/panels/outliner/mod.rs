@@ -71,8 +71,8 @@ impl Outliner {
     ) -> OutlinerRequests {
         let mut asked = OutlinerRequests::default();
         ui.horizontal(|ui| {
-            let label = ui.label("Search").on_hover_text("Shows only the parts whose name or kind contains these letters.");
-            let field = TextEdit::singleline(&mut self.search).hint_text("name or kind").desired_width(f32::INFINITY);
+            let label = ui.label("Search").on_hover_text("Shows only the parts whose name or type contains these letters.");
+            let field = TextEdit::singleline(&mut self.search).hint_text("name or type").desired_width(f32::INFINITY);
             ui.add(field).labelled_by(label.id);
         });
         let is_listed = |listed: &Listed| (listed.revision, &listed.search) == (revision, &self.search);
